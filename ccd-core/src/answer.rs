@@ -88,9 +88,9 @@ pub enum Outcome {
     /// The bodies are in contact at the first time and at the last. They do not touch before the first or after the
     /// last, and may part in between.
     Interval {
-        /// The first contact.
+        /// The first time of contact, and its kind.
         first: Hit,
-        /// The last contact.
+        /// The last time of contact, and its kind.
         last: Hit,
     },
     /// The requested distance is between two bounds.
@@ -285,7 +285,7 @@ impl Outcome {
     }
 
     /// Creates the outcome of a query about the least distance, from a lower bound and the contact measured at `time`.
-    pub(crate) fn least(lower: f64, time: f64, contact: Contact) -> Self {
+    pub(crate) fn from_least_distance(lower: f64, time: f64, contact: Contact) -> Self {
         Outcome::Measured {
             lower,
             upper: contact.separation.upper,
@@ -315,7 +315,7 @@ impl Outcome {
                 lower,
                 at: Some((time, contact)),
                 ..
-            } => Outcome::least(lower, time, map(contact, time)),
+            } => Outcome::from_least_distance(lower, time, map(contact, time)),
             Outcome::Unresolved(known) => Outcome::Unresolved(
                 Unresolved {
                     at: known.at.map(|(time, contact)| (time, map(contact, time))),

@@ -23,7 +23,7 @@ pub(crate) mod tree;
 
 use crate::error::InputError;
 use crate::math::order::greater;
-use crate::tuning::BOX_SHARE;
+use crate::tuning::MIN_BOX_FILL;
 use combination::Combination;
 use feature::Feature;
 use feature_lookup::{face_at, prepare};
@@ -110,7 +110,7 @@ impl Body {
         hierarchy: &Hierarchy,
         volume: Volume,
     ) -> Result<Self, InputError> {
-        let (layout, pieces) = Layout::of(pieces, hierarchy)?;
+        let (layout, pieces) = Layout::from_hierarchy(pieces, hierarchy)?;
         let (shells, tree) = join(
             pieces.len(),
             || shells(&pieces),
@@ -151,11 +151,11 @@ impl Body {
         if !(whole && solid(&self) && solid(&surface) && surface.pieces.all_triangles()) {
             return Err(InputError::BadSurface);
         }
-        let [x, y, z] = self.tree.half().map(f64::from);
+        let [x, y, z] = self.tree.half_extents().map(f64::from);
         let volume = signed_volume(&surface.pieces).abs() / 6.0;
         self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {
-            is_box: volume >= BOX_SHARE * 8.0 * x * y * z,
+            is_box: volume >= MIN_BOX_FILL * 8.0 * x * y * z,
             triangles: surface,
         }));
         Ok(self)
@@ -183,7 +183,7 @@ impl Body {
         self.pieces.get(index as usize).with_support(support_of)
     }
 
-    /// Computes in advance, on all cores, the values that [`Piece::kept`] would compute when first requested.
+    /// Computes in advance, on all cores, the values that [`Piece::cached`] would compute when first requested.
     ///
     /// Searches for extremal points of hulls are prepared in advance as well. Values that exist already stay.
     ///
@@ -194,12 +194,12 @@ impl Body {
     /// use ccd_core::{Body, Piece};
     /// struct Count(usize);
     /// let cube = Body::cuboid([1.0; 3])?;
-    /// cube.keep(|piece| Count(piece.points.len()));
+    /// cube.precompute(|piece| Count(piece.points.len()));
     /// let never = |_: &Piece| -> Count { unreachable!("it is there") };
-    /// assert_eq!(cube.pieces().get(0).kept(never).map(|count| count.0), Some(8));
+    /// assert_eq!(cube.pieces().get(0).cached(never).map(|count| count.0), Some(8));
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
-    pub fn keep<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
+    pub fn precompute<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
         let mut pieces: Vec<Piece<'_>> = self.pieces.iter().collect();
         if let Some(surface) = &self.surface {
             pieces.extend(surface.triangles.pieces.iter());
@@ -210,7 +210,7 @@ impl Body {
         }
         for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.with_support(support_of).kept(&make);
+            let _ = piece.with_support(support_of).cached(&make);
         });
     }
 
@@ -287,8 +287,8 @@ impl Body {
         &self.tree
     }
 
-    /// Returns a few points of every connected part. A part without its points inside another solid is outside it, or
-    /// its surface crosses that of the solid.
+    /// Returns a few points of every connected part. If one of a part's points is inside another solid, the whole part
+    /// is, or its surface crosses that of the solid.
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }

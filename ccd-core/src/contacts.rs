@@ -29,13 +29,13 @@ pub enum ContactsError {
     NotInDuration {
         /// The requested time, in the motions' unit.
         time: f64,
-        /// The query's duration.
+        /// The duration of the query, in the motions' unit.
         duration: f64,
     },
     /// More pairs are near than the [budget](crate::Settings::budget) allows. Either the bodies are small for the
     /// margin and the tolerance, or one is deep in the other.
     TooMany {
-        /// The query's budget.
+        /// The largest amount of work that the query allows.
         budget: u64,
     },
 }

@@ -9,16 +9,16 @@ use std::fmt;
 pub enum InputError {
     /// A quantity is NaN or infinite.
     NotFinite {
-        /// The name of the quantity.
+        /// The name of the quantity that is not finite.
         what: &'static str,
     },
     /// A quaternion has length zero, and represents no orientation.
     ZeroQuaternion,
     /// A quantity is outside of its accepted range.
     OutOfRange {
-        /// The name of the quantity.
+        /// The name of the quantity that is out of range.
         what: &'static str,
-        /// The value of the quantity.
+        /// The rejected value of the quantity.
         value: f64,
         /// The accepted values, described in words.
         allowed: &'static str,
@@ -57,27 +57,27 @@ pub enum InputError {
     NoPieces,
     /// A piece has no points.
     EmptyPiece {
-        /// The index of the piece.
+        /// The index of the piece without points.
         piece: usize,
     },
     /// A point of a piece is NaN, infinite or beyond [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     BadPoint {
-        /// The piece's index.
+        /// The index of the piece with the invalid point.
         piece: usize,
-        /// The point's index within the piece.
+        /// The index of the invalid point within the piece.
         point: usize,
     },
     /// A rounding radius is negative, NaN, infinite or beyond
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     BadRadius {
-        /// The piece's index.
+        /// The index of the piece with the invalid radius.
         piece: usize,
         /// The invalid radius.
         radius: f64,
     },
     /// A face refers to a vertex that does not exist.
     VertexOutOfRange {
-        /// The face's index.
+        /// The index of the face that refers to the vertex.
         face: usize,
         /// The index of the missing vertex.
         vertex: u32,
@@ -86,7 +86,7 @@ pub enum InputError {
     },
     /// The number of face numbers differs from the number of faces.
     FaceIds {
-        /// The number of faces.
+        /// The number of faces in the mesh.
         faces: usize,
         /// The number of given face numbers.
         ids: usize,
@@ -96,16 +96,16 @@ pub enum InputError {
     BadSurface,
     /// A facet of a polytope refers to a point that does not exist.
     FacetOutOfRange {
-        /// The piece's index.
+        /// The index of the piece with the invalid facet.
         piece: usize,
-        /// The facet's index within the piece.
+        /// The index of the invalid facet within the piece.
         facet: usize,
     },
     /// A face of the mesh on a polytope has a corner that is NaN or infinite.
     BadFace {
-        /// The piece's index.
+        /// The index of the piece with the invalid face.
         piece: usize,
-        /// The face's index within the piece.
+        /// The index of the invalid face within the piece.
         face: usize,
     },
     /// A hierarchy is not a tree with one root in which every piece occurs exactly once.

@@ -24,7 +24,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
     /// The time of the motions at clock 0; not 0 if the problem is a part of another one.
-    begin: f64,
+    start_time: f64,
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
@@ -131,7 +131,7 @@ impl<'a> Problem<'a> {
         Ok(Problem {
             a,
             b,
-            begin: 0.0,
+            start_time: 0.0,
             duration,
             origin,
             tolerance: greater(terms.tolerance, rounding::least_tolerance(rounding)),
@@ -157,12 +157,12 @@ impl<'a> Problem<'a> {
     /// Returns the distance by which the caller's bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
         let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
-        Excess::of(given(&self.a), given(&self.b))
+        Excess::of_bodies(given(&self.a), given(&self.b))
     }
 
     /// Returns whether the query uses a shortcut.
     #[inline]
-    pub(crate) fn takes(&self, shortcut: Shortcut) -> bool {
+    pub(crate) fn uses(&self, shortcut: Shortcut) -> bool {
         self.shortcuts.has(shortcut)
     }
 
@@ -192,14 +192,14 @@ impl<'a> Problem<'a> {
     /// Converts a time of the motions to a clock, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
         if self.duration > 0.0 {
-            (time - self.begin) / self.duration
+            (time - self.start_time) / self.duration
         } else {
             0.0
         }
     }
 
     /// Returns the problem with the caller's bodies, if surfaces replace them here; `None` otherwise.
-    pub(crate) fn given(&self) -> Option<Self> {
+    pub(crate) fn with_given_bodies(&self) -> Option<Self> {
         let of = |side: &Side<'a>| Side {
             body: side.given.unwrap_or(side.body),
             given: None,
@@ -214,7 +214,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the problem with the policy that a contact at the start is the answer.
-    pub(crate) fn reporting(&self) -> Self {
+    pub(crate) fn reporting_start_contact(&self) -> Self {
         Problem {
             start: StartPolicy::Report,
             ..self.clone()
@@ -224,7 +224,7 @@ impl<'a> Problem<'a> {
     /// Returns the problem in which the contact at the start is ignored. `gap` is the distance beyond the margin there.
     /// Pairs that separate or slide keep more than half of that gap. If there is no useful gap, pairs of pieces in
     /// contact are ignored instead, and all pairs that touch in the plane of the contact.
-    pub(crate) fn leaving(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
+    pub(crate) fn ignoring_start_contact(&self, gap: f64, touching: Option<TouchingPlane>) -> Self {
         let least = rounding::least_tolerance(self.rounding);
         let (tolerance, start) = if 0.5 * gap > least {
             (0.5 * gap, StartPolicy::Report)
@@ -244,23 +244,23 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the problem for measuring distances: with a margin of 0, and a contact at the start as an answer.
-    pub(crate) fn measuring(&self) -> Self {
+    pub(crate) fn for_distances(&self) -> Self {
         Problem {
             margin: 0.0,
-            ..self.reporting()
+            ..self.reporting_start_contact()
         }
     }
 
     /// Returns the problem of finding pairs nearer than `upper`, the least distance found. Pairs in contact are nearer
     /// than that by half of the tolerance, and pairs that keep the margin are within the tolerance of it. The rest in
     /// between is room for proofs.
-    pub(crate) fn below(&self, upper: f64) -> Self {
-        let half = self.keeping(upper, 0.5 * self.tolerance).tolerance;
-        self.keeping(greater(0.0, upper - 2.0 * half), half)
+    pub(crate) fn for_distances_below(&self, upper: f64) -> Self {
+        let half = self.with_margin(upper, 0.5 * self.tolerance).tolerance;
+        self.with_margin(greater(0.0, upper - 2.0 * half), half)
     }
 
     /// Returns the problem with another margin and tolerance; the tolerance is raised to one that can be certified.
-    pub(crate) fn keeping(&self, margin: f64, tolerance: f64) -> Self {
+    pub(crate) fn with_margin(&self, margin: f64, tolerance: f64) -> Self {
         // Distances may be off by more if they are measured beyond a margin.
         let rounding = self.rounding + rounding::margin_rounding(margin);
         Problem {
@@ -273,9 +273,9 @@ impl<'a> Problem<'a> {
 
     /// Returns the problem between two clocks, with the margin raised by a distance and with another tolerance.
     /// Positions are off by more than in the whole, see [`place_rounding`](rounding::place_rounding).
-    pub(crate) fn part(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
+    pub(crate) fn between_clocks(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
         let of = |side: &Side<'a>| Side {
-            path: side.path.part(clocks),
+            path: side.path.subpath(clocks),
             ..*side
         };
         let [from, to] = clocks;
@@ -283,7 +283,7 @@ impl<'a> Problem<'a> {
         Problem {
             a: of(&self.a),
             b: of(&self.b),
-            begin: self.time(from),
+            start_time: self.time(from),
             // The duration is rounded down, so that no time is late.
             duration: self.duration * (to - from) * (1.0 - rounding::RATE_F64),
             margin: (self.margin + raised).next_up(),
@@ -305,9 +305,12 @@ impl<'a> Problem<'a> {
     /// Converts a clock to a time of the motions, rounded so that it is never late.
     pub(crate) fn time(&self, s: f64) -> f64 {
         if s >= 1.0 {
-            self.begin + self.duration
+            self.start_time + self.duration
         } else {
-            greater(self.begin, (self.begin + s * self.duration).next_down())
+            greater(
+                self.start_time,
+                (self.start_time + s * self.duration).next_down(),
+            )
         }
     }
 
@@ -324,7 +327,7 @@ impl<'a> Problem<'a> {
 
 impl Side<'_> {
     /// Returns the index of a piece in the body that the caller gave.
-    pub(crate) fn number(&self, piece: u32) -> u32 {
+    pub(crate) fn index_in_given_body(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }
     }
 

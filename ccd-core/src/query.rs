@@ -165,9 +165,9 @@ impl<'a> Query<'a> {
     /// # Errors
     /// [`InputError::OutOfRange`] for
     /// - a negative duration, margin or clearance, and a tolerance that is not positive;
-    /// - quantities that exceed [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE) or [`MAX_TURN`](crate::limits::MAX_TURN): tolerance and
-    ///   margin; for motions each body's coordinates of the position at the start and of the centre, its
-    ///   distance from B's position to the centre and on along its travel, and its turn;
+    /// - a turn beyond [`MAX_TURN`](crate::limits::MAX_TURN), and lengths beyond
+    ///   [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE): the tolerance, the margin, and for motions each body's
+    ///   position at the start, its centre, and the distance from B's position to that centre at all times;
     /// - along trajectories, a duration above [`MAX_DURATION`].
     pub fn new(
         a: impl Into<Moving<'a>>,
@@ -290,6 +290,6 @@ impl<'a> Query<'a> {
 
     /// Returns the distance by which the two bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
-        Excess::of(self.a.body, self.b.body)
+        Excess::of_bodies(self.a.body, self.b.body)
     }
 }

@@ -63,12 +63,12 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// - the turn adds 12 of a quaternion, which is 45 as an angle, and 9 of its size, which is at most
 ///   π: 73.
 ///
-/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`,
-/// the distance of the centres at the start and along their travel. If neither body turns, the 40 of axis,
-/// sine, cosine and sums fall away twice, in `R` and in the rotation into A's frame, and so do 28 of the turn
-/// (a turn between poses may be lost in rounding): 192 of the 300 are left, and 56 of the 96. The constant term covers coordinates so small that their squares underflow:
-/// a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far
-/// above. Without this allowance a touching pair could be certified apart.
+/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`, the distance of the
+/// centres at the start and along their travel. If neither body turns, the 40 of axis, sine, cosine and sums fall away
+/// twice, in `R` and in the rotation into A's frame, and so do 28 of the turn (a turn between poses may be lost in
+/// rounding): 192 of the 300 are left, and 56 of the 96. The constant term covers coordinates so small that their
+/// squares underflow: a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far above.
+/// Without this allowance a touching pair could be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     let [of_span, of_way] = match turns {
         [0.0, 0.0] => [192.0, 56.0],
@@ -214,8 +214,8 @@ pub const RESTING: f64 = 4.0;
 /// point, and one for the corners around it.
 pub const LEVEL: f64 = 2.0;
 
-/// The distance up to which faces count as around a point, in units of the distance's rounding. They are the faces
-/// across an edge that contains the point, and faces that bridge cracks.
+/// The distance from a point up to which faces count as adjacent to it, in units of the distance's rounding. They are
+/// the faces across an edge that contains the point, and faces that bridge cracks.
 pub const AROUND: f64 = 256.0;
 
 /// Returns whether rounding may turn the direction between two points by more than a millionth of a radian. Such a
@@ -342,7 +342,7 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
 /// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
 /// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,
 /// by 4. That is 13.4, for which 16 are taken.
-pub(crate) const ABOUT: f64 = 1.0 + 16.0 * U64;
+pub(crate) const OUTWARD_FACTOR: f64 = 1.0 + 16.0 * U64;
 
 /// The least positive f64, which bounds the rounding of a product that underflows.
 pub(crate) const LEAST_F64: f64 = f64::from_bits(1);

@@ -35,10 +35,10 @@ pub struct Settings {
     /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less, and up to about 150
     /// bytes.
     ///
-    /// Along [trajectories](crate::Trajectory) it is for each part between two
-    /// [corners](crate::Trajectory::corner), such as two poses of a path, and so grows with the path: a
-    /// path of `n` poses takes at most `2 n` budgets, of which those for many poses at once are hardly
-    /// used. The closest approach takes up to half as much again for early bounds. No path takes more than 65,536. The search for the [last
+    /// Along [trajectories](crate::Trajectory) it is for each part between two [corners](crate::Trajectory::corner),
+    /// such as two poses of a path, and so grows with the path: a path of `n` poses takes at most `2 n` budgets, of
+    /// which those for many poses at once are hardly used. The closest approach takes up to half as much again for
+    /// early bounds. No path takes more than 65,536. The search for the [last
     /// contact](crate::schedule::BestFirst::contact_interval) has as much again.
     pub budget: u64,
     /// The longest time before the query is left unresolved; with `None` no clock is read.

@@ -90,8 +90,8 @@ fn of_stretches(
         for end in corner.into_iter().chain([to]) {
             let part = of_stretch(body, &trajectory.stretch(from, end)?, end - from, terms)?;
             whole = Some(whole.map_or(part, |whole| SweptBox {
-                min: least(whole.min, part.min),
-                max: most(whole.max, part.max),
+                min: componentwise_min(whole.min, part.min),
+                max: componentwise_max(whole.max, part.max),
             }));
             from = end;
         }
@@ -108,13 +108,14 @@ fn of_stretch(
     terms: &Terms<'_>,
 ) -> Result<SweptBox, InputError> {
     let swept = of_motion(body, &stretch.motion, time, terms)?;
-    let (centre, radius) = body.tree().ball();
+    let (centre, radius) = body.tree().bounding_ball();
     let reach = centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius;
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
     let room = (moved + stretch.stray.at(reach)) * (1.0 + STRETCH_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
     let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
-    let rounding = DVec3::splat(2.0 * f64::EPSILON) * most(swept.min.abs(), swept.max.abs());
+    let rounding =
+        DVec3::splat(2.0 * f64::EPSILON) * componentwise_max(swept.min.abs(), swept.max.abs());
     Ok(SweptBox {
         min: swept.min - room - rounding,
         max: swept.max + room + rounding,
@@ -139,17 +140,17 @@ fn of_motion(
     let (low, high) = at_start(&side);
     // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
-    let room = DVec3::splat(room(&side, terms));
+    let room = DVec3::splat(half_contact_distance(&side, terms));
     Ok(SweptBox {
-        min: low + least(way, DVec3::ZERO) - room,
-        max: high + most(way, DVec3::ZERO) + room,
+        min: low + componentwise_min(way, DVec3::ZERO) - room,
+        max: high + componentwise_max(way, DVec3::ZERO) + room,
     })
 }
 
 /// Returns a box that contains the body in all orientations, with its centre of rotation at the start.
 fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
-    let whole = side.body.tree().whole();
+    let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);
     let centre = frame.point(whole.centre);
     let reach = DVec3::AXES.map(|axis| {
@@ -163,14 +164,14 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
     let reach = DVec3::from_array(reach) + swing;
     let (pivot, arm) = (path.centre_at(0.0), DVec3::splat(arm));
     (
-        most(centre - reach, pivot - arm),
-        least(centre + reach, pivot + arm),
+        componentwise_max(centre - reach, pivot - arm),
+        componentwise_min(centre + reach, pivot + arm),
     )
 }
 
 /// Returns a bound of half the contact distance plus the rounding of the box. The tolerance in that distance is the
 /// greater of the one in the settings and the least that can be certified.
-fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
+fn half_contact_distance(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
     let rounding = share_of_rounding(side.span(), path.rate, way);
@@ -178,11 +179,11 @@ fn room(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }
 
-fn least(a: DVec3, b: DVec3) -> DVec3 {
+fn componentwise_min(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z))
 }
 
-fn most(a: DVec3, b: DVec3) -> DVec3 {
+fn componentwise_max(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z))
 }
 

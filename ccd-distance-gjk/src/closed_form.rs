@@ -6,7 +6,7 @@ mod pierce;
 #[cfg(test)]
 mod tests;
 
-use crate::tolerance::{KEEP, SUSPECT};
+use crate::tolerance::{INTERSECTION_SHARE, MIN_CERTIFIED_SHARE};
 use axis::{Candidates, support_gap};
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
@@ -71,14 +71,14 @@ impl DistanceOracle for ClosedForm {
 
     #[inline]
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
-        let (p, q) = local(pair).ok_or(GiveUp::TooManyPoints)?;
+        let (p, q) = transform_to_local(pair).ok_or(GiveUp::TooManyPoints)?;
         let near = nearest(self.level, &p, &q);
         let w = near.difference(&p, &q);
-        let separated = support_gap(&p, &q, w) >= KEEP * w.length_squared();
+        let separated = support_gap(&p, &q, w) >= MIN_CERTIFIED_SHARE * w.length_squared();
         let (axis, near) = if separated && w.length_squared().is_normal() {
             (w, near)
         } else {
-            examine(self.level, &p, &q, near)
+            best_axis_and_points(self.level, &p, &q, near)
         };
         Ok(Claim {
             axis,
@@ -91,10 +91,10 @@ impl DistanceOracle for ClosedForm {
 /// Returns the best separating axis for pieces that nearly touch or intersect, and a common point if there is one.
 #[cold]
 #[inline(never)]
-fn examine(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
+fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
     let w = near.difference(p, q);
     let best = vectorize!(level, level => Candidates::new(level, p, q, w).best());
-    if best.gap >= SUSPECT * w.length() && best.gap > 0.0 {
+    if best.gap >= INTERSECTION_SHARE * w.length() && best.gap > 0.0 {
         return (best.direction, near);
     }
     (best.direction, pierce::common_point(p, q, near))
@@ -103,7 +103,7 @@ fn examine(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nea
 /// Transforms both pieces to A's axes, with the origin in A's first point: rounding is then that of the pieces' size,
 /// not of their position.
 #[inline]
-fn local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
+fn transform_to_local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);
     let first = pair.b_to_a.point(b[0]) - a[0];
     let turn = pair.b_to_a.rotation;

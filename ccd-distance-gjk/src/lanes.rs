@@ -44,7 +44,7 @@ impl<L: Simd> Lanes3<L> {
 
     /// Returns the differences `self − other`.
     #[inline(always)]
-    pub(crate) fn minus(self, other: Self) -> Self {
+    pub(crate) fn subtract(self, other: Self) -> Self {
         Lanes3 {
             x: self.x - other.x,
             y: self.y - other.y,
@@ -54,7 +54,7 @@ impl<L: Simd> Lanes3<L> {
 
     /// Returns the sums `self + t · direction`.
     #[inline(always)]
-    pub(crate) fn along(self, t: f64x4<L>, direction: Self) -> Self {
+    pub(crate) fn add_scaled(self, t: f64x4<L>, direction: Self) -> Self {
         Lanes3 {
             x: self.x + t * direction.x,
             y: self.y + t * direction.y,
@@ -64,7 +64,7 @@ impl<L: Simd> Lanes3<L> {
 
     /// Returns the differences `self − t · direction`.
     #[inline(always)]
-    pub(crate) fn back(self, t: f64x4<L>, direction: Self) -> Self {
+    pub(crate) fn subtract_scaled(self, t: f64x4<L>, direction: Self) -> Self {
         Lanes3 {
             x: self.x - t * direction.x,
             y: self.y - t * direction.y,
@@ -92,7 +92,7 @@ impl<L: Simd> Lanes3<L> {
     #[inline(always)]
     pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
         let t = self.dot(direction) * reciprocal(direction.dot(direction));
-        self.back(t, direction)
+        self.subtract_scaled(t, direction)
     }
 }
 

@@ -129,8 +129,8 @@ fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] ga
     history::<Gjk>(count);
 }
 
-/// Tests random hulls. Separate hulls are certified, agree with brute force and do not depend on the order. Both
-/// outcomes occur often enough.
+/// Tests random hulls, separate ones and intersecting ones. Separate hulls are certified, agree with brute force and do
+/// not depend on the order. Both outcomes occur often enough.
 fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);
     let law = |scene: &Scene| {

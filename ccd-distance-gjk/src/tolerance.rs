@@ -7,20 +7,20 @@
 /// 1e-7 s that is less than 1/64 and the difference is a good axis. Below, the axis is computed
 /// from the features instead. A larger share would replace good axes; without it, pieces closer
 /// than 1e-8 s appear to intersect.
-pub(crate) const KEEP: f64 = 63.0 / 64.0;
+pub(crate) const MIN_CERTIFIED_SHARE: f64 = 63.0 / 64.0;
 
 /// The share of the nearest points' distance below which an axis suggests that the pieces intersect. The nearest
-/// features' own axes keep [`KEEP`]; a half is far from it and from 0.
-pub(crate) const SUSPECT: f64 = 0.5;
+/// features' own axes keep [`MIN_CERTIFIED_SHARE`]; a half is far from it and from 0.
+pub(crate) const INTERSECTION_SHARE: f64 = 0.5;
 
 /// The largest number of steps of a GJK search.
 ///
 /// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, steps only change rounding. The claim
 /// at the cap is valid, but less tight.
-pub(crate) const STEP_CAP: u32 = 64;
+pub(crate) const MAX_STEPS: u32 = 64;
 
 /// The largest number of times that a GJK search continues from the axes of features, if its own axis is too poor.
-pub(crate) const ROUND_CAP: u32 = 4;
+pub(crate) const MAX_ROUNDS: u32 = 4;
 
 /// The difference of support gap and distance at which GJK has converged, in units in the last place of the distance.
 pub(crate) const CONVERGED_ULPS: f64 = 16.0;
@@ -41,13 +41,13 @@ pub(crate) const VOLUME_ULPS: f64 = 8.0;
 
 /// The largest number of vertices of the difference that are combined when an axis is computed from features. Three
 /// contain the nearest point; the others were support vertices of earlier axes. Corners of meshes join 3 to 10 edges.
-pub(crate) const SHARPEN_CAP: usize = 12;
+pub(crate) const MAX_AXIS_VERTICES: usize = 12;
 
 /// The number of times that the weights of a point inside a tetrahedron are corrected by their
 /// error. A tetrahedron that is flat by a factor f loses f·u; two rounds recover the loss for f =
 /// 1e10.
-pub(crate) const INSIDE_ROUNDS: u32 = 2;
+pub(crate) const WEIGHT_CORRECTIONS: u32 = 2;
 
 /// The largest number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
 /// which need not scan all.
-pub(crate) const SCANNED_POINTS: usize = ccd_core::tuning::CLIMBED_POINTS;
+pub(crate) const MAX_SCANNED_POINTS: usize = ccd_core::tuning::CLIMBED_POINTS;

@@ -3,8 +3,8 @@
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::polytope::{Polytope, unit};
-use crate::tolerance::{AXIS_EDGES, CERTIFIED, CERTIFIED_SHARE};
-use crate::witness::{Witness, across};
+use crate::tolerance::{CERTIFIED_EXCESS, MAX_AXIS_EDGES, RELATIVE_CERTIFIED_EXCESS};
+use crate::witness::{Witness, perpendicular_part};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
@@ -34,7 +34,7 @@ impl Axis {
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
-        let slack = CERTIFIED * placed.scale.size + CERTIFIED_SHARE * distance;
+        let slack = CERTIFIED_EXCESS * placed.scale.size + RELATIVE_CERTIFIED_EXCESS * distance;
         self.direction != DVec3::ZERO && distance - self.gap <= slack
     }
 }
@@ -50,7 +50,7 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
 
 /// Returns an upper bound of the gap along a direction, from two corners that are found by hill climbing if there are
 /// many.
-fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
+fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
     let shape = placed.b.shape();
@@ -79,7 +79,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     let mut offer = |direction: DVec3| {
         for direction in [direction, -direction] {
             // Written so that NaN is not better.
-            if !(most(placed, direction) > best.gap) {
+            if !(gap_upper_bound(placed, direction) > best.gap) {
                 continue;
             }
             let axis = Axis::along(placed, direction);
@@ -88,43 +88,50 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
             }
         }
     };
-    let around_a = Around::new(&placed.a, pair.a, offset);
-    let around_b = Around::new(&placed.b, pair.b, offset);
+    let around_a = FeatureDirections::new(&placed.a, pair.a, offset);
+    let around_b = FeatureDirections::new(&placed.b, pair.b, offset);
     for around in [&around_a, &around_b] {
         around.normals.iter().copied().for_each(&mut offer);
-        around.within.iter().copied().for_each(&mut offer);
+        around
+            .in_face_directions
+            .iter()
+            .copied()
+            .for_each(&mut offer);
         for &edge in &around.edges {
-            offer(across(offset, edge));
+            offer(perpendicular_part(offset, edge));
             offer(edge);
         }
     }
     for one in &around_a.edges {
         for other in &around_b.edges {
-            offer(across(across(one.cross(*other), *one), *other));
+            offer(perpendicular_part(
+                perpendicular_part(one.cross(*other), *one),
+                *other,
+            ));
         }
     }
     best
 }
 
 /// The directions of the edges and faces at a feature, in A's frame.
-struct Around {
+struct FeatureDirections {
     edges: Vec<DVec3>,
     normals: Vec<DVec3>,
     /// The directions perpendicular to an edge, in the plane of each face.
-    within: Vec<DVec3>,
+    in_face_directions: Vec<DVec3>,
 }
 
-impl Around {
+impl FeatureDirections {
     fn new<P: Placed>(polytope: &P, feature: Feature, offset: DVec3) -> Self {
         let shape: &Polytope = polytope.shape();
         let mut edges = shape.edges_at(feature);
         let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(offset).abs();
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
-        edges.truncate(AXIS_EDGES);
+        edges.truncate(MAX_AXIS_EDGES);
         let faces = shape.faces_at(feature, &edges);
         let within = edges.iter().flat_map(|&e| shape.edge(e).inward);
-        Around {
-            within: within.map(|inward| polytope.vector(inward)).collect(),
+        FeatureDirections {
+            in_face_directions: within.map(|inward| polytope.vector(inward)).collect(),
             normals: faces
                 .iter()
                 .map(|&f| polytope.vector(shape.face(f).normal))

@@ -9,7 +9,7 @@ use crate::penetration;
 use crate::placed::PlacedPair;
 use crate::start::extremal;
 use crate::termination::End;
-use crate::tolerance::{CYCLE_LOOK, FAR, RESTARTS, ROUNDS};
+use crate::tolerance::{CERTAIN_DISTANCE, MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES};
 use crate::touching;
 use crate::witness::Witness;
 use ccd_core::glam::DVec3;
@@ -36,17 +36,17 @@ pub(crate) fn certify(
 ) -> Result<Certified, GiveUp> {
     let (mut end, mut restarts) = (first, 0);
     let mut why = GiveUp::Uncertified;
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_TIE_MOVES {
         why = match end {
             End::Cycle(_) => GiveUp::Cycle,
             End::Cap(_) => GiveUp::StepCap,
             End::Nearest(..) | End::Common(..) | End::Unclear(_) => why,
         };
-        let from = match examine(placed, end, counters) {
-            Finding::Certified(answer) => return Ok(answer),
-            Finding::Nearer(pair) => pair,
-            Finding::Doubtful(_) if restarts == RESTARTS => break,
-            Finding::Doubtful(axis) => {
+        let from = match check(placed, end, counters) {
+            CheckResult::Certified(answer) => return Ok(answer),
+            CheckResult::Nearer(pair) => pair,
+            CheckResult::Doubtful(_) if restarts == MAX_RESTARTS => break,
+            CheckResult::Doubtful(axis) => {
                 counters.restarts += 1;
                 restarts += 1;
                 extremal(placed, axis)
@@ -59,7 +59,7 @@ pub(crate) fn certify(
 }
 
 /// What a check of a march's end found out.
-enum Finding {
+enum CheckResult {
     Certified(Certified),
     /// A neighbouring pair of features is nearer.
     Nearer(Pair),
@@ -67,36 +67,36 @@ enum Finding {
     Doubtful(DVec3),
 }
 
-fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Finding {
+fn check(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> CheckResult {
     match end {
-        End::Nearest(pair, certainty) => examine_stop(placed, pair, certainty),
+        End::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
         End::Common(pair, which, crossing) => {
             counters.penetrations += 1;
             let claim = touching::common(placed, which, &crossing);
-            Finding::Certified(Certified { pair, claim })
+            CheckResult::Certified(Certified { pair, claim })
         }
         End::Unclear(pair) => match search_common_point(placed, pair, counters) {
-            Some(answer) => Finding::Certified(answer),
-            None => examine_cycle(placed, pair),
+            Some(answer) => CheckResult::Certified(answer),
+            None => check_cycle(placed, pair),
         },
-        End::Cycle(pair) | End::Cap(pair) => examine_cycle(placed, pair),
+        End::Cycle(pair) | End::Cap(pair) => check_cycle(placed, pair),
     }
 }
 
 /// Certifies a pair at which a march stopped, if that is not certain already.
-fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
+fn check_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> CheckResult {
     let witness = Witness::new(placed, pair);
-    if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
-        return certified(placed, pair, &witness, witness.axis);
+    if certainty == Certainty::Sure || witness.distance() >= CERTAIN_DISTANCE * placed.scale.size {
+        return try_certify(placed, pair, &witness, witness.axis);
     }
     certify_tie(placed, pair)
 }
 
 /// Certifies the nearest pair of a cycle.
-fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
+fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
     let (mut pair, mut nearest) = (start, start);
     let mut least = Witness::new(placed, start).distance();
-    for _ in 0..CYCLE_LOOK {
+    for _ in 0..MAX_CYCLE_PAIRS {
         match step(placed, pair) {
             Next::To(a, b) => pair = Pair { a, b },
             _ => break,
@@ -113,33 +113,33 @@ fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
 }
 
 /// Certifies a pair, or a nearer neighbouring pair, because a new march might end at the same tie.
-fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
+fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
     let mut pair = start;
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_TIE_MOVES {
         let witness = Witness::new(placed, pair);
         let distance = witness.distance();
         let axis = best_axis(placed, pair, &witness);
         if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
-            return certified(placed, pair, &witness, axis.direction);
+            return try_certify(placed, pair, &witness, axis.direction);
         }
-        match neighbourhood::nearer(placed, pair, distance) {
+        match neighbourhood::nearer_pair(placed, pair, distance) {
             Some(nearer) => pair = nearer,
             // No pair is nearer: only the axis is uncertain.
             None if axis.gap >= 0.5 * distance => {
-                return certified(placed, pair, &witness, axis.direction);
+                return try_certify(placed, pair, &witness, axis.direction);
             }
-            None => return Finding::Doubtful(axis.direction),
+            None => return CheckResult::Doubtful(axis.direction),
         }
     }
-    Finding::Nearer(pair)
+    CheckResult::Nearer(pair)
 }
 
-fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3) -> Finding {
+fn try_certify(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3) -> CheckResult {
     let claim = Claim {
         axis,
         ..witness.claim(placed)
     };
-    Finding::Certified(Certified { pair, claim })
+    CheckResult::Certified(Certified { pair, claim })
 }
 
 /// Searches all edges and faces for a common point of the polytopes.
@@ -150,8 +150,8 @@ fn search_common_point(
 ) -> Option<Certified> {
     let PlacedPair { a, b, scale } = placed;
     let of = |which| move |crossing| (which, crossing);
-    let found = penetration::searched(a, b, *scale).map(of(Which::X));
-    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Which::Y)));
+    let found = penetration::search_crossing(a, b, *scale).map(of(Which::X));
+    let found = found.or_else(|| penetration::search_crossing(b, a, *scale).map(of(Which::Y)));
     let (which, crossing) = found?;
     counters.penetrations += 1;
     let claim = touching::common(placed, which, &crossing);

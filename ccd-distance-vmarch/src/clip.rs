@@ -1,6 +1,6 @@
 //! Clips edges by the Voronoi planes of another feature `[VCLIP98 §3.2]`.
 
-use crate::placed::{Line, Placed, clamped};
+use crate::placed::{Line, Placed, clamp};
 use ccd_core::glam::DVec3;
 
 /// The part of an edge within the prism above and below a face.
@@ -41,7 +41,7 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
         if (at_start < 0.0) == (at_end < 0.0) {
             continue;
         }
-        let parameter = clamped(line.length * (at_start / (at_start - at_end)), line.length);
+        let parameter = clamp(line.length * (at_start / (at_start - at_end)), line.length);
         let cut = Cut {
             parameter,
             by: Some(side.edge),
@@ -59,7 +59,7 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
 /// Returns the middle of the overlap of two parallel segments, or the end of `one` that is nearest to `other`, as a
 /// parameter of `one`.
 #[inline]
-pub(crate) fn beside(one: &Line, other: &Line) -> f64 {
+pub(crate) fn middle_of_overlap(one: &Line, other: &Line) -> f64 {
     let start = one.nearest(other.start);
     let end = one.nearest(other.at(other.length));
     0.5 * (start + end)

@@ -3,10 +3,10 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Which};
-use crate::placed::{Line, Placed, Scale, clamped};
+use crate::placed::{Line, Placed, Scale, clamp};
 use crate::polytope::Edge;
-use crate::tolerance::{LEVEL, PARALLEL};
-use crate::vertex_edge::side_faced;
+use crate::tolerance::{PARALLEL_SINE, PRODUCT_ERROR};
+use crate::vertex_edge::face_towards_point;
 use ccd_core::glam::DVec3;
 
 /// Tests the nearest points of both edges against the Voronoi planes of the other edge, vertex-edge planes first.
@@ -33,15 +33,15 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     if offset.length() <= scale.rounding() {
         return Next::Stop(Tied);
     }
-    let facing = Facing::new(&near, offset, scale);
+    let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
-    if let Some(side) = facing.side(x, edge_x, slope_x) {
-        return side.reached_by(Feature::Edge(f), points[1]);
+    if let Some(side) = facing.face_side(x, edge_x, slope_x) {
+        return side.next_pair(Feature::Edge(f), points[1]);
     }
     let facing = facing.reversed();
     let slope_y = y.inward(edge_y, facing.axis);
-    if let Some(side) = facing.side(y, edge_y, slope_y) {
-        return side.reached_by(Feature::Edge(e), points[0]).swapped();
+    if let Some(side) = facing.face_side(y, edge_y, slope_y) {
+        return side.next_pair(Feature::Edge(e), points[0]).swapped();
     }
     let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
     Next::Stop(if clear { Sure } else { Tied })
@@ -49,25 +49,26 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
 
 /// The nearest points of two segments, and the axis between them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Near {
+pub(crate) struct NearestPoints {
     /// The parameters of the nearest points along both segments.
     pub(crate) parameters: [f64; 2],
     /// The cross product of the directions; its length is the sine of their angle.
-    pub(crate) across: DVec3,
+    pub(crate) cross_product: DVec3,
 }
 
-impl Near {
+impl NearestPoints {
     /// Returns the cross product, oriented along `offset`, if rounding turns it less than it turns `offset`; `None`
     /// otherwise. The former is its own rounding over the sine, the latter that of the positions over the distance.
     #[inline(always)]
     pub(crate) fn axis(&self, offset: DVec3, scale: Scale) -> Option<DVec3> {
         // Written so that NaN does not turn it.
-        let turned = if self.across.dot(offset) < 0.0 {
+        let turned = if self.cross_product.dot(offset) < 0.0 {
             -1.0
         } else {
             1.0
         };
-        (self.across.length() * scale.size > offset.length()).then_some(self.across * turned)
+        (self.cross_product.length() * scale.size > offset.length())
+            .then_some(self.cross_product * turned)
     }
 }
 
@@ -76,26 +77,26 @@ impl Near {
 /// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
 /// second one is computed from it, so the distance of the points is off by rounding only.
 #[inline(always)]
-pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
+pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
     let across = one.along.cross(other.along);
     let between = other.start - one.start;
     let square = across.length_squared();
-    let s = if square > PARALLEL * PARALLEL {
-        clamped(between.cross(other.along).dot(across) / square, one.length)
+    let s = if square > PARALLEL_SINE * PARALLEL_SINE {
+        clamp(between.cross(other.along).dot(across) / square, one.length)
     } else {
-        clip::beside(one, other)
+        clip::middle_of_overlap(one, other)
     };
     let free = (one.at(s) - other.start).dot(other.along);
-    let t = clamped(free, other.length);
+    let t = clamp(free, other.length);
     // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
     } else {
         one.nearest(other.at(t))
     };
-    Near {
+    NearestPoints {
         parameters: [s, t],
-        across,
+        cross_product: across,
     }
 }
 
@@ -113,7 +114,7 @@ pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
 
 /// The vector between the nearest points of two edges, and the axis between the edges.
 #[derive(Clone, Copy)]
-struct Facing {
+struct NearestVector {
     offset: DVec3,
     /// The vector between the nearest points, or the direction perpendicular to both edges: whichever rounding tilts
     /// less.
@@ -122,20 +123,20 @@ struct Facing {
     slack: f64,
 }
 
-impl Facing {
+impl NearestVector {
     #[inline(always)]
-    fn new(near: &Near, offset: DVec3, scale: Scale) -> Self {
+    fn new(near: &NearestPoints, offset: DVec3, scale: Scale) -> Self {
         let across = near.axis(offset, scale);
-        Facing {
+        NearestVector {
             offset,
             axis: across.unwrap_or(offset),
-            slack: across.map_or(scale.rounding(), |_| LEVEL),
+            slack: across.map_or(scale.rounding(), |_| PRODUCT_ERROR),
         }
     }
 
     #[inline(always)]
     fn reversed(self) -> Self {
-        Facing {
+        NearestVector {
             offset: -self.offset,
             axis: -self.axis,
             ..self
@@ -145,9 +146,9 @@ impl Facing {
     /// Returns the face of an edge on whose side the other point is; of two, the face with the larger height of the
     /// point.
     #[inline(always)]
-    fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
+    fn face_side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
         let inward = slopes.map(|slope| slope - self.slack);
-        let face = side_faced(p, edge.faces, inward, self.offset)?;
+        let face = face_towards_point(p, edge.faces, inward, self.offset)?;
         let is_above = || p.vector(p.shape().face(face).normal).dot(self.offset) > 0.0;
         let beyond_both = inward.iter().all(|&into| into > 0.0);
         Some(if beyond_both && !is_above() {
@@ -168,7 +169,7 @@ enum Side {
 
 impl Side {
     /// Returns the next pair: the face of X, and the feature of Y that contains the point.
-    fn reached_by(&self, feature: Feature, point: DVec3) -> Next {
+    fn next_pair(&self, feature: Feature, point: DVec3) -> Next {
         match *self {
             Side::Before(face) => Next::To(Feature::Face(face), feature),
             Side::Behind(face) => Next::Behind(

@@ -25,12 +25,12 @@ pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: 
         return Escape::Face(behind.feature, face);
     }
     let inside = match behind.feature {
-        Feature::Vertex(v) => penetration::contained(x, v, y),
+        Feature::Vertex(v) => penetration::corner_inside(x, v, y),
         Feature::Edge(e) => {
             let mut faces = 0..y.shape().faces.len() as u32;
             let through = faces.find_map(|f| penetration::pierced(x, e, y, f));
             // An edge with an inner point that does not cross the surface is entirely inside.
-            through.or_else(|| penetration::contained(x, x.shape().edge(e).ends[0], y))
+            through.or_else(|| penetration::corner_inside(x, x.shape().edge(e).ends[0], y))
         }
         Feature::Face(_) => None,
     };

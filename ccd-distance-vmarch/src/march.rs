@@ -5,7 +5,7 @@ use crate::escape::{self, Escape};
 use crate::feature::{Behind, Feature, Next, Pair, Which};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::{Brent, End};
-use crate::tolerance::STEPS_PER_FEATURE;
+use crate::tolerance::MAX_STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
 /// Marches from a pair of features to the nearest pair.
@@ -16,7 +16,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
     let features = placed.a.shape().features() + placed.b.shape().features();
     let mut pair = start;
     let mut brent = Brent::new(start);
-    for _ in 0..STEPS_PER_FEATURE * features {
+    for _ in 0..MAX_STEPS_PER_FEATURE * features {
         counters.steps += 1;
         pair = match step(placed, pair) {
             Next::To(a, b) => Pair { a, b },
@@ -25,13 +25,13 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
             Next::Behind(which, behind) => {
                 counters.local_minima += 1;
                 match escape_from(placed, which, behind) {
-                    Escape::Face(feature, face) => ordered(which, feature, Feature::Face(face)),
+                    Escape::Face(feature, face) => in_order(which, feature, Feature::Face(face)),
                     Escape::Inside(crossing) => return End::Common(pair, which, crossing),
                     Escape::Unclear => return End::Unclear(pair),
                 }
             }
         };
-        if brent.returned(pair) {
+        if brent.is_repeated(pair) {
             counters.cycles += 1;
             return End::Cycle(pair);
         }
@@ -70,7 +70,7 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
 }
 
 /// Returns a pair of features in the order A, B.
-fn ordered(which: Which, of_it: Feature, of_other: Feature) -> Pair {
+fn in_order(which: Which, of_it: Feature, of_other: Feature) -> Pair {
     match which {
         Which::X => Pair {
             a: of_it,

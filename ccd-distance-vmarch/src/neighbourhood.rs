@@ -3,7 +3,7 @@
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
-use crate::tolerance::AROUND;
+use crate::tolerance::MAX_TIE_EDGE_PAIRS;
 use ccd_core::glam::DVec3;
 
 /// Returns the nearest pair of features of the faces around a pair, if it is nearer than `distance` by more than
@@ -12,9 +12,12 @@ use ccd_core::glam::DVec3;
 /// Every local minimum of the distance of convex sets is global: if no neighbouring pair is nearer, no pair is. Unlike
 /// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
 /// are accurate.
-pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
-    let (a, b) = (Star::new(&placed.a, pair.a), Star::new(&placed.b, pair.b));
-    if a.edges.len() * b.edges.len() > AROUND {
+pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
+    let (a, b) = (
+        SurroundingFeatures::new(&placed.a, pair.a),
+        SurroundingFeatures::new(&placed.b, pair.b),
+    );
+    if a.edges.len() * b.edges.len() > MAX_TIE_EDGE_PAIRS {
         return None;
     }
     let mut best = Best {
@@ -27,7 +30,7 @@ pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Opti
             let other = placed.b.line(f);
             let [s, t] = edge_edge::nearest(&one, &other).parameters;
             let ends = (end_or_edge(&placed.a, e, s), end_or_edge(&placed.b, f, t));
-            best.offer(one.at(s).distance(other.at(t)), ends.0, ends.1);
+            best.update(one.at(s).distance(other.at(t)), ends.0, ends.1);
         }
     }
     for &v in &a.vertices {
@@ -36,11 +39,11 @@ pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Opti
             let line = placed.b.line(f);
             let t = line.nearest(point);
             let end = end_or_edge(&placed.b, f, t);
-            best.offer(line.at(t).distance(point), Feature::Vertex(v), end);
+            best.update(line.at(t).distance(point), Feature::Vertex(v), end);
         }
         for &f in &b.faces {
             let height = height(point, &placed.b, f);
-            best.offer(height, Feature::Vertex(v), Feature::Face(f));
+            best.update(height, Feature::Vertex(v), Feature::Face(f));
         }
     }
     for &w in &b.vertices {
@@ -49,11 +52,11 @@ pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Opti
             let line = placed.a.line(e);
             let s = line.nearest(point);
             let end = end_or_edge(&placed.a, e, s);
-            best.offer(line.at(s).distance(point), end, Feature::Vertex(w));
+            best.update(line.at(s).distance(point), end, Feature::Vertex(w));
         }
         for &f in &a.faces {
             let height = height(point, &placed.a, f);
-            best.offer(height, Feature::Face(f), Feature::Vertex(w));
+            best.update(height, Feature::Face(f), Feature::Vertex(w));
         }
     }
     best.pair
@@ -65,7 +68,7 @@ struct Best {
 }
 
 impl Best {
-    fn offer(&mut self, distance: f64, a: Feature, b: Feature) {
+    fn update(&mut self, distance: f64, a: Feature, b: Feature) {
         if distance < self.distance {
             self.distance = distance;
             self.pair = Some(Pair { a, b });
@@ -74,13 +77,13 @@ impl Best {
 }
 
 /// The features of all faces that meet in a given feature.
-struct Star {
+struct SurroundingFeatures {
     vertices: Vec<u32>,
     edges: Vec<u32>,
     faces: Vec<u32>,
 }
 
-impl Star {
+impl SurroundingFeatures {
     fn new<P: Placed>(polytope: &P, feature: Feature) -> Self {
         let shape = polytope.shape();
         let own = shape.edges_at(feature);
@@ -95,7 +98,7 @@ impl Star {
             list.sort_unstable();
             list.dedup();
         }
-        Star {
+        SurroundingFeatures {
             vertices,
             edges,
             faces,

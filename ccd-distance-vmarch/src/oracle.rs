@@ -78,11 +78,11 @@ impl DistanceOracle for Vmarch {
         let end = march(&placed, cache.start(&placed), &mut self.counters);
         if let End::Nearest(nearest, Certainty::Sure) = end {
             let claim = Witness::new(&placed, nearest).claim(&placed);
-            cache.keep(&placed, nearest, claim.axis);
+            cache.store(&placed, nearest, claim.axis);
             return Ok(claim);
         }
         let certified = certify(&placed, end, &mut self.counters)?;
-        cache.keep(&placed, certified.pair, certified.claim.axis);
+        cache.store(&placed, certified.pair, certified.claim.axis);
         Ok(certified.claim)
     }
 
@@ -115,7 +115,7 @@ impl DistanceOracle for Vmarch {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     fn prepare(body: &Body) {
-        body.keep(prepare);
+        body.precompute(prepare);
     }
 
     fn effort(&self) -> Effort {
@@ -137,7 +137,7 @@ fn prepare(piece: &Piece<'_>) -> Prepared {
 /// Returns the prepared form of a piece. A piece that belongs to no list is prepared now, and stored in `own`.
 #[inline]
 fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
-    let prepared = match piece.kept(prepare) {
+    let prepared = match piece.cached(prepare) {
         Some(kept) => kept,
         None => own.insert(prepare(piece)),
     };

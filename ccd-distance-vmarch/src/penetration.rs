@@ -3,7 +3,7 @@
 use crate::double_double::volume;
 use crate::feature::{Corners, Crossing};
 use crate::placed::{Placed, Scale};
-use crate::tolerance::PIERCED_PAIRS;
+use crate::tolerance::MAX_PIERCED_PAIRS;
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -20,7 +20,7 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
     for k in 1..sides.len().saturating_sub(1) {
         let corners = [0, k, k + 1].map(|k| sides[k].vertex);
         let triangle = corners.map(|w| y.vertex(w));
-        if passes(edge, triangle) {
+        if segment_meets_triangle(edge, triangle) {
             let (along, inside) = weights(edge, triangle);
             return Some(Crossing {
                 on_edge: Corners {
@@ -43,7 +43,7 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
 ///
 /// # Guarantee
 /// Like [`pierced`].
-pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Crossing> {
+pub(crate) fn corner_inside<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Crossing> {
     let point = x.vertex(v);
     let shape = y.shape();
     if shape.faces.len() < 3 {
@@ -58,7 +58,7 @@ pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Cr
         for k in 1..sides.len() - 1 {
             let corners = [0, k, k + 1].map(|k| sides[k].vertex);
             let triangle = corners.map(|w| y.vertex(w));
-            if let Some(inside) = enclosed(point, apex, triangle) {
+            if let Some(inside) = barycentric_coordinates(point, apex, triangle) {
                 return Some(Crossing {
                     on_edge: Corners {
                         vertices: [v, v],
@@ -78,18 +78,29 @@ pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Cr
 
 /// Searches for an edge of X that passes through a face of Y, or a corner of X inside Y, unless the polytopes are too
 /// large.
-pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Option<Crossing> {
+pub(crate) fn search_crossing<X: Placed, Y: Placed>(
+    x: &X,
+    y: &Y,
+    scale: Scale,
+) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
-    if edges as usize * faces as usize > PIERCED_PAIRS {
+    if edges as usize * faces as usize > MAX_PIERCED_PAIRS {
         return None;
     }
-    let through = (0..faces).find_map(|f| (0..edges).find_map(|e| straddled(x, e, y, f, scale)));
+    let through =
+        (0..faces).find_map(|f| (0..edges).find_map(|e| pierced_if_straddling(x, e, y, f, scale)));
     // If no edge goes through the surface, X is either entirely inside or entirely outside.
-    through.or_else(|| contained(x, 0, y))
+    through.or_else(|| corner_inside(x, 0, y))
 }
 
 /// Like [`pierced`], but returns `None` early for edges that are clearly on one side of the face's plane.
-fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Option<Crossing> {
+fn pierced_if_straddling<X: Placed, Y: Placed>(
+    x: &X,
+    e: u32,
+    y: &Y,
+    f: u32,
+    scale: Scale,
+) -> Option<Crossing> {
     let base = y.point(y.shape().sides_of(f).first()?.start);
     let normal = y.vector(y.shape().face(f).normal);
     let ends = x.shape().edge(e).ends;
@@ -102,7 +113,7 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
 }
 
 /// Returns whether a segment and a triangle that are not coplanar have a common point.
-fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+fn segment_meets_triangle([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
     let beside = first == last && first.is_ne();
     if beside || (first.is_eq() && last.is_eq()) {
@@ -125,7 +136,7 @@ fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 
 }
 
 /// Returns the barycentric coordinates of `point` in the tetrahedron `(a, b, c, apex)`; `None` if it is outside.
-fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
+fn barycentric_coordinates(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
     // Every face of the tetrahedron, seen from outside.
     let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];
     let behind = faces.iter().all(|face| side(*face, point).is_le());

@@ -1,7 +1,7 @@
 //! Two polytopes in A's frame: A as it is stored, B transformed when needed.
 
 use crate::polytope::{Edge, Polytope};
-use crate::tolerance::PLACING;
+use crate::tolerance::PLACEMENT_ERROR;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -112,7 +112,7 @@ impl Scale {
     /// Returns the largest rounding error of a difference of two transformed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
-        PLACING * self.size
+        PLACEMENT_ERROR * self.size
     }
 }
 
@@ -125,13 +125,13 @@ impl Line {
     /// Returns the parameter of the edge's point that is nearest to a given point.
     #[inline(always)]
     pub(crate) fn nearest(&self, point: DVec3) -> f64 {
-        clamped((point - self.start).dot(self.along), self.length)
+        clamp((point - self.start).dot(self.along), self.length)
     }
 }
 
 /// Clamps a parameter to [0, length]; NaN becomes 0.
 #[inline(always)]
-pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
+pub(crate) fn clamp(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)
 }
 

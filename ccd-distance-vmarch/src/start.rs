@@ -10,11 +10,11 @@ use ccd_core::glam::DVec3;
 /// Features are valid for their own polytope only. For any other one, such as a part of it, the
 /// axis determines the start. A cache only affects the start of a march.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Cache(Option<Last>);
+pub struct Cache(Option<LastEnd>);
 
 /// The end of the last march on the same pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Last {
+struct LastEnd {
     pair: Pair,
     /// Fingerprints that identify both polytopes.
     fingerprints: [u64; 2],
@@ -24,8 +24,8 @@ struct Last {
 impl Cache {
     /// Stores the nearest pair, with the axis from A to B.
     #[inline]
-    pub(crate) fn keep(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
-        self.0 = Some(Last {
+    pub(crate) fn store(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
+        self.0 = Some(LastEnd {
             pair,
             fingerprints: fingerprints(placed),
             axis,
@@ -40,7 +40,7 @@ impl Cache {
             return extremal(placed, placed.b.origin());
         };
         let fingerprints = fingerprints(placed);
-        if fingerprints == last.fingerprints && is_state(placed, last.pair) {
+        if fingerprints == last.fingerprints && is_valid_start(placed, last.pair) {
             return last.pair;
         }
         let corners = extremal(placed, last.axis);
@@ -57,7 +57,7 @@ impl Cache {
                 corners.b
             },
         };
-        if is_state(placed, reused) {
+        if is_valid_start(placed, reused) {
             reused
         } else {
             corners
@@ -80,7 +80,7 @@ fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
 
 /// Returns whether a march can start at a pair; it never can at two faces.
 #[inline]
-fn is_state(placed: &PlacedPair<'_>, pair: Pair) -> bool {
+fn is_valid_start(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     let two_faces = matches!((pair.a, pair.b), (Feature::Face(_), Feature::Face(_)));
     !two_faces && placed.a.shape().has(pair.a) && placed.b.shape().has(pair.b)
 }

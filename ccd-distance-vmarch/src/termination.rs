@@ -37,7 +37,7 @@ impl Brent {
 
     /// Records a state, and returns whether it is the remembered one.
     #[inline]
-    pub(crate) fn returned(&mut self, pair: Pair) -> bool {
+    pub(crate) fn is_repeated(&mut self, pair: Pair) -> bool {
         if pair == self.left {
             return true;
         }

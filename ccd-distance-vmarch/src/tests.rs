@@ -47,7 +47,7 @@ struct Tally {
 }
 
 /// The relative rounding error of one operation in f64.
-const U: f64 = f64::EPSILON / 2.0;
+const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 impl Tally {
     fn add(&mut self, scene: &Scene<'_>, answer: Result<Claim, GiveUp>) {
@@ -67,7 +67,7 @@ impl Tally {
             .map(place)
             .expect("a point of B");
         let distance = on_a.distance(on_b);
-        let unit = U * scene.reach();
+        let unit = UNIT_ROUNDOFF * scene.reach();
         if scene.gap == 0.0 {
             self.meeting += 1;
             self.meeting_distance = greater(self.meeting_distance, distance / unit);

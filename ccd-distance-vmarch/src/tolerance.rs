@@ -4,7 +4,7 @@
 //! the sum of both pieces' radii about their own origins, and of the distance of those origins.
 
 /// The relative rounding error of one operation in f64.
-const U: f64 = f64::EPSILON / 2.0;
+const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// The largest rounding error of a difference of two transformed points, in units of the pair's size.
 ///
@@ -12,73 +12,73 @@ const U: f64 = f64::EPSILON / 2.0;
 /// three products and three sums whose matrix is rounded (8u of its reach, per coordinate, √3 of
 /// that as a length), and subtracted (1u): below 16u. Points nearer than that are the same point.
 /// Without it the march would follow directions that are nothing but rounding.
-pub(crate) const PLACING: f64 = 16.0 * U;
+pub(crate) const PLACEMENT_ERROR: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The rounding of a scalar product of two unit vectors, one of them transformed. Each is rounded when it is made (1u),
 /// one is turned (3u), and the product adds 3u. Without it a march would wander between the corners of a face that is
 /// parallel to the other one. A larger value would stop at corners next to nearer ones, by that much of an edge's
 /// length.
-pub(crate) const LEVEL: f64 = 8.0 * U;
+pub(crate) const PRODUCT_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// The sine below which two edges count as parallel. Their cross product is then rounding, and all points of their
-/// overlap are equally near, to `PARALLEL` times the edges' length.
-pub(crate) const PARALLEL: f64 = 16.0 * U;
+/// overlap are equally near, to `PARALLEL_SINE` times the edges' length.
+pub(crate) const PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The distance, in units of the pair's size, above which a tie between features needs no certificate. Rounding, 16u of
 /// the size, tilts a direction of that length at a cost of at most 64u of the size.
-pub(crate) const FAR: f64 = 1.0 / 4.0;
+pub(crate) const CERTAIN_DISTANCE: f64 = 1.0 / 4.0;
 
 /// The excess of the nearest points' distance over the gap along the axis up to which both count as certified, in units
-/// of the pair's size: [`PLACING`]. A larger value would accept a tie with a nearer pair around it; a smaller one would
-/// search around in vain.
-pub(crate) const CERTIFIED: f64 = 16.0 * U;
+/// of the pair's size: [`PLACEMENT_ERROR`]. A larger value would accept a tie with a nearer pair around it; a smaller
+/// one would search around in vain.
+pub(crate) const CERTIFIED_EXCESS: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The excess of the distance over the gap up to which both count as certified, in units of the distance. It is for
 /// pieces that are much farther apart than they are large.
-pub(crate) const CERTIFIED_SHARE: f64 = 32.0 * U;
+pub(crate) const RELATIVE_CERTIFIED_EXCESS: f64 = 32.0 * UNIT_ROUNDOFF;
 
 /// The distance from a plane or a line up to which points count as on it, in units of the largest coordinate. Corners
 /// have input rounding of 1u each, a plane through three of them passes the others by up to 4u, and heights over it are
 /// rounded by up to 8u. Without it a triangulated square would have a diagonal, with Voronoi slabs of no width on both
 /// sides.
-pub(crate) const COPLANAR: f64 = 16.0 * U;
+pub(crate) const COPLANAR_DISTANCE: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The height above the plane of a facet up to which a corner counts as below it, in units of the largest coordinate,
 /// times the ratio of the piece's length to the facet's width. If corners were rounded after the hull was made, a
 /// facet's normal turns by their rounding over its width. Without it no sliver would be accepted; a larger value would
 /// accept facets that enclose nothing.
-pub(crate) const CONVEX: f64 = 64.0 * U;
+pub(crate) const CONVEX_HEIGHT: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// The largest number of rays that are tried to check that the faces of a polytope wind once about a point inside. A
 /// ray must meet no edge; the first one hardly ever does.
-pub(crate) const LINES: usize = 8;
+pub(crate) const MAX_RAYS: usize = 8;
 
 /// The largest number of steps of a march, per feature of both polytopes. In exact arithmetic a march visits every pair
 /// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
-pub(crate) const STEPS_PER_FEATURE: usize = 4;
+pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
 
 /// The largest number of pairs of a cycle that are examined for the nearest one. Cycles are two to six pairs long.
-pub(crate) const CYCLE_LOOK: usize = 64;
+pub(crate) const MAX_CYCLE_PAIRS: usize = 64;
 
 /// The largest number of moves to nearer features around a tie before the march resumes. Each move gets nearer by more
 /// than rounding; one or two were enough in a million pairs.
-pub(crate) const ROUNDS: usize = 8;
+pub(crate) const MAX_TIE_MOVES: usize = 8;
 
 /// The largest number of restarts of a march after a cycle or a similar end, before the oracle gives up. A restart
 /// begins at the corners that are extremal along the best axis.
-pub(crate) const RESTARTS: u32 = 2;
+pub(crate) const MAX_RESTARTS: u32 = 2;
 
 /// The largest number of edges of each polytope from which axes are computed if the vector between the nearest points
 /// is rounding. They are the edges closest to a right angle to that vector. Five to ten edges meet in a common corner.
-pub(crate) const AXIS_EDGES: usize = 12;
+pub(crate) const MAX_AXIS_EDGES: usize = 12;
 
 /// The largest number of pairs of an edge and a face that are tested for a common point before a search gives up: a
 /// millisecond's work.
-pub(crate) const PIERCED_PAIRS: usize = 1 << 17;
+pub(crate) const MAX_PIERCED_PAIRS: usize = 1 << 17;
 
 /// The largest number of pairs of edges that are compared around a tie: those around a corner of 30 edges.
-pub(crate) const AROUND: usize = 1 << 13;
+pub(crate) const MAX_TIE_EDGE_PAIRS: usize = 1 << 13;
 
 /// The number of corners above which a polytope has a table of directions; fewer are scanned. Scanning takes one or two
 /// nanoseconds per vertex, a climb from the table about thirty.
-pub(crate) const TABLED: usize = 32;
+pub(crate) const MAX_SCANNED_CORNERS: usize = 32;

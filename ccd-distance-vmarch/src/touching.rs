@@ -13,7 +13,7 @@ use ccd_core::Claim;
 /// axis nearby: the pieces may only touch.
 pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
     let claim = witness::common(placed, which, crossing);
-    let Some(pair) = border(placed, which, crossing) else {
+    let Some(pair) = touching_features(placed, which, crossing) else {
         return claim;
     };
     let normal = Axis::along(placed, claim.axis);
@@ -30,7 +30,7 @@ pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing)
 
 /// Returns the features that contain a common point; `None` if the interiors certainly meet. They meet if an edge
 /// passes through the interior of a face, or a point is inside a polytope.
-fn border(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Option<Pair> {
+fn touching_features(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match which {
         Which::X => features(a, b, crossing, *scale),
@@ -55,7 +55,7 @@ fn features<X: Placed, Y: Placed>(
     let of_x = match on_edge.weights {
         [_, last] if last <= some || start == end => Feature::Vertex(start),
         [first, _] if first <= some => Feature::Vertex(end),
-        _ => joining(x.shape(), start, end)?,
+        _ => edge_between(x.shape(), start, end)?,
     };
     let corners = on_face.vertices.iter().zip(on_face.weights);
     let mut held = corners
@@ -63,7 +63,9 @@ fn features<X: Placed, Y: Placed>(
         .map(|(&v, _)| v);
     let of_y = match (held.next(), held.next(), held.next(), held.next()) {
         (Some(v), None, ..) => Feature::Vertex(v),
-        (Some(v), Some(w), None, _) => joining(y.shape(), v, w).unwrap_or(Feature::Face(*face)),
+        (Some(v), Some(w), None, _) => {
+            edge_between(y.shape(), v, w).unwrap_or(Feature::Face(*face))
+        }
         (_, _, Some(_), None) => Feature::Face(*face),
         _ => return None,
     };
@@ -77,7 +79,7 @@ fn features<X: Placed, Y: Placed>(
 }
 
 /// Returns the edge between two vertices, if there is one.
-fn joining(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
+fn edge_between(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
     let mut spokes = shape.spokes_of(v).iter();
     let spoke = spokes.find(|spoke| spoke.to == w)?;
     Some(Feature::Edge(spoke.edge))

@@ -3,7 +3,7 @@
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
 use crate::placed::{Line, Placed, Scale};
-use crate::tolerance::LEVEL;
+use crate::tolerance::PRODUCT_ERROR;
 use ccd_core::glam::DVec3;
 
 /// Tests the corner against the edge's two vertex-edge planes and two face-edge planes, then the edge against the
@@ -33,11 +33,11 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
         return Next::Stop(Tied);
     }
     let inward = y.inward(edge, from_start);
-    if let Some(face) = side_faced(y, edge.faces, inward, from_start) {
+    if let Some(face) = face_towards_point(y, edge.faces, inward, from_start) {
         return Next::To(Feature::Vertex(v), Feature::Face(face));
     }
     let approach = steepest_towards(x, v, &line, offset, scale);
-    if approach.gain > 0.0 {
+    if approach.decrease > 0.0 {
         return Next::To(Feature::Edge(approach.edge), Feature::Edge(e));
     }
     let clear = edge.is_clear(inward, rounding) && !approach.tied;
@@ -46,7 +46,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
 
 /// Returns the face of an edge on whose side a point is; of two, the face with the larger height of the point.
 #[inline(always)]
-pub(crate) fn side_faced<Y: Placed>(
+pub(crate) fn face_towards_point<Y: Placed>(
     y: &Y,
     faces: [u32; 2],
     inward: [f64; 2],
@@ -64,10 +64,10 @@ pub(crate) fn side_faced<Y: Placed>(
 }
 
 /// The edge at a corner that comes nearest to the line of another edge.
-struct Approach {
+struct SteepestEdge {
     edge: u32,
     /// The decrease in distance along the edge, beyond rounding.
-    gain: f64,
+    decrease: f64,
     /// True if rounding hides for some edge whether it comes nearer.
     tied: bool,
 }
@@ -84,10 +84,10 @@ fn steepest_towards<X: Placed>(
     line: &Line,
     offset: DVec3,
     scale: Scale,
-) -> Approach {
-    let mut out = Approach {
+) -> SteepestEdge {
+    let mut out = SteepestEdge {
         edge: 0,
-        gain: 0.0,
+        decrease: 0.0,
         tied: false,
     };
     let rounding = scale.rounding();
@@ -100,10 +100,10 @@ fn steepest_towards<X: Placed>(
         }
         let across = slope - along.dot(line.along) * offset.dot(line.along);
         let sine = along.cross(line.along).length();
-        let slack = rounding * sine + LEVEL * offset.length();
-        if across - slack > out.gain {
+        let slack = rounding * sine + PRODUCT_ERROR * offset.length();
+        if across - slack > out.decrease {
             out.edge = spoke.edge;
-            out.gain = across - slack;
+            out.decrease = across - slack;
         }
         out.tied |= !(across < -slack);
     }

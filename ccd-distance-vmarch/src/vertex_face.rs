@@ -3,7 +3,7 @@
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Which};
 use crate::placed::{Placed, Scale};
-use crate::tolerance::LEVEL;
+use crate::tolerance::PRODUCT_ERROR;
 
 /// Tests the corner against all face-edge planes, and continues with the edge of the most violated one. Above the face,
 /// it continues with the corner's edge that falls towards the face most steeply.
@@ -40,7 +40,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
     if height <= rounding {
         return Next::Stop(Tied);
     }
-    let (mut lowest, mut falling) = (-LEVEL, None);
+    let (mut lowest, mut falling) = (-PRODUCT_ERROR, None);
     for spoke in x.shape().spokes_of(v) {
         let slope = x.vector(spoke.along).dot(normal);
         if slope < lowest {

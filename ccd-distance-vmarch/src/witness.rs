@@ -2,7 +2,7 @@
 
 use crate::edge_edge;
 use crate::feature::{Corners, Crossing, Feature, Pair, Which};
-use crate::placed::{Line, Placed, PlacedPair, Scale, clamped};
+use crate::placed::{Line, Placed, PlacedPair, Scale, clamp};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination};
@@ -12,7 +12,7 @@ use ccd_core::{Claim, Combination};
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
     /// The nearest points as combinations of vertices.
-    spots: [Corners<3>; 2],
+    combinations: [Corners<3>; 2],
     /// The direction from A to B along which they are apart, of any length.
     pub(crate) axis: DVec3,
 }
@@ -46,17 +46,17 @@ impl Witness {
     pub(crate) fn claim(&self, placed: &PlacedPair<'_>) -> Claim {
         Claim {
             axis: self.axis,
-            a: named(placed.a.shape(), &self.spots[0]),
-            b: named(placed.b.shape(), &self.spots[1]),
+            a: to_combination(placed.a.shape(), &self.combinations[0]),
+            b: to_combination(placed.b.shape(), &self.combinations[1]),
         }
     }
 
     #[inline]
     fn swapped(self) -> Self {
-        let ([x, y], [on_x, on_y]) = (self.points, self.spots);
+        let ([x, y], [on_x, on_y]) = (self.points, self.combinations);
         Witness {
             points: [y, x],
-            spots: [on_y, on_x],
+            combinations: [on_y, on_x],
             axis: -self.axis,
         }
     }
@@ -65,8 +65,8 @@ impl Witness {
 /// Returns the claim about a proven common point, along the normal of the crossed face.
 pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
-    let on_edge = |shape| named(shape, &crossing.on_edge);
-    let on_face = |shape| named(shape, &crossing.on_face);
+    let on_edge = |shape| to_combination(shape, &crossing.on_edge);
+    let on_face = |shape| to_combination(shape, &crossing.on_face);
     match which {
         Which::X => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
@@ -86,7 +86,7 @@ fn vertex_vertex<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness 
     let points = [x.vertex(v), y.vertex(w)];
     Witness {
         points,
-        spots: [corner(v), corner(w)],
+        combinations: [corner(v), corner(w)],
         axis: points[1] - points[0],
     }
 }
@@ -99,8 +99,8 @@ fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
     let offset = foot - point;
     Witness {
         points: [point, foot],
-        spots: [corner(v), on_edge(y, e, parameter)],
-        axis: across(offset, line.along),
+        combinations: [corner(v), on_edge(y, e, parameter)],
+        axis: perpendicular_part(offset, line.along),
     }
 }
 
@@ -113,10 +113,10 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let offset = points[1] - points[0];
     let axis = near.axis(offset, scale).unwrap_or(offset);
     // The part along the edges, which would cost their length, is removed.
-    let axis = across(across(axis, one.along), other.along);
+    let axis = perpendicular_part(perpendicular_part(axis, one.along), other.along);
     Witness {
         points,
-        spots: [on_edge(x, e, s), on_edge(y, f, t)],
+        combinations: [on_edge(x, e, s), on_edge(y, f, t)],
         axis,
     }
 }
@@ -128,14 +128,14 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     let (foot, spot) = on_face(point, y, f, normal);
     Witness {
         points: [point, foot],
-        spots: [corner(v), spot],
+        combinations: [corner(v), spot],
         axis: -normal,
     }
 }
 
 /// Returns the component of a vector perpendicular to a direction.
 #[inline]
-pub(crate) fn across(offset: DVec3, along: DVec3) -> DVec3 {
+pub(crate) fn perpendicular_part(offset: DVec3, along: DVec3) -> DVec3 {
     offset - along * offset.dot(along)
 }
 
@@ -150,7 +150,7 @@ fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
 
 /// Converts vertices to the indices of the piece's points.
 #[inline]
-fn named<const N: usize>(shape: &Polytope, corners: &Corners<N>) -> Combination {
+fn to_combination<const N: usize>(shape: &Polytope, corners: &Corners<N>) -> Combination {
     let mut out = Combination::EMPTY;
     for (&v, &weight) in corners.vertices.iter().zip(&corners.weights) {
         out.push(shape.vertex(v).number, weight);
@@ -218,9 +218,9 @@ fn foot(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
     };
     let upward = normal.cross(base.along);
     let [to_point, to_apex] = [point, triangle[apex]].map(|p| p - base.start);
-    let of_apex = clamped(to_point.dot(upward) / to_apex.dot(upward), 1.0);
+    let of_apex = clamp(to_point.dot(upward) / to_apex.dot(upward), 1.0);
     let along = (to_point - of_apex * to_apex).dot(base.along) / base.length;
-    let of_end = clamped(along, 1.0 - of_apex);
+    let of_end = clamp(along, 1.0 - of_apex);
     let mut weights = [0.0; 3];
     weights[apex] = of_apex;
     weights[end] = of_end;

@@ -1,7 +1,7 @@
 //! Counters for the work that a query took.
 
 use crate::distance::oracle::Effort;
-use crate::tuning::LOOKS_PER_VISIT;
+use crate::tuning::EVALUATIONS_PER_VISIT;
 
 /// Counters for the work that a query took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,10 +25,10 @@ pub struct Stats {
 
 impl Stats {
     /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for every
-    /// [`LOOKS_PER_VISIT`] evaluations of points.
+    /// [`EVALUATIONS_PER_VISIT`] evaluations of points.
     #[inline]
     pub fn work(&self) -> u64 {
-        self.iterations + self.point_looks / LOOKS_PER_VISIT
+        self.iterations + self.point_looks / EVALUATIONS_PER_VISIT
     }
 
     /// Adds the counters of another answer.

@@ -38,7 +38,7 @@ impl Unresolved {
 
     /// Creates the bounds of a query about the least distance: a lower bound, and the nearest pieces that were
     /// measured.
-    pub(crate) fn least(lower: f64, at: Option<(f64, Contact)>, limit: Limit) -> Self {
+    pub(crate) fn for_least_distance(lower: f64, at: Option<(f64, Contact)>, limit: Limit) -> Self {
         Unresolved {
             lower,
             at,

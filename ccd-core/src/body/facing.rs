@@ -20,7 +20,7 @@ pub(crate) enum Facing {
 }
 
 /// The cached results for a flat piece of a solid.
-struct Kept {
+struct CachedFacing {
     facing: Facing,
     inside: Option<DVec3>,
 }
@@ -33,7 +33,8 @@ impl Body {
     /// examined points of the piece. They hold for its whole part that no other face passes
     /// through.
     pub(crate) fn facing(&self, piece: u32) -> Facing {
-        self.kept(piece).map_or(Facing::Neither, |kept| kept.facing)
+        self.cached_facing(piece)
+            .map_or(Facing::Neither, |kept| kept.facing)
     }
 
     /// Returns the unit normal of a flat piece that points out of the solid; `None` if there is no such normal.
@@ -47,31 +48,31 @@ impl Body {
     /// Returns a point inside the solid, near the middle of a piece; `None` if there is none.
     pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
         if !self.pieces().get(piece as usize).is_flat() {
-            return Some(self.middle(piece));
+            return Some(self.centroid(piece));
         }
-        self.kept(piece)?.inside
+        self.cached_facing(piece)?.inside
     }
 
     /// Returns the mean of a piece's points.
-    pub(crate) fn middle(&self, piece: u32) -> DVec3 {
+    pub(crate) fn centroid(&self, piece: u32) -> DVec3 {
         let points = self.pieces().get(piece as usize).points;
         points.iter().sum::<DVec3>() / points.len() as f64
     }
 
     /// Returns the cached results for a flat piece of a solid, and computes them at the first call.
-    fn kept(&self, piece: u32) -> Option<&Kept> {
+    fn cached_facing(&self, piece: u32) -> Option<&CachedFacing> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {
             return None;
         }
-        of.kept(|_| self.look(piece))
+        of.cached(|_| self.compute_facing(piece))
     }
 
-    fn look(&self, piece: u32) -> Kept {
+    fn compute_facing(&self, piece: u32) -> CachedFacing {
         let triangle = self.pieces().first_triangle(piece as usize);
         let normal = triangle.and_then(crate::math::vector::normal);
         let (Some(triangle), Some(normal)) = (triangle, normal) else {
-            return Kept {
+            return CachedFacing {
                 facing: Facing::Neither,
                 inside: None,
             };
@@ -94,7 +95,7 @@ impl Body {
                 .find(|&p| self.winds_about(p)),
             Facing::Neither | Facing::Unclear => None,
         };
-        Kept { facing, inside }
+        CachedFacing { facing, inside }
     }
 
     /// Returns on which side of a face with this normal the surface has a nonzero winding number, near the point `at`.

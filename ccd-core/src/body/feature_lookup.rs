@@ -6,7 +6,7 @@ use super::piece::Piece;
 use super::polytope::Origin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
-use crate::tuning::{CLIMBED_POINTS, ON_FACET};
+use crate::tuning::{CLIMBED_POINTS, FACET_DISTANCE};
 use glam::DVec3;
 
 /// The mesh's feature at a point of a polytope.
@@ -30,7 +30,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     if let [v] = *support {
         return MeshFeature::Vertex(v);
     }
-    let near = match (FacetsByCorner::of(piece), support.first()) {
+    let near = match (FacetsByCorner::for_piece(piece), support.first()) {
         (Some(by_corner), Some(&corner)) => Some(by_corner.at(corner)),
         _ => None,
     };
@@ -64,7 +64,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
 
 /// Returns whether the piece has any faces of the mesh.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
-    match FacetsByCorner::of(piece) {
+    match FacetsByCorner::for_piece(piece) {
         Some(by_corner) => by_corner.is_on_mesh,
         None => piece.mesh_triangles().next().is_some(),
     }
@@ -81,9 +81,9 @@ struct FacetsByCorner {
 impl FacetsByCorner {
     /// Returns the table of a piece of many facets, created once and stored. Returns `None` for a piece of few facets,
     /// or one that belongs to no list.
-    fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
+    fn for_piece<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
-        let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
+        let kept = many.then(|| piece.cached(|piece| Box::new(FacetsByCorner::new(piece))))?;
         kept.map(|kept| &**kept)
     }
 
@@ -109,7 +109,7 @@ impl FacetsByCorner {
 
 /// Builds the table of a piece in advance, so that no query waits for it.
 pub(crate) fn prepare(piece: &Piece<'_>) {
-    FacetsByCorner::of(piece);
+    FacetsByCorner::for_piece(piece);
 }
 
 /// Returns the face of the mesh that contains a point, up to rounding.
@@ -118,7 +118,7 @@ pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
         return None;
     }
     let way = |p: &DVec3| p.distance(point);
-    let reach = ON_FACET * piece.points.iter().map(way).fold(0.0, greater);
+    let reach = FACET_DISTANCE * piece.points.iter().map(way).fold(0.0, greater);
     let near = |[a, b, c]: [DVec3; 3]| {
         let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
         lo.cmple(point).all() && point.cmple(hi).all()

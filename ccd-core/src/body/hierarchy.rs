@@ -63,7 +63,7 @@ impl Hierarchy {
         let centres: Vec<DVec3> = pieces
             .iter()
             .map(|piece| {
-                let (lo, hi) = bounds(piece.points.iter().copied());
+                let (lo, hi) = bounding_box(piece.points.iter().copied());
                 0.5 * (lo + hi)
             })
             .collect();
@@ -76,7 +76,7 @@ impl Hierarchy {
                 nodes[node] = HierarchyNode::Leaf(*piece);
                 continue;
             }
-            let (lo, hi) = bounds(range.iter().map(|&k| centres[k as usize]));
+            let (lo, hi) = bounding_box(range.iter().map(|&k| centres[k as usize]));
             let axis = (hi - lo).max_position();
             let half = range.len() / 2;
             range.select_nth_unstable_by(half, |&a, &b| {
@@ -116,7 +116,7 @@ impl From<Hierarchy> for Vec<HierarchyNode> {
 }
 
 /// Returns the lowest and the highest corner of the bounding box of some points.
-pub(crate) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+pub(crate) fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
         (lo.min(p), hi.max(p))
     })

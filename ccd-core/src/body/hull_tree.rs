@@ -150,7 +150,7 @@ impl HullTree {
 
     /// Returns half the diagonal of a node's bounding box, rounding included.
     #[inline]
-    pub(crate) fn size(&self, node: u32) -> f64 {
+    pub(crate) fn half_diagonal(&self, node: u32) -> f64 {
         self.hulls.sizes[node as usize]
     }
 

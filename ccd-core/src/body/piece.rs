@@ -63,13 +63,13 @@ impl<'a> Piece<'a> {
     /// let middle = |piece: &Piece| Middle(piece.points.iter().sum::<DVec3>() / 3.0);
     /// let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y];
     /// let list = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
-    /// let kept = list.get(0).kept(middle).unwrap();
+    /// let kept = list.get(0).cached(middle).unwrap();
     /// assert_eq!(kept.0, DVec3::new(1.0, 1.0, 0.0));
-    /// assert!(std::ptr::eq(kept, list.get(0).kept(middle).unwrap()));
-    /// assert!(Piece::from_points(&corners).kept(middle).is_none());
+    /// assert!(std::ptr::eq(kept, list.get(0).cached(middle).unwrap()));
+    /// assert!(Piece::from_points(&corners).cached(middle).is_none());
     /// ```
     #[inline]
-    pub fn kept<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
+    pub fn cached<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
         let slot = self.slot?;
         let entry = slot.side_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
@@ -82,7 +82,7 @@ impl<'a> Piece<'a> {
         if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
             return self;
         }
-        let support = self.kept(|piece| Box::new(make(piece)));
+        let support = self.cached(|piece| Box::new(make(piece)));
         Piece {
             support: support.map(|kept| &**kept),
             ..self
@@ -135,13 +135,13 @@ impl<'a> Piece<'a> {
     /// Returns the centre and radius of a ball around the points; `None` if there are few points, or no search
     /// structure.
     #[inline]
-    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
-        self.support.and_then(Support::ball)
+    pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
+        self.support.and_then(Support::bounding_ball)
     }
 
     /// Returns an upper bound of the distances of the piece's points from `from`, as tight as rounding allows.
     pub(crate) fn max_distance_from(&self, from: DVec3) -> f64 {
-        if let Some((middle, radius)) = self.ball() {
+        if let Some((middle, radius)) = self.bounding_ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_F64);
         }
         let squares = self.points.iter().map(|p| p.distance_squared(from));
@@ -149,7 +149,7 @@ impl<'a> Piece<'a> {
     }
 
     /// Returns the approximate number of points that a search for an extremal point evaluates.
-    pub(crate) fn looks(&self) -> u64 {
+    pub(crate) fn evaluations_per_search(&self) -> u64 {
         let few = self.points.len().min(CLIMBED_POINTS);
         match self.support {
             Some(_) => few as u64,

@@ -278,7 +278,7 @@ impl Pieces {
     fn facets(&self, piece: usize) -> Facets<'_> {
         match &self.shape {
             Shape::Triangles { .. } => Facets::NONE,
-            Shape::Polytopes(surfaces) => surfaces.of(piece),
+            Shape::Polytopes(surfaces) => surfaces.facets_of(piece),
         }
     }
 }
@@ -296,7 +296,7 @@ impl Shape {
 
 impl Surfaces {
     #[inline]
-    fn of(&self, piece: usize) -> Facets<'_> {
+    fn facets_of(&self, piece: usize) -> Facets<'_> {
         let facets = range(&self.facet_ends, piece);
         Facets {
             base: match facets.start {
@@ -313,7 +313,7 @@ impl Surfaces {
     fn reordered(&self, order: &[u32]) -> Surfaces {
         let mut out = Surfaces::default();
         for &k in order {
-            let facets = self.of(k as usize);
+            let facets = self.facets_of(k as usize);
             for corners in facets.iter() {
                 out.corners.extend_from_slice(corners);
                 out.corner_ends.push(out.corners.len() as u32);

@@ -6,7 +6,7 @@ use super::{Body, Volume};
 use crate::error::InputError;
 use crate::limits::{EXCESS_SHARE, MAX_COORDINATE, MOST_CORNERS};
 use crate::math::order::{greater, lesser};
-use crate::rounding::{ABOUT, LEAST_F64};
+use crate::rounding::{LEAST_F64, OUTWARD_FACTOR};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -60,7 +60,7 @@ impl Round {
         Round::new(Kind::Cylinder, radius, half_height)
     }
 
-    /// Creates a cone. Its base is at `−half_height` along z, its apex at `half_height`.
+    /// Creates a cone along z. Its base is at `−half_height` along z, its apex at `half_height`.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
@@ -205,7 +205,7 @@ impl Ring {
         let count = corner_count(radius, excess)?;
         let step = TAU / count;
         // This is the distance of the corners from the middle; the edges are at distance `radius`.
-        let reach = radius / (0.5 * step).cos() * ABOUT + 4.0 * LEAST_F64;
+        let reach = radius / (0.5 * step).cos() * OUTWARD_FACTOR + 4.0 * LEAST_F64;
         if !(reach <= MAX_COORDINATE) {
             return Err(InputError::OutOfRange {
                 what: "radius",
@@ -219,7 +219,7 @@ impl Ring {
         };
         Ok(Ring {
             corners: (0..count as usize).map(corner).collect(),
-            excess: greater(0.0, reach * ABOUT - radius),
+            excess: greater(0.0, reach * OUTWARD_FACTOR - radius),
         })
     }
 }
@@ -228,7 +228,7 @@ impl Ring {
 fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
     // digits. The rounding of the corners is subtracted.
-    let share = lesser(asked / radius - 4.0 * (ABOUT - 1.0), 1.0);
+    let share = lesser(asked / radius - 4.0 * (OUTWARD_FACTOR - 1.0), 1.0);
     let half_angle = (share * (2.0 + share)).sqrt().atan();
     let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
     // Written so that NaN is refused.

@@ -28,7 +28,7 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Debug)]
 pub enum Support {
-    /// Evaluates every point.
+    /// Evaluates the height of every point.
     Scan(SupportScan),
     /// Climbs along the edges of the hull.
     Climb(Box<SupportTable>),
@@ -78,11 +78,11 @@ impl Support {
 
     /// Returns the centre and radius of a ball around the points, if one is stored.
     #[inline]
-    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
+    pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
         match self {
             Support::Scan(_) => None,
-            Support::Climb(table) => Some(table.ball()),
-            Support::Tree(tree) => Some(tree.ball()),
+            Support::Climb(table) => Some(table.bounding_ball()),
+            Support::Tree(tree) => Some(tree.bounding_ball()),
         }
     }
 }

@@ -11,7 +11,9 @@ mod waiting;
 mod whole;
 
 pub(crate) use build::Layout;
-pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, TriangleRow, unit_normal, up};
+pub(crate) use group::{
+    BoxGroup, LANES, Members, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
+};
 pub(crate) use node::{Below, Node};
 pub(crate) use slab::Slab;
 pub(crate) use whole::BodyBox;
@@ -105,7 +107,7 @@ impl Tree {
     }
 
     /// Returns the centre and radius of a ball around all pieces.
-    pub(crate) fn ball(&self) -> (DVec3, f64) {
+    pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         (self.nodes[0].centre, f64::from(self.nodes[0].radius))
     }
 
@@ -115,12 +117,12 @@ impl Tree {
     }
 
     /// Returns the bounding box of the whole body.
-    pub(crate) fn whole(&self) -> &BodyBox {
+    pub(crate) fn body_box(&self) -> &BodyBox {
         &self.whole
     }
 
     /// Returns the half extents of the root's box.
-    pub(crate) fn half(&self) -> [f32; 3] {
+    pub(crate) fn half_extents(&self) -> [f32; 3] {
         self.nodes[0].half
     }
 

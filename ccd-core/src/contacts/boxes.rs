@@ -78,7 +78,7 @@ impl FaceTree {
     }
 
     /// Returns the faces whose boxes are within `reach` of a point.
-    pub(super) fn near(&self, at: DVec3, reach: f64) -> Vec<u32> {
+    pub(super) fn faces_near(&self, at: DVec3, reach: f64) -> Vec<u32> {
         let point = FaceBox {
             low: at,
             high: at,

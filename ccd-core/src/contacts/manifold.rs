@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use super::closest::{Part, nearest_on_crossing_edges, nearest_on_triangle};
 use super::feature_pair::FeaturePair;
 use super::measure::measure;
-use super::skin::{Skin, Spot, edge};
+use super::skin::{Skin, SurfacePart, triangle_edge};
 use super::surface::Surface;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
     skins: [&'a Skin<'a>; 2],
-    found: HashMap<[Spot; 2], Candidate>,
+    found: HashMap<[SurfacePart; 2], Candidate>,
 }
 
 impl<'a> Manifold<'a> {
@@ -39,26 +39,26 @@ impl<'a> Manifold<'a> {
         let rounding = self.problem.rounding;
         for v in a.corners_of(faces[0]) {
             let (part, foot) = nearest_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
-            let spots = [Spot::Corner(v), spot(b, faces[1], part)];
+            let spots = [SurfacePart::Corner(v), spot(b, faces[1], part)];
             self.add_pair(spots, [a.at(v), foot], faces);
         }
         for v in b.corners_of(faces[1]) {
             let (part, foot) = nearest_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
-            let spots = [spot(a, faces[0], part), Spot::Corner(v)];
+            let spots = [spot(a, faces[0], part), SurfacePart::Corner(v)];
             self.add_pair(spots, [foot, b.at(v)], faces);
         }
         for e in a.edges_of(faces[0]) {
             for f in b.edges_of(faces[1]) {
                 let ends = [e.map(|end| a.at(end)), f.map(|end| b.at(end))];
                 if let Some(points) = nearest_on_crossing_edges(ends[0], ends[1], rounding) {
-                    self.add_pair([Spot::Edge(e), Spot::Edge(f)], points, faces);
+                    self.add_pair([SurfacePart::Edge(e), SurfacePart::Edge(f)], points, faces);
                 }
             }
         }
     }
 
     /// Adds a pair if it is within reach. If it is known already, the nearer place of contact is kept.
-    fn add_pair(&mut self, spots: [Spot; 2], points: [DVec3; 2], faces: [u32; 2]) {
+    fn add_pair(&mut self, spots: [SurfacePart; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.skins[k].face(faces[k]).radius;
         let Problem {
             margin,
@@ -109,7 +109,7 @@ impl<'a> Manifold<'a> {
     /// Returns whether the contact exists only because a flat surface is cut into triangles. Its point is on an edge or
     /// corner within a plane, and another triangle around it comes nearer elsewhere. That nearer place makes a pair of
     /// its own.
-    fn is_due_to_cut(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
+    fn is_due_to_cut(&self, spots: [SurfacePart; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
             let (skin, from) = (self.skins[k], candidate.points[1 - k]);
@@ -122,14 +122,14 @@ impl<'a> Manifold<'a> {
 
     /// Returns the pairs that follow from others, and need no report. Such a pair is a corner and a boundary part of a
     /// face or edge, if the corner's projection inside that face or edge is equally near.
-    fn implied_pairs(&self) -> HashSet<[Spot; 2]> {
+    fn implied_pairs(&self) -> HashSet<[SurfacePart; 2]> {
         let [a, b] = self.skins;
         let mut covered = HashSet::new();
         for &[of_a, of_b] in self.found.keys() {
-            if let Spot::Corner(_) = of_a {
+            if let SurfacePart::Corner(_) = of_a {
                 covered.extend(b.boundary(of_b).into_iter().map(|part| [of_a, part]));
             }
-            if let Spot::Corner(_) = of_b {
+            if let SurfacePart::Corner(_) = of_b {
                 covered.extend(a.boundary(of_a).into_iter().map(|part| [part, of_b]));
             }
         }
@@ -138,16 +138,20 @@ impl<'a> Manifold<'a> {
 }
 
 /// Returns the corner, edge or face of the skin that a part of a triangle is.
-fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
+fn spot(skin: &Skin<'_>, face: u32, part: Part) -> SurfacePart {
     let corners = skin.face(face).corners;
     match part {
-        Part::Corner(k) => Spot::Corner(corners[k]),
-        Part::Edge(k) => Spot::Edge(edge(corners, k)),
-        Part::Inside => Spot::Face(face),
+        Part::Corner(k) => SurfacePart::Corner(corners[k]),
+        Part::Edge(k) => SurfacePart::Edge(triangle_edge(corners, k)),
+        Part::Inside => SurfacePart::Face(face),
     }
 }
 
-fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Candidate>, spots: [Spot; 2], candidate: Candidate) {
+fn keep_nearest(
+    pairs: &mut HashMap<[SurfacePart; 2], Candidate>,
+    spots: [SurfacePart; 2],
+    candidate: Candidate,
+) {
     let kept = pairs.entry(spots).or_insert(candidate);
     if candidate.gap() < kept.gap() {
         *kept = candidate;
@@ -155,7 +159,9 @@ fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Candidate>, spots: [Spot; 2], can
 }
 
 /// Returns the pairs sorted, so that their order does not depend on that of the map.
-fn sorted_pairs(pairs: &HashMap<[Spot; 2], Candidate>) -> Vec<([Spot; 2], Candidate)> {
+fn sorted_pairs(
+    pairs: &HashMap<[SurfacePart; 2], Candidate>,
+) -> Vec<([SurfacePart; 2], Candidate)> {
     let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
     list.sort_unstable_by_key(|&(spots, _)| spots);
     list

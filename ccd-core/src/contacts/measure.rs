@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
-use super::skin::{Skin, Spot};
+use super::skin::{Skin, SurfacePart};
 use crate::answer::Separation;
 use crate::distance::common_normals::CommonNormals;
 use crate::math::order::{greater, lesser};
@@ -13,7 +13,7 @@ use crate::rounding::is_blurred;
 use glam::DVec3;
 
 /// A part of A's surface and one of B's.
-pub(super) type Spots = [Spot; 2];
+pub(super) type SurfaceParts = [SurfacePart; 2];
 
 /// Bounds the distance of two features with known nearest points, in the world's coordinates. `a_to_world` is A's
 /// frame, relative to the problem's origin. If the points are too near for a direction, `common_normals` returns those
@@ -26,7 +26,7 @@ pub(super) fn measure(
     problem: &Problem<'_>,
     skins: [&Skin<'_>; 2],
     a_to_world: &Frame,
-    (spots, candidate): &(Spots, Candidate),
+    (spots, candidate): &(SurfaceParts, Candidate),
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
 ) -> FeaturePair {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
@@ -50,18 +50,18 @@ pub(super) fn measure(
         }
     }
     if is_blurred(distance, problem.rounding)
-        && let Some(common) = common_normals(candidate.points).along(normal, b - a)
+        && let Some(common) = common_normals(candidate.points).nearest_normal_along(normal, b - a)
     {
         normal = common;
     }
     let way = unit(b - a).unwrap_or(normal);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
-    let name = |k: usize| skins[k].name(spots[k], candidate.faces[k]);
+    let name = |k: usize| skins[k].feature_of(spots[k], candidate.faces[k]);
     FeaturePair {
         feature_a: name(0),
         feature_b: name(1),
-        piece_a: problem.a.number(face(0).piece),
-        piece_b: problem.b.number(face(1).piece),
+        piece_a: problem.a.index_in_given_body(face(0).piece),
+        piece_b: problem.b.index_in_given_body(face(1).piece),
         separation: Separation {
             lower: support_gap(&points, normal) - radii - problem.rounding,
             upper: greater(0.0, distance - radii) + problem.rounding,
@@ -99,12 +99,16 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
 
 /// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without an
 /// outside it leads from the middle of one piece to the middle of the other.
-fn outward_direction(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
+fn outward_direction(
+    skins: [&Skin<'_>; 2],
+    spots: &[SurfacePart; 2],
+    candidate: &Candidate,
+) -> DVec3 {
     let out = |k: usize| {
-        let out = skins[k].outward(spots[k], candidate.faces[k]);
+        let out = skins[k].outward_direction(spots[k], candidate.faces[k]);
         unit(out).unwrap_or(DVec3::ZERO)
     };
-    let middle = |k: usize| skins[k].middle(skins[k].face(candidate.faces[k]).piece);
+    let middle = |k: usize| skins[k].centroid(skins[k].face(candidate.faces[k]).piece);
     match out(0) - out(1) {
         DVec3::ZERO => middle(1) - middle(0),
         towards => towards,

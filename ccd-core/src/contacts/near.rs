@@ -122,7 +122,7 @@ impl Extent {
     }
 
     /// Returns the interval of the node's projection on a direction.
-    fn along(&self, n: DVec3) -> [f64; 2] {
+    fn projection_on(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
             Shape::Box(half) => {
                 let reach = |k: usize| half[k] * self.axes[k].dot(n).abs();
@@ -146,7 +146,7 @@ fn certainly_apart([a, b]: &[Extent; 2], reach: f64) -> bool {
         return true;
     }
     let separates = |n: DVec3| {
-        let ([low_a, high_a], [low_b, high_b]) = (a.along(n), b.along(n));
+        let ([low_a, high_a], [low_b, high_b]) = (a.projection_on(n), b.projection_on(n));
         greater(low_b - high_a, low_a - high_b) > reach * length(n)
     };
     let mut axes = a.axes.iter().chain(&b.axes);

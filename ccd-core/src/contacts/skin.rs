@@ -49,7 +49,7 @@ pub(super) struct Face {
 
 /// A corner, an edge or a face of the surface, by its index here rather than in the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Spot {
+pub(super) enum SurfacePart {
     Corner(u32),
     Edge([u32; 2]),
     Face(u32),
@@ -92,7 +92,7 @@ impl<'a> Skin<'a> {
             if let Feature::Face(_) = name {
                 self.first_triangle_of.entry(*name).or_insert(face);
             }
-            for ends in edges(*corners) {
+            for ends in triangle_edges(*corners) {
                 let sides = sides.entry(ends).or_default();
                 if let Some(side) = sides.faces.get_mut(sides.count) {
                     *side = face;
@@ -102,7 +102,7 @@ impl<'a> Skin<'a> {
         }
         self.is_hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
         // Segments and points are not within a plane.
-        let thin = |face: &&Face| edges(face.corners).count() < 3;
+        let thin = |face: &&Face| triangle_edges(face.corners).count() < 3;
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
             self.is_hidden[corner as usize] = false;
         }
@@ -136,22 +136,22 @@ impl<'a> Skin<'a> {
     }
 
     /// Returns three points, possibly equal, whose hull is a corner, edge or face.
-    pub(super) fn points(&self, spot: Spot, face: u32) -> [DVec3; 3] {
+    pub(super) fn points(&self, spot: SurfacePart, face: u32) -> [DVec3; 3] {
         match spot {
-            Spot::Corner(corner) => [self.at(corner); 3],
-            Spot::Edge([v, w]) => [v, w, w].map(|end| self.at(end)),
-            Spot::Face(_) => self.triangle(face),
+            SurfacePart::Corner(corner) => [self.at(corner); 3],
+            SurfacePart::Edge([v, w]) => [v, w, w].map(|end| self.at(end)),
+            SurfacePart::Face(_) => self.triangle(face),
         }
     }
 
     /// Returns the approximate outward direction at a corner, edge or face: the sum of the normals around it, or zero
     /// if none is known.
-    pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
+    pub(super) fn outward_direction(&self, spot: SurfacePart, face: u32) -> DVec3 {
         let at = |corner: u32| self.corner_normals[corner as usize];
         match spot {
-            Spot::Corner(corner) => at(corner),
-            Spot::Edge([v, w]) => at(v) + at(w),
-            Spot::Face(_) => self.normal(face),
+            SurfacePart::Corner(corner) => at(corner),
+            SurfacePart::Edge([v, w]) => at(v) + at(w),
+            SurfacePart::Face(_) => self.normal(face),
         }
     }
 
@@ -194,59 +194,60 @@ impl<'a> Skin<'a> {
     }
 
     /// Returns the middle of a piece's points.
-    pub(super) fn middle(&self, piece: u32) -> DVec3 {
+    pub(super) fn centroid(&self, piece: u32) -> DVec3 {
         let points = self.body.pieces().get(piece as usize).points;
         self.to_a
             .point(points.iter().sum::<DVec3>() / points.len() as f64)
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.
-    pub(super) fn boundary(&self, spot: Spot) -> Vec<Spot> {
+    pub(super) fn boundary(&self, spot: SurfacePart) -> Vec<SurfacePart> {
         match spot {
-            Spot::Corner(_) => Vec::new(),
-            Spot::Edge(ends) => ends.map(Spot::Corner).to_vec(),
-            Spot::Face(face) => {
+            SurfacePart::Corner(_) => Vec::new(),
+            SurfacePart::Edge(ends) => ends.map(SurfacePart::Corner).to_vec(),
+            SurfacePart::Face(face) => {
                 let corners = self.face(face).corners;
-                let ends = corners.into_iter().map(Spot::Corner);
-                ends.chain(edges(corners).map(Spot::Edge)).collect()
+                let ends = corners.into_iter().map(SurfacePart::Corner);
+                ends.chain(triangle_edges(corners).map(SurfacePart::Edge))
+                    .collect()
             }
         }
     }
 
     /// Returns the coplanar faces around an edge or corner that is inside a flat part; empty for others.
-    pub(super) fn coplanar_faces_around(&self, spot: Spot) -> &[u32] {
+    pub(super) fn coplanar_faces_around(&self, spot: SurfacePart) -> &[u32] {
         let faces = match spot {
-            Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
-            Spot::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
-            Spot::Face(_) => None,
+            SurfacePart::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
+            SurfacePart::Edge(ends) => self.coplanar_edges.get(&ends).map(<[u32; 2]>::as_slice),
+            SurfacePart::Face(_) => None,
         };
         faces.unwrap_or_default()
     }
 
     /// Returns the corner, edge or face to report instead of `spot`, and a face with it. Edges and corners inside a
     /// flat part are replaced by a face. Triangles with the same face number are one face.
-    pub(super) fn reported_part(&self, spot: Spot, face: u32) -> (Spot, u32) {
+    pub(super) fn reported_part(&self, spot: SurfacePart, face: u32) -> (SurfacePart, u32) {
         let face = match spot {
-            Spot::Corner(corner) if self.is_hidden[corner as usize] => face,
-            Spot::Edge(ends) => match self.face_of_coplanar_edge(ends) {
+            SurfacePart::Corner(corner) if self.is_hidden[corner as usize] => face,
+            SurfacePart::Edge(ends) => match self.face_of_coplanar_edge(ends) {
                 Some(face) => face,
                 None => return (spot, face),
             },
-            Spot::Face(face) => face,
-            Spot::Corner(_) => return (spot, face),
+            SurfacePart::Face(face) => face,
+            SurfacePart::Corner(_) => return (spot, face),
         };
         let first = self.first_triangle_of.get(&self.face(face).name);
-        (Spot::Face(first.copied().unwrap_or(face)), face)
+        (SurfacePart::Face(first.copied().unwrap_or(face)), face)
     }
 
     /// Returns the mesh's feature of a corner, edge or face. If it has no number, the feature is that of the face
     /// `face`, or the piece.
-    pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
+    pub(super) fn feature_of(&self, spot: SurfacePart, face: u32) -> Feature {
         let id = |corner: u32| self.mesh_number(corner);
         let own = match spot {
-            Spot::Corner(corner) => id(corner).map(Feature::Vertex),
-            Spot::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
-            Spot::Face(_) => None,
+            SurfacePart::Corner(corner) => id(corner).map(Feature::Vertex),
+            SurfacePart::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
+            SurfacePart::Face(_) => None,
         };
         own.unwrap_or(self.face(face).name)
     }
@@ -261,7 +262,8 @@ impl<'a> Skin<'a> {
 
     /// Returns the edges of a face, except those between coplanar faces.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
-        edges(self.face(face).corners).filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
+        triangle_edges(self.face(face).corners)
+            .filter(|&ends| self.face_of_coplanar_edge(ends).is_none())
     }
 
     /// Returns the face to which points on an edge between coplanar faces belong; `None` for other edges.
@@ -333,14 +335,14 @@ struct Sides {
 }
 
 /// Returns the edges of a triangle, the smaller end first, each once. A segment has one edge, a point none.
-pub(super) fn edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
-    let ends = move |k: usize| edge(corners, k);
+pub(super) fn triangle_edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+    let ends = move |k: usize| triangle_edge(corners, k);
     let proper = move |&k: &usize| ends(k)[0] != ends(k)[1] && !(0..k).any(|j| ends(j) == ends(k));
     (0..3).filter(proper).map(ends)
 }
 
 /// Returns the edge of a triangle from one of its corners to the next.
-pub(super) fn edge(corners: [u32; 3], k: usize) -> [u32; 2] {
+pub(super) fn triangle_edge(corners: [u32; 3], k: usize) -> [u32; 2] {
     let (v, w) = (corners[k], corners[(k + 1) % 3]);
     [v.min(w), v.max(w)]
 }

@@ -29,7 +29,7 @@ impl<'a> Surface<'a> {
     ) -> CommonNormals {
         let reach = AROUND * rounding;
         let mut normals = CommonNormals::default();
-        normals.begin(LEVEL * rounding);
+        normals.reset(LEVEL * rounding);
         surfaces[0].offsets_around(points[0], reach, |way| normals.add_offset_of_a(way));
         surfaces[1].offsets_around(points[1], reach, |way| normals.add_offset_of_b(way));
         normals.sort();
@@ -39,7 +39,7 @@ impl<'a> Surface<'a> {
     /// Calls `add` with vectors that describe the surface around a point: to the corners of the faces there, and into
     /// the solid.
     fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
-        for face in self.tree.near(at, reach) {
+        for face in self.tree.faces_near(at, reach) {
             let (_, nearest) = nearest_on_triangle(at, self.skin.triangle(face), 0.0);
             // Written so that NaN is near.
             if !(nearest.distance(at) > reach) {

@@ -9,7 +9,9 @@ use crate::motion::pose::Pose;
 use crate::query::Moving;
 use crate::query::Query;
 use crate::settings::Settings;
-use crate::tests::scene::{Look, Pcg64, RngExt, direction, magnitude, rng, rotation, soup, within};
+use crate::tests::scene::{
+    Pcg64, RngExt, SoupKind, direction, magnitude, rng, rotation, soup, within,
+};
 use glam::{DQuat, DVec3};
 use twin::Mesh;
 
@@ -228,10 +230,10 @@ fn no_pair_of_random_soups_is_missed() {
     let mut found = [0; 3];
     for round in 0..240 {
         let size = magnitude(rng, -3.0, 3.0);
-        let [look_a, look_b] = [0; 2].map(|_| Look::ALL[rng.random_range(0..5)]);
+        let [look_a, look_b] = [0; 2].map(|_| SoupKind::ALL[rng.random_range(0..5)]);
         let tame = |look| {
-            if look == Look::Needles {
-                Look::Plump
+            if look == SoupKind::Needles {
+                SoupKind::Plump
             } else {
                 look
             }

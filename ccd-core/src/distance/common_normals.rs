@@ -18,9 +18,9 @@ pub(crate) struct CommonNormals {
 
 impl CommonNormals {
     /// Removes all offsets, and sets the slack.
-    pub(crate) fn begin(&mut self, slack: f64) {
+    pub(crate) fn reset(&mut self, slack: f64) {
         self.offsets.clear();
-        self.offsets.shrink_to(MOST_KEPT);
+        self.offsets.shrink_to(MAX_KEPT_OFFSETS);
         self.slack = slack;
     }
 
@@ -44,7 +44,7 @@ impl CommonNormals {
 
     /// Returns the common normal that is nearest to a direction, or one close to the nearest; `None` if there is no
     /// common normal.
-    pub(crate) fn near(&self, towards: DVec3) -> Option<DVec3> {
+    pub(crate) fn nearest_normal(&self, towards: DVec3) -> Option<DVec3> {
         let [x, y, z] = DVec3::AXES;
         // If there is only one common normal, one of these axes is less than 55 degrees from it.
         let axes = [x, y, z, -x, -y, -z];
@@ -63,10 +63,10 @@ impl CommonNormals {
         self.project_onto_cone(towards).or_else(others)
     }
 
-    /// Like [`CommonNormals::near`], but returns `None` unless the vector `between` the two points is along the normal,
-    /// up to the slack.
-    pub(crate) fn along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
-        let n = self.near(towards)?;
+    /// Like [`CommonNormals::nearest_normal`], but returns `None` unless the vector `between` the two points is along
+    /// the normal, up to the slack.
+    pub(crate) fn nearest_normal_along(&self, towards: DVec3, between: DVec3) -> Option<DVec3> {
+        let n = self.nearest_normal(towards)?;
         let ahead = n.dot(between);
         let aside = length(between - n * ahead);
         // Written so that NaN is not along the normal.
@@ -87,8 +87,8 @@ impl CommonNormals {
         Some(best)
     }
 
-    /// Like [`CommonNormals::project_onto_cone`], with the result perpendicular to `level`, and for the first `count` offsets
-    /// only.
+    /// Like [`CommonNormals::project_onto_cone`], with the result perpendicular to `level`, and for the first `count`
+    /// offsets only.
     fn project_perpendicular(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
         let mut best = unit_if_distinct(towards - level * level.dot(towards))?;
@@ -112,7 +112,7 @@ impl CommonNormals {
 }
 
 /// The largest number of offsets for which memory is kept between uses.
-const MOST_KEPT: usize = 1 << 20;
+const MAX_KEPT_OFFSETS: usize = 1 << 20;
 
 /// Returns the unit vector along a component of a unit vector; `None` if the component may be mere rounding.
 fn unit_if_distinct(part: DVec3) -> Option<DVec3> {

@@ -83,7 +83,7 @@ pub struct PiecePair<'a> {
 impl PiecePair<'_> {
     /// Returns the number of points of both pieces.
     pub(crate) fn points(&self) -> u64 {
-        self.a.looks() + self.b.looks()
+        self.a.evaluations_per_search() + self.b.evaluations_per_search()
     }
 }
 

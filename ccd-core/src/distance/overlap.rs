@@ -14,7 +14,8 @@ use glam::DVec3;
 pub(crate) enum Intersection {
     /// The pieces certainly intersect, even after any displacement smaller than rounding.
     Certain,
-    /// The pieces do not intersect by more than rounding: an axis separates them, or would after such a displacement.
+    /// The pieces do not intersect by more than rounding: an axis separates them, or would after a displacement smaller
+    /// than rounding.
     None,
     /// Neither intersection nor its absence could be proven.
     Undecided,
@@ -44,12 +45,12 @@ pub(crate) fn intersects(
     if checked.lower >= -2.0 * rounding {
         return Intersection::None;
     }
-    if !inner.begin(pair, rounding) {
+    if !inner.start_with_tetrahedron(pair, rounding) {
         // The differences are in one plane, up to rounding.
         return Intersection::None;
     }
     for _ in 0..MAX_CORNERS {
-        let Some(&face) = inner.shallowest() else {
+        let Some(&face) = inner.shallowest_face() else {
             return Intersection::Undecided;
         };
         if face.depth > rounding {
@@ -99,7 +100,7 @@ struct Face {
 
 impl InnerPolytope {
     /// Starts with a tetrahedron of differences. Returns false if all differences are in one plane.
-    fn begin(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
+    fn start_with_tetrahedron(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
         self.corners.clear();
         self.faces.clear();
         let Some(corners) = tetrahedron(pair, rounding) else {
@@ -125,7 +126,7 @@ impl InnerPolytope {
     }
 
     /// Returns the face that is nearest to the origin, or that the origin is farthest in front of.
-    fn shallowest(&self) -> Option<&Face> {
+    fn shallowest_face(&self) -> Option<&Face> {
         self.faces.iter().min_by(|f, g| f.depth.total_cmp(&g.depth))
     }
 

@@ -58,12 +58,12 @@ fn answer_under_policy<O: DistanceOracle>(
         let outcome = match problem.start {
             StartPolicy::Report => search(problem, oracle, meter),
             StartPolicy::Leave => {
-                let problem = problem.reporting();
+                let problem = problem.reporting_start_contact();
                 let seen = look(&problem, oracle, meter);
                 seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let parting = ignoring_start_contact(problem, problem.start, &outcome, oracle, meter);
+        let parting = problem_after_start_contact(problem, problem.start, &outcome, oracle, meter);
         let (outcome, tolerance) = match parting {
             Some(problem) => {
                 let outcome = search(&problem, oracle, meter);
@@ -82,7 +82,7 @@ fn answer_under_policy<O: DistanceOracle>(
 
 /// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
 /// `None` otherwise.
-pub(crate) fn ignoring_start_contact<'a, O: DistanceOracle>(
+pub(crate) fn problem_after_start_contact<'a, O: DistanceOracle>(
     problem: &Problem<'a>,
     start: StartPolicy,
     outcome: &Outcome,
@@ -96,7 +96,9 @@ pub(crate) fn ignoring_start_contact<'a, O: DistanceOracle>(
             let contact =
                 contact_for_given_bodies(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
-            Some(problem.leaving(gap, TouchingPlane::of(problem, &contact)))
+            Some(
+                problem.ignoring_start_contact(gap, TouchingPlane::from_contact(problem, &contact)),
+            )
         }
         _ => None,
     }

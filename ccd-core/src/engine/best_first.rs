@@ -102,7 +102,7 @@ impl<O: DistanceOracle> Question<O> for Proven {
     type Found = Outcome;
 
     #[inline]
-    fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+    fn on_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
             self.past_start(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)
@@ -111,7 +111,7 @@ impl<O: DistanceOracle> Question<O> for Proven {
         }
     }
 
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -119,15 +119,15 @@ impl<O: DistanceOracle> Question<O> for Proven {
         advance: Advance,
     ) -> ControlFlow<Outcome, f64> {
         let Advance { clock, step, .. } = advance;
-        Proven::conclude(self, problem, oracle, meter, step, clock)
+        Proven::on_advance(self, problem, oracle, meter, step, clock)
     }
 
-    fn stopped(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
         Outcome::unresolved(problem.time(s), reason)
     }
 
-    fn done(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.end(problem)
+    fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
+        self.finish(problem)
     }
 }
 

@@ -9,8 +9,8 @@ use crate::distance::oracle::DistanceOracle;
 /// A schedule that searches depth first, for [any contact](DepthFirst::any_contact) and for the [closest
 /// approach](DepthFirst::closest_approach).
 ///
-/// Pairs are split and followed like those of [`BestFirst`](crate::schedule::BestFirst), but the newest is examined next. A
-/// search reaches pieces at once, and few pairs wait.
+/// Pairs are split and followed like those of [`BestFirst`](crate::schedule::BestFirst), but the newest is examined
+/// next. A search reaches pieces at once, and few pairs wait.
 ///
 /// Keep the value between queries: it owns the memory.
 #[derive(Debug)]

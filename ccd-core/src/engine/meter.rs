@@ -3,7 +3,7 @@
 use super::scratch::{Memory, Scratch};
 use crate::answer::{Limit, Stats};
 use crate::problem::Problem;
-use crate::tuning::WORK_BETWEEN_LOOKS;
+use crate::tuning::WORK_BETWEEN_CLOCK_READS;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -58,7 +58,7 @@ impl Meter {
 
     #[cold]
     fn check_limits(&mut self, problem: &Problem<'_>, work: u64) -> Result<(), Limit> {
-        self.next_check = work.saturating_add(WORK_BETWEEN_LOOKS);
+        self.next_check = work.saturating_add(WORK_BETWEEN_CLOCK_READS);
         // The work of the other thread before the flag was set does not matter to this one.
         if problem
             .stop

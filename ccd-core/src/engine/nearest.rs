@@ -3,12 +3,12 @@
 pub(crate) mod lists;
 
 use super::meter::Meter;
-use super::nodes::common::Common;
+use super::nodes::common::NodeContext;
 use super::nodes::expand::measure;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 /// Pairs that may intersect have no lower bound of their distance, and therefore come first.
 pub(crate) struct Nearest<'p> {
     problem: &'p Problem<'p>,
-    common: Common<'p>,
+    common: NodeContext<'p>,
     clock: f64,
     lists: &'p mut Lists,
     /// The distance at and beyond which pairs are ignored.
@@ -51,7 +51,7 @@ impl<'p> Nearest<'p> {
     pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut Lists) -> Self {
         Nearest {
             problem,
-            common: Common::new(problem),
+            common: NodeContext::new(problem),
             clock,
             lists,
             beyond: f64::INFINITY,
@@ -91,29 +91,29 @@ impl<'p> Nearest<'p> {
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(&self.common, &split, self.clock);
-                    self.wait(Siblings::new(&expansion, split, 0.0))?;
+                    self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
                 Next::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
-            next = self.next();
+            next = self.next_pair();
         }
         ControlFlow::Continue(())
     }
 
-    fn wait(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
+    fn enqueue(&mut self, siblings: Siblings) -> ControlFlow<SearchEnd> {
         let distance = siblings.clock();
-        if !(distance < self.upper()) {
+        if !(distance < self.upper_bound()) {
             return ControlFlow::Continue(());
         }
         match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
             Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
+            Err(QueueFull) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
         }
     }
 
     /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
-    fn next(&mut self) -> Option<Next> {
-        let (upper, search_radius) = (self.upper(), self.search_radius());
+    fn next_pair(&mut self) -> Option<Next> {
+        let (upper, search_radius) = (self.upper_bound(), self.search_radius());
         let (distance, siblings) = self.lists.waiting.next()?;
         // Pairs without a distance may intersect.
         if distance > 0.0 && distance >= search_radius {
@@ -137,7 +137,7 @@ impl<'p> Nearest<'p> {
     ) -> ControlFlow<SearchEnd> {
         let problem = self.problem;
         let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
-        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
+        let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(SearchEnd::Limit(Limit::OracleGaveUp));
         };
         let inner = &mut meter.scratch_memory().inner;
@@ -156,21 +156,21 @@ impl<'p> Nearest<'p> {
             self.lists.touching.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
-        if checked.upper < self.upper() {
+        if checked.upper < self.upper_bound() {
             self.nearest = Some((ids, contact(&snapshot, ids, &checked)));
         }
         ControlFlow::Continue(())
     }
 
     /// Returns the least upper bound found so far, or the distance beyond which pairs are ignored.
-    fn upper(&self) -> f64 {
+    fn upper_bound(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
         self.nearest.map_or(self.beyond, upper)
     }
 
     /// Returns the distance at and beyond which pairs need not be examined.
     fn search_radius(&self) -> f64 {
-        let upper = self.upper();
+        let upper = self.upper_bound();
         if upper <= self.problem.contact_distance() {
             upper * (1.0 - NEAREST_SHARE)
         } else {

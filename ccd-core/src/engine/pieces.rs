@@ -1,8 +1,8 @@
 //! Bounds for pairs of pieces, one pair at a time in f64.
 //!
 //! `pair.rs` decides about a pair. A `snapshot.rs` of the pair calls the oracle, and computes how long a plane keeps
-//! the pieces apart, by the `heights.rs` of their points. `level.rs` has the pieces that come to touch on the ground that
-//! the bodies rest on. A `meeting.rs` has the surfaces around the nearest points of the pieces.
+//! the pieces apart, by the `heights.rs` of their points. `level.rs` has the pieces that come to touch on the ground
+//! that the bodies rest on. A `meeting.rs` has the surfaces around the nearest points of the pieces.
 
 pub(crate) mod heights;
 mod level;

@@ -2,7 +2,7 @@
 
 use super::meter::Meter;
 use super::pieces::pair::Step;
-use super::start::{contained, overlapping, touching};
+use super::start::{containment_outcome, overlap_outcome, touching};
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -12,8 +12,8 @@ use std::ops::ControlFlow;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
 pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
-    let by_balls = problem.takes(Shortcut::Balls) && balls::keep_apart(problem);
-    let is_free = by_balls || problem.takes(Shortcut::Boxes) && boxes::keep_apart(problem);
+    let by_balls = problem.uses(Shortcut::Balls) && balls::keep_apart(problem);
+    let is_free = by_balls || problem.uses(Shortcut::Boxes) && boxes::keep_apart(problem);
     is_free.then(|| Outcome::Free {
         proven_gap: problem.proven_gap(),
     })
@@ -31,7 +31,7 @@ impl Proven {
     /// query.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-    pub(crate) fn conclude<O: DistanceOracle>(
+    pub(crate) fn on_advance<O: DistanceOracle>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -44,7 +44,7 @@ impl Proven {
             Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
             Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
             Step::Contact(contact) => touching(problem, oracle, meter, contact),
-            Step::Overlap(contact) => overlapping(contact),
+            Step::Overlap(contact) => overlap_outcome(contact),
             Step::Stalled => unresolved(Limit::Stalled),
             Step::GaveUp => unresolved(Limit::OracleGaveUp),
         })
@@ -68,12 +68,12 @@ impl Proven {
         // Bodies that are let go were examined when their contact was found.
         match problem.start {
             StartPolicy::Leave => None,
-            StartPolicy::Report => contained(problem, &[], &mut Vec::new()),
+            StartPolicy::Report => containment_outcome(problem, &[], &mut Vec::new()),
         }
     }
 
     /// Returns the outcome if all pairs are apart to the end.
-    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
+    pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
         self.past_start(problem).unwrap_or(Outcome::Free {
             proven_gap: problem.proven_gap(),
         })

@@ -1,7 +1,7 @@
 //! A priority queue of pairs, ordered by clock.
 
 use super::capacity::empty;
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::math::order::greater;
 
 /// A priority queue of items by their clocks. Among equal clocks pairs of pieces come first, then the newest item, for
@@ -62,7 +62,7 @@ impl<T> Queue<T> {
 
     fn place_of_least(&self) -> u32 {
         assert!(self.least != VACANT, "no item waits");
-        place(self.least)
+        slot(self.least)
     }
 
     fn newest(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
@@ -113,7 +113,7 @@ impl<T> Queue<T> {
 
 impl<T> Waiting<T> for Queue<T> {
     #[inline]
-    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
+    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull> {
         let place = match self.vacant.pop() {
             Some(place) => {
                 self.items[place as usize] = item;
@@ -124,7 +124,7 @@ impl<T> Waiting<T> for Queue<T> {
                 self.grow();
                 (self.items.len() - 1) as u32
             }
-            None => return Err(Full),
+            None => return Err(QueueFull),
         };
         let key = self.newest(clock, rank, place);
         self.set(place, key);
@@ -133,7 +133,7 @@ impl<T> Waiting<T> for Queue<T> {
 
     #[inline]
     fn next(&mut self) -> Option<(f64, &mut T)> {
-        let item = self.items.get_mut(place(self.least) as usize)?;
+        let item = self.items.get_mut(slot(self.least) as usize)?;
         Some((clock(self.least), item))
     }
 
@@ -145,7 +145,7 @@ impl<T> Waiting<T> for Queue<T> {
     }
 
     #[inline]
-    fn renew(&mut self, clock: f64, rank: Rank) {
+    fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
         let place = self.place_of_least();
         let key = self.newest(clock, rank, place);
         self.set(place, key);
@@ -155,13 +155,13 @@ impl<T> Waiting<T> for Queue<T> {
     fn replace(&mut self, clock: f64, rank: Rank, item: T) {
         let place = self.place_of_least();
         self.items[place as usize] = item;
-        self.renew(clock, rank);
+        self.postpone_as_newest(clock, rank);
     }
 
     #[inline]
     fn remove(&mut self) {
         if self.least != VACANT {
-            let place = place(self.least);
+            let place = slot(self.least);
             self.vacant.push(place);
             self.set(place, VACANT);
         }
@@ -180,7 +180,7 @@ fn clock(key: Key) -> f64 {
     f64::from_bits((key >> 64) as u64)
 }
 
-fn place(key: Key) -> u32 {
+fn slot(key: Key) -> u32 {
     key as u32
 }
 

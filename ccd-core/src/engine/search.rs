@@ -1,11 +1,11 @@
 //! The loop of every search: the next waiting pair is proven apart for longer, or split.
 
 use super::meter::Meter;
-use super::nodes::common::Common;
+use super::nodes::common::NodeContext;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::{Pair, Step};
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -33,14 +33,14 @@ pub(crate) trait Question<O: DistanceOracle> {
     /// The type of the result.
     type Found;
 
-    /// Called with the clock of the next pair before the pair is examined; may end the search.
+    /// Decides from the clock of the next pair whether the search ends before the pair is examined.
     #[inline]
-    fn arrive(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
+    fn on_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())
     }
 
     /// Processes the advance of a pair of pieces: returns the pair's next clock, or the result.
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -49,10 +49,10 @@ pub(crate) trait Question<O: DistanceOracle> {
     ) -> ControlFlow<Self::Found, f64>;
 
     /// Returns the result if a limit is reached at clock `s`.
-    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
 
     /// Returns the result if all pairs are proven apart to the end.
-    fn done(&mut self, problem: &Problem<'_>) -> Self::Found;
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found;
 }
 
 /// What a step found out about a pair of pieces.
@@ -79,10 +79,10 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         problem: &Problem<'_>,
         question: &mut Q,
     ) -> Q::Found {
-        if self.open(problem).is_err() {
-            return question.stopped(problem, 0.0, Limit::Budget);
+        if self.push_roots(problem).is_err() {
+            return question.on_limit(problem, 0.0, Limit::Budget);
         }
-        let common = Common::new(problem);
+        let common = NodeContext::new(problem);
         let mut look = CloserLook::new(problem);
         loop {
             if let ControlFlow::Break(found) = self.visit(&common, &mut look, question) {
@@ -99,10 +99,10 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         question: &mut Q,
         until: f64,
     ) -> ControlFlow<Q::Found, f64> {
-        let common = Common::new(problem);
+        let common = NodeContext::new(problem);
         loop {
             if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
-                question.arrive(problem, s)?;
+                question.on_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
             self.visit(&common, look, question)?;
@@ -110,7 +110,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     }
 
     /// Adds the pair of both roots to the waiting pairs.
-    pub(crate) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
+    pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), QueueFull> {
         let item = match Next::roots(problem) {
             Next::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
             Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
@@ -122,7 +122,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     #[inline(always)]
     pub(crate) fn visit<Q: Question<O>>(
         &mut self,
-        common: &Common<'_>,
+        common: &NodeContext<'_>,
         look: &mut CloserLook,
         question: &mut Q,
     ) -> ControlFlow<Q::Found> {
@@ -133,25 +133,25 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             meter,
         } = self;
         let Some((s, item)) = waiting.next() else {
-            return ControlFlow::Break(question.done(problem));
+            return ControlFlow::Break(question.on_end(problem));
         };
-        question.arrive(problem, s)?;
+        question.on_clock(problem, s)?;
         if let Err(limit) = meter.count_visit(problem) {
-            return ControlFlow::Break(question.stopped(problem, s, limit));
+            return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
         let (next, rest) = match item {
             Item::Pieces(pair) => {
                 let advance = advance(problem, *oracle, meter, pair, s);
-                match question.conclude(problem, *oracle, meter, advance)? {
+                match question.on_advance(problem, *oracle, meter, advance)? {
                     clock if clock >= 1.0 => waiting.remove(),
-                    clock => waiting.renew(clock, Rank::PiecePair),
+                    clock => waiting.postpone_as_newest(clock, Rank::PiecePair),
                 }
                 return ControlFlow::Continue(());
             }
             Item::Siblings(siblings) => {
-                if let Some((clock, alone)) = look.part(problem, siblings, s) {
+                if let Some((clock, alone)) = look.remove_if_provable(problem, siblings, s) {
                     let rest = siblings.clock();
-                    let waits = self.wait(rest, (clock, Item::Siblings(alone)));
+                    let waits = self.requeue(rest, (clock, Item::Siblings(alone)));
                     return unless_full(waits, problem, question, s);
                 }
                 // The remaining siblings wait for their own clocks.
@@ -162,24 +162,24 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             Next::Split(split) => {
                 let expansion = expand(common, &split, s);
                 let mut siblings = Siblings::new(&expansion, split, s);
-                look.finish(problem, &split, s, &mut siblings, meter);
+                look.finish_proven(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
             Next::Measure(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
-                let clock = question.conclude(problem, *oracle, meter, advance)?;
+                let clock = question.on_advance(problem, *oracle, meter, advance)?;
                 (clock, Item::Pieces(pair))
             }
         };
-        let waits = self.wait(rest, new);
+        let waits = self.requeue(rest, new);
         unless_full(waits, problem, question, s)
     }
 
     /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
     /// before the end.
     #[inline(always)]
-    fn wait(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
+    fn requeue(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), QueueFull> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {
@@ -211,13 +211,13 @@ fn advance<O: DistanceOracle>(
 
 #[inline(always)]
 fn unless_full<O: DistanceOracle, Q: Question<O>>(
-    waits: Result<(), Full>,
+    waits: Result<(), QueueFull>,
     problem: &Problem<'_>,
     question: &mut Q,
     s: f64,
 ) -> ControlFlow<Q::Found> {
     match waits {
         Ok(()) => ControlFlow::Continue(()),
-        Err(Full) => ControlFlow::Break(question.stopped(problem, s, Limit::Budget)),
+        Err(QueueFull) => ControlFlow::Break(question.on_limit(problem, s, Limit::Budget)),
     }
 }

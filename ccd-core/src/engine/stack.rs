@@ -1,7 +1,7 @@
 //! A stack of waiting pairs, of which the newest is examined next.
 
 use super::capacity::empty;
-use super::waiting::{Full, Rank, Waiting};
+use super::waiting::{QueueFull, Rank, Waiting};
 use crate::math::order::lesser;
 
 /// A stack of items: the last one added is next, whatever its clock.
@@ -44,7 +44,7 @@ impl<T> Stack<T> {
 }
 
 impl<T> Waiting<T> for Stack<T> {
-    fn push(&mut self, clock: f64, _: Rank, item: T) -> Result<(), Full> {
+    fn push(&mut self, clock: f64, _: Rank, item: T) -> Result<(), QueueFull> {
         self.items.push((clock, item));
         self.peak = self.peak.max(self.items.len());
         Ok(())
@@ -59,7 +59,7 @@ impl<T> Waiting<T> for Stack<T> {
         self.last().0 = clock;
     }
 
-    fn renew(&mut self, clock: f64, _: Rank) {
+    fn postpone_as_newest(&mut self, clock: f64, _: Rank) {
         self.last().0 = clock;
     }
 

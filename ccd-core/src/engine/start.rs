@@ -25,7 +25,7 @@ pub(crate) fn touching<O: DistanceOracle>(
     seen: Contact,
 ) -> Outcome {
     let contact = |nearest: &Nearest<'_>| Some(nearest.contact(seen));
-    let outcome = measured(problem, f64::INFINITY, oracle, meter, contact);
+    let outcome = measure_at_start(problem, f64::INFINITY, oracle, meter, contact);
     outcome.unwrap_or(Outcome::Touching { contact: seen })
 }
 
@@ -37,12 +37,12 @@ pub(crate) fn at_start<O: DistanceOracle>(
     oracle: &mut O,
     meter: &mut Meter,
 ) -> Option<Outcome> {
-    measured(problem, beyond, oracle, meter, |nearest| nearest.nearest())
+    measure_at_start(problem, beyond, oracle, meter, |nearest| nearest.nearest())
 }
 
 /// Measures the bodies at the start, and returns the outcome if they overlap, or are in `contact`. Pieces at least as
 /// far apart as `beyond` are not measured.
-fn measured<O: DistanceOracle>(
+fn measure_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
@@ -52,13 +52,13 @@ fn measured<O: DistanceOracle>(
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
     let mut nearest = Nearest::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
-        Some(SearchEnd::Overlap(_, contact)) => Some(overlapping(contact)),
-        Some(SearchEnd::Limit(limit)) => Some(unresolved(limit)),
-        None if nearest.undecided => Some(unresolved(Limit::Undecided)),
+        Some(SearchEnd::Overlap(_, contact)) => Some(overlap_outcome(contact)),
+        Some(SearchEnd::Limit(limit)) => Some(unresolved_outcome(limit)),
+        None if nearest.undecided => Some(unresolved_outcome(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
             let (pairs, pieces) = lists.touching();
-            contained(problem, pairs, pieces).or(touching)
+            containment_outcome(problem, pairs, pieces).or(touching)
         }
     };
     lists.clear();
@@ -68,7 +68,7 @@ fn measured<O: DistanceOracle>(
 
 /// Returns the outcome if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
 /// are the pairs without a separating axis, and `pieces` is scratch memory.
-pub(crate) fn contained(
+pub(crate) fn containment_outcome(
     problem: &Problem<'_>,
     touching: &[[u32; 2]],
     pieces: &mut Vec<u32>,
@@ -81,11 +81,11 @@ pub(crate) fn contained(
 }
 
 /// Returns the outcome for two pieces that overlap.
-pub(crate) fn overlapping(contact: Contact) -> Outcome {
+pub(crate) fn overlap_outcome(contact: Contact) -> Outcome {
     Outcome::overlapping(Overlap::Pieces(contact))
 }
 
-fn unresolved(reason: Limit) -> Outcome {
+fn unresolved_outcome(reason: Limit) -> Outcome {
     Outcome::unresolved(0.0, reason)
 }
 

@@ -3,7 +3,7 @@
 /// A collection of waiting items, from which a search takes the next one.
 pub(crate) trait Waiting<T> {
     /// Adds an item that waits until a clock ≥ 0.
-    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full>;
+    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull>;
 
     /// Returns the next item and its clock.
     fn next(&mut self) -> Option<(f64, &mut T)>;
@@ -18,7 +18,7 @@ pub(crate) trait Waiting<T> {
     ///
     /// # Panics
     /// When no item waits.
-    fn renew(&mut self, clock: f64, rank: Rank);
+    fn postpone_as_newest(&mut self, clock: f64, rank: Rank);
 
     /// Replaces the next item by a new one.
     ///
@@ -39,4 +39,4 @@ pub(crate) enum Rank {
 
 /// The collection is full: it holds as many items as its indices allow.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Full;
+pub(crate) struct QueueFull;

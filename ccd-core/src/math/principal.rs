@@ -1,7 +1,7 @@
 //! The principal axes of points: their directions of largest and smallest spread.
 
 use crate::rounding::SQUARES;
-use crate::tuning::LEAST_TURN;
+use crate::tuning::MIN_JACOBI_ANGLE;
 use glam::{DMat3, DVec3};
 
 /// Returns the eigenvectors of the weighted points' covariance, by Jacobi rotations.
@@ -26,7 +26,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
     for sweep in 0..12 {
         let (i, j) = [(0, 1), (0, 2), (1, 2)][sweep % 3];
         // A rotation by a smaller angle does not change a box noticeably.
-        if !(m[i][j].abs() > LEAST_TURN * (m[j][j] - m[i][i]).abs()) {
+        if !(m[i][j].abs() > MIN_JACOBI_ANGLE * (m[j][j] - m[i][i]).abs()) {
             continue;
         }
         let (s, c) = half_angle(2.0 * m[i][j], m[j][j] - m[i][i]);

@@ -1,35 +1,35 @@
 //! Computes for how long a gap stays open.
 
 use crate::rounding::RATE_F64;
-use crate::tuning::WORTHWHILE;
+use crate::tuning::MIN_NEWTON_GROWTH;
 
-/// A gap that decreases by at most `rate τ + bend τ²/2` within a time `τ`. The second derivative `bend` is negative if
-/// the bodies accelerate away from each other.
+/// A gap that decreases by at most `rate τ + second_derivative τ²/2` within a time `τ`. The second derivative
+/// `second_derivative` is negative if the bodies accelerate away from each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) gap: f64,
     pub(crate) rate: f64,
-    pub(crate) bend: f64,
+    pub(crate) second_derivative: f64,
 }
 
 impl Gap {
     /// Returns the longest time for which the gap certainly stays open; 0 if it is closed or NaN.
     #[inline]
     pub(crate) fn free_time(&self) -> f64 {
-        let (gap, rate, bend) = (self.gap, self.rate, self.bend);
+        let (gap, rate, second_derivative) = (self.gap, self.rate, self.second_derivative);
         if rate.is_nan() {
             return 0.0;
         }
-        if bend < 0.0 {
-            return self.free_time_of_parting();
+        if second_derivative < 0.0 {
+            return self.free_time_decelerating();
         }
-        let root = (rate * rate + 2.0 * bend * gap).sqrt();
+        let root = (rate * rate + 2.0 * second_derivative * gap).sqrt();
         // If the squares underflow, the root is still at least the rate; NaN stays NaN.
         let root = if root < rate.abs() { rate.abs() } else { root };
         let tau = if rate > 0.0 {
             2.0 * gap / (rate + root)
-        } else if bend > 0.0 {
-            (root - rate) / bend
+        } else if second_derivative > 0.0 {
+            (root - rate) / second_derivative
         } else {
             f64::INFINITY
         };
@@ -41,11 +41,11 @@ impl Gap {
         }
     }
 
-    /// Returns the free time for a negative `bend`: the gap closes ever slower, and may never close.
+    /// Returns the free time for a negative `second_derivative`: the gap closes ever slower, and may never close.
     #[cold]
-    fn free_time_of_parting(&self) -> f64 {
-        let (gap, rate, bend) = (self.gap, self.rate, self.bend);
-        let (square, lost) = (rate * rate, -2.0 * bend * gap);
+    fn free_time_decelerating(&self) -> f64 {
+        let (gap, rate, second_derivative) = (self.gap, self.rate, self.second_derivative);
+        let (square, lost) = (rate * rate, -2.0 * second_derivative * gap);
         // A sum that is lost to rounding or to underflow counts as zero.
         let left = (square - lost) + RATE_F64 * (square + lost) + f64::MIN_POSITIVE;
         let tau = if rate > 0.0 && left >= 0.0 {
@@ -78,7 +78,7 @@ pub(crate) fn first_crossing(
             return None;
         }
         // Steps shrink from here on, and the rest is not worth another round.
-        if step <= tau * WORTHWHILE {
+        if step <= tau * MIN_NEWTON_GROWTH {
             break;
         }
     }

@@ -45,7 +45,7 @@ impl Path {
         let axis = unit(spin).unwrap_or(DVec3::ZERO);
         // The rotation of a body that does not turn has only the constant part.
         let [cosine, sine, constant] = if rate > 0.0 {
-            let constant = outer(axis) * start.rotation;
+            let constant = outer_product(axis) * start.rotation;
             let sine = cross_matrix(axis) * start.rotation;
             [start.rotation - constant, sine, constant]
         } else {
@@ -77,7 +77,7 @@ impl Path {
 
     /// Returns the part of the path between two times, with times from 0 to 1 again. Positions are off by
     /// [`place_rounding`](crate::rounding::place_rounding) at most.
-    pub(crate) fn part(&self, [from, to]: [f64; 2]) -> Self {
+    pub(crate) fn subpath(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
         let (sin, cos) = sin_cos(self.rate * from);
         Path {
@@ -153,7 +153,7 @@ impl Path {
 
     /// Returns the largest distance of points of the body from the axis of rotation. It is constant; 0 if the body does
     /// not turn.
-    pub(crate) fn reach(&self, points: &[DVec3]) -> f64 {
+    pub(crate) fn max_distance_from_axis(&self, points: &[DVec3]) -> f64 {
         if !self.turns() {
             return 0.0;
         }
@@ -178,7 +178,7 @@ impl Path {
 }
 
 /// Returns the outer product `u uᵀ`.
-fn outer(u: DVec3) -> DMat3 {
+fn outer_product(u: DVec3) -> DMat3 {
     DMat3::from_cols(u * u.x, u * u.y, u * u.z)
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct Period {
 
 /// A body's path, with the largest distance of its points from the centre of rotation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reaching<'p> {
+pub(crate) struct PathWithReach<'p> {
     pub(crate) path: &'p Path,
     pub(crate) reach: f64,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Reaching<'p> {
 impl Period {
     /// Returns the periods that fit twice into the whole time, in ascending order. After longer periods, distances
     /// change less.
-    pub(crate) fn all(bodies: [Reaching<'_>; 2]) -> impl Iterator<Item = Period> {
+    pub(crate) fn all(bodies: [PathWithReach<'_>; 2]) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
         let [slow, fast] = if a.path.rate > b.path.rate {
             [b, a]
@@ -59,7 +59,7 @@ impl Period {
     }
 
     /// Returns a time slightly longer than the period, so that whole periods leave no time out.
-    pub(crate) fn covering(&self) -> f64 {
+    pub(crate) fn length_rounded_up(&self) -> f64 {
         self.length * (1.0 + TURNS_F64)
     }
 }

@@ -100,7 +100,7 @@ impl Pose {
     }
 
     /// Returns the pose translated by a vector.
-    pub(crate) fn moved(&self, by: DVec3) -> Pose {
+    pub(crate) fn translated(&self, by: DVec3) -> Pose {
         Pose::from_unit(self.translation + by, self.rotation)
     }
 

@@ -12,27 +12,27 @@ use glam::{DMat3, DVec3};
 /// in the rotation of a single [`Path`].
 #[derive(Clone, Debug)]
 pub(crate) struct View {
-    seen: Parts,
+    seen: RelativeRotation,
     /// The centre of rotation of the seeing body, in that body's frame.
     centre: Row,
     other_centre: Row,
 }
 
 #[derive(Clone, Debug)]
-enum Parts {
+enum RelativeRotation {
     OneTurns {
-        rotation: Turning<[Row; 3]>,
+        rotation: RotatingQuantity<[Row; 3]>,
         /// The vector between the centres of rotation over time, and its rate of change.
-        offset: Turning<Row>,
-        change: Turning<Row>,
-        acceleration: Option<Turning<Row>>,
+        offset: RotatingQuantity<Row>,
+        change: RotatingQuantity<Row>,
+        acceleration: Option<RotatingQuantity<Row>>,
         spin: Row,
     },
     /// Both bodies turn; vectors are in the world's frame. Vectors are along the axes of the world.
     BothTurn {
         /// The inverse of the seeing body's rotation.
-        inverse: Turning<[Row; 3]>,
-        other: Turning<[Row; 3]>,
+        inverse: RotatingQuantity<[Row; 3]>,
+        other: RotatingQuantity<[Row; 3]>,
         offset: Row,
         change: Row,
         acceleration: Option<Row>,
@@ -42,14 +42,14 @@ enum Parts {
 
 /// A quantity that turns: `cos(ω s) P + sin(ω s) Q + K`.
 #[derive(Clone, Copy, Debug)]
-struct Turning<T> {
+struct RotatingQuantity<T> {
     rate: f64,
     parts: [T; 3],
 }
 
 /// The relative motion of two bodies at an instant, in the seeing body's frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen<L: Simd> {
+pub(crate) struct RelativeState<L: Simd> {
     /// The rotation from the seen body's frame to the seeing body's.
     pub(crate) rotation: PackedMatrix<L>,
     /// The vector from the seeing body's centre of rotation to the seen body's.
@@ -71,16 +71,16 @@ impl View {
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
         let inverse = own.rotations().map(|part| part.transpose());
         let seen = if own.turns() && other.turns() {
-            Parts::BothTurn {
-                inverse: Turning::new(own.rate, inverse),
-                other: Turning::new(other.rate, other.rotations()),
+            RelativeRotation::BothTurn {
+                inverse: RotatingQuantity::new(own.rate, inverse),
+                other: RotatingQuantity::new(other.rate, other.rotations()),
                 offset: row(offset),
                 change: row(change),
                 acceleration: acceleration.map(row),
                 spin: row(other.spin),
             }
         } else {
-            Parts::one_turns(own, other, inverse, [offset, change], acceleration)
+            RelativeRotation::one_body_turns(own, other, inverse, [offset, change], acceleration)
         };
         View {
             seen,
@@ -90,9 +90,9 @@ impl View {
     }
 
     #[inline(always)]
-    pub(crate) fn at<L: Simd>(&self, level: L, s: f64) -> Seen<L> {
+    pub(crate) fn at<L: Simd>(&self, level: L, s: f64) -> RelativeState<L> {
         match &self.seen {
-            Parts::OneTurns {
+            RelativeRotation::OneTurns {
                 rotation,
                 offset,
                 change,
@@ -101,8 +101,9 @@ impl View {
             } => {
                 let angle = sin_cos(rotation.rate * s);
                 let acceleration = acceleration.map(|change| change.vector(level, angle));
-                let [travel, change] = accelerated(change.vector(level, angle), acceleration, s);
-                Seen {
+                let [travel, change] =
+                    displacement_and_rate(change.vector(level, angle), acceleration, s);
+                RelativeState {
                     rotation: rotation.matrix(level, angle),
                     offset: offset.vector(level, angle) + travel,
                     velocity: -change,
@@ -110,7 +111,7 @@ impl View {
                     spin: Packed::load(level, spin),
                 }
             }
-            Parts::BothTurn {
+            RelativeRotation::BothTurn {
                 inverse,
                 other,
                 offset,
@@ -121,8 +122,9 @@ impl View {
                 let inverse = inverse.matrix(level, sin_cos(inverse.rate * s));
                 let other = other.matrix(level, sin_cos(other.rate * s));
                 let acceleration = acceleration.map(|change| Packed::load(level, &change));
-                let [travel, change] = accelerated(Packed::load(level, change), acceleration, s);
-                Seen {
+                let [travel, change] =
+                    displacement_and_rate(Packed::load(level, change), acceleration, s);
+                RelativeState {
                     rotation: inverse * other,
                     offset: inverse * (Packed::load(level, offset) + travel),
                     velocity: inverse * -change,
@@ -146,10 +148,10 @@ impl View {
     }
 }
 
-impl Parts {
+impl RelativeRotation {
     /// Prepares the relative motion if at most one of the bodies turns. The rotation of the other one has only the
     /// constant part.
-    fn one_turns(
+    fn one_body_turns(
         own: &Path,
         other: &Path,
         inverse: [DMat3; 3],
@@ -165,13 +167,13 @@ impl Parts {
                 inverse[k] * others[2]
             }
         });
-        let seen = |v: DVec3| Turning {
+        let seen = |v: DVec3| RotatingQuantity {
             rate,
             parts: inverse.map(|part| row(part * v)),
         };
         let [offset, change] = offset.map(seen);
-        Parts::OneTurns {
-            rotation: Turning::new(rate, rotation),
+        RelativeRotation::OneTurns {
+            rotation: RotatingQuantity::new(rate, rotation),
             offset,
             change,
             acceleration: acceleration.map(seen),
@@ -180,9 +182,9 @@ impl Parts {
     }
 }
 
-impl Turning<[Row; 3]> {
+impl RotatingQuantity<[Row; 3]> {
     fn new(rate: f64, parts: [DMat3; 3]) -> Self {
-        Turning {
+        RotatingQuantity {
             rate,
             parts: parts.map(rows),
         }
@@ -196,7 +198,7 @@ impl Turning<[Row; 3]> {
     }
 }
 
-impl Turning<Row> {
+impl RotatingQuantity<Row> {
     #[inline(always)]
     fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> Packed<L> {
         let [p, q, k] = &self.parts;
@@ -206,7 +208,7 @@ impl Turning<Row> {
 
 /// Returns the displacement until `s`, and the velocity at `s`, for a constant acceleration.
 #[inline(always)]
-fn accelerated<L: Simd>(
+fn displacement_and_rate<L: Simd>(
     change: Packed<L>,
     acceleration: Option<Packed<L>>,
     s: f64,

@@ -6,13 +6,13 @@ use crate::rounding::RATE_F64;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// The height of a moving point along a fixed axis as a function of time: `height + drift τ + pull τ²/2 + (cos ωτ − 1)
-/// p + sin ωτ q`.
+/// The height of a moving point along a fixed axis as a function of time, `height + linear_rate τ + linear_acceleration
+/// τ²/2 + (cos ωτ − 1) p + sin ωτ q`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Track {
     height: f64,
-    drift: f64,
-    pull: f64,
+    linear_rate: f64,
+    linear_acceleration: f64,
     p: f64,
     q: f64,
     omega: f64,
@@ -21,17 +21,19 @@ pub(crate) struct Track {
 impl Track {
     #[inline]
     pub(crate) fn height_at(&self, tau: f64, angle: Angle) -> f64 {
-        let rise = (self.drift + 0.5 * self.pull * tau) * tau;
-        self.height + rise + angle.cos_minus_one * self.p + angle.sin * self.q
+        let linear_displacement = (self.linear_rate + 0.5 * self.linear_acceleration * tau) * tau;
+        self.height + linear_displacement + angle.cos_minus_one * self.p + angle.sin * self.q
     }
 
     #[inline]
     pub(crate) fn rate_at(&self, tau: f64, angle: Angle) -> f64 {
-        self.drift + self.pull * tau + self.omega * (angle.cos * self.q - angle.sin * self.p)
+        self.linear_rate
+            + self.linear_acceleration * tau
+            + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `drift` and `pull`.
-    /// `end` is the rotation at `horizon`.
+    /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `linear_rate` and
+    /// `linear_acceleration`. `end` is the rotation at `horizon`.
     pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;
@@ -58,7 +60,7 @@ impl Track {
 
     /// Returns an upper bound of the second derivative due to rotation.
     #[inline]
-    pub(crate) fn bend(&self) -> f64 {
+    pub(crate) fn second_derivative(&self) -> f64 {
         self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
     }
 }
@@ -66,12 +68,12 @@ impl Track {
 /// The motion along one axis that all points of a body have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisMotion {
-    drift: f64,
-    pull: f64,
+    linear_rate: f64,
+    linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
-    across: DVec3,
+    perpendicular_part: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
-    beside: DVec3,
+    cross_product: DVec3,
     omega: f64,
 }
 
@@ -80,52 +82,55 @@ impl AxisMotion {
     #[inline]
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
         AxisMotion {
-            drift: linear.dot(n),
-            pull: 0.0,
-            across: n - n.dot(unit) * unit,
-            beside: n.cross(unit),
+            linear_rate: linear.dot(n),
+            linear_acceleration: 0.0,
+            perpendicular_part: n - n.dot(unit) * unit,
+            cross_product: n.cross(unit),
             omega,
         }
     }
 
     /// Sets the second derivative that the heights of all points have in common.
-    pub(crate) fn pulled(self, pull: f64) -> Self {
-        AxisMotion { pull, ..self }
+    pub(crate) fn with_acceleration(self, linear_acceleration: f64) -> Self {
+        AxisMotion {
+            linear_acceleration,
+            ..self
+        }
     }
 
     /// Returns the present velocity along the axis, without rotation.
     #[inline]
-    pub(crate) fn drift(&self) -> f64 {
-        self.drift
+    pub(crate) fn linear_rate(&self) -> f64 {
+        self.linear_rate
     }
 
     /// Returns the acceleration along the axis, without rotation.
     #[inline]
-    pub(crate) fn pull(&self) -> f64 {
-        self.pull
+    pub(crate) fn linear_acceleration(&self) -> f64 {
+        self.linear_acceleration
     }
 
     /// Returns the displacement along the axis after `tau`, without rotation.
     #[inline]
-    pub(crate) fn rise(&self, tau: f64) -> f64 {
-        (self.drift + 0.5 * self.pull * tau) * tau
+    pub(crate) fn linear_displacement(&self, tau: f64) -> f64 {
+        (self.linear_rate + 0.5 * self.linear_acceleration * tau) * tau
     }
 
     /// Returns an upper bound of the second derivative of heights due to rotation, for points at most `distance` from
     /// the axis of rotation.
     #[inline]
-    pub(crate) fn bend(&self, distance: f64) -> f64 {
-        self.omega * self.omega * length(self.across) * distance
+    pub(crate) fn second_derivative(&self, distance: f64) -> f64 {
+        self.omega * self.omega * length(self.perpendicular_part) * distance
     }
 
     #[inline]
     pub(crate) fn track(&self, height: f64, arm: DVec3) -> Track {
         Track {
             height,
-            drift: self.drift,
-            pull: self.pull,
-            p: self.across.dot(arm),
-            q: self.beside.dot(arm),
+            linear_rate: self.linear_rate,
+            linear_acceleration: self.linear_acceleration,
+            p: self.perpendicular_part.dot(arm),
+            q: self.cross_product.dot(arm),
             omega: self.omega,
         }
     }
@@ -160,40 +165,40 @@ impl Angle {
 
 /// A vector that turns about an axis at a constant rate.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spinning {
+pub(crate) struct RotatingVector {
     start: DVec3,
     /// The component of the vector perpendicular to the axis.
-    across: DVec3,
+    perpendicular_part: DVec3,
     /// The cross product `u × v` of the axis and the vector.
-    beside: DVec3,
+    cross_product: DVec3,
 }
 
-impl Spinning {
+impl RotatingVector {
     /// Creates the vector from its value at the start; `unit` is the direction of the axis, or zero without rotation.
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
-        Spinning {
+        RotatingVector {
             start,
-            across: start - start.dot(unit) * unit,
-            beside: unit.cross(start),
+            perpendicular_part: start - start.dot(unit) * unit,
+            cross_product: unit.cross(start),
         }
     }
 
     #[inline]
     pub(crate) fn at(&self, angle: Angle) -> DVec3 {
-        self.start + self.across * angle.cos_minus_one + self.beside * angle.sin
+        self.start + self.perpendicular_part * angle.cos_minus_one + self.cross_product * angle.sin
     }
 
     /// Returns the derivative of the vector, per radian.
     #[inline]
-    pub(crate) fn slope_at(&self, angle: Angle) -> DVec3 {
-        self.beside * angle.cos - self.across * angle.sin
+    pub(crate) fn derivative_at(&self, angle: Angle) -> DVec3 {
+        self.cross_product * angle.cos - self.perpendicular_part * angle.sin
     }
 
     /// Returns the length of the derivative, which is constant.
     #[inline]
-    pub(crate) fn slope(&self) -> f64 {
-        self.beside.length()
+    pub(crate) fn derivative_length(&self) -> f64 {
+        self.cross_product.length()
     }
 }
 

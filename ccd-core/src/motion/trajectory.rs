@@ -98,7 +98,7 @@ impl Stretch {
         if self.acceleration == DVec3::ZERO {
             pose
         } else {
-            pose.moved(0.5 * time * (time * self.acceleration))
+            pose.translated(0.5 * time * (time * self.acceleration))
         }
     }
 
@@ -113,7 +113,7 @@ impl Stretch {
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    pub(crate) fn started(&self, at: f64) -> Result<Stretch, InputError> {
+    pub(crate) fn with_start_at(&self, at: f64) -> Result<Stretch, InputError> {
         let pose = self.pose(at);
         // The pose is checked, and its quaternion normalised once more.
         let start = Pose::new(pose.translation(), pose.rotation())?;
@@ -273,7 +273,7 @@ pub struct Acceleration {
 
 impl Acceleration {
     /// Returns a bound of the deviation from the tangent after a time that changes of the acceleration cause.
-    fn over(self, time: f64) -> f64 {
+    fn deviation_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = STRETCH_F64 * (time * (time * length(self.vector)));
         time * (time * (time * self.jerk)) / 6.0 * (1.0 + STRETCH_F64) + rounding
@@ -282,7 +282,7 @@ impl Acceleration {
 
 impl Accelerations {
     /// Returns a bound of the deviation from a tangent after a time that the accelerations cause.
-    fn over(self, time: f64) -> Stray {
+    fn deviation_after(self, time: f64) -> Stray {
         // The time and the products are rounded.
         let square = 0.5 * time * time * (1.0 + STRETCH_F64);
         Stray {
@@ -302,15 +302,15 @@ impl<S: Smooth + ?Sized> Trajectory for S {
         let mut tangent = Stretch::exact(motion);
         // Bounds of a stretch of no length may be infinite.
         if half > 0.0 {
-            tangent.stray = self.accelerations(from, to).over(half);
+            tangent.stray = self.accelerations(from, to).deviation_after(half);
             if let Some(acceleration) = acceleration
-                && acceleration.over(half) < tangent.stray.shift
+                && acceleration.deviation_after(half) < tangent.stray.shift
             {
                 tangent.acceleration = acceleration.vector;
-                tangent.stray.shift = acceleration.over(half);
+                tangent.stray.shift = acceleration.deviation_after(half);
             }
         }
-        let stretch = tangent.started(-before)?;
+        let stretch = tangent.with_start_at(-before)?;
         let rounding = stretch.rounding_of_start(half) + self.rounding(from, to);
         Ok(Stretch {
             stray: stretch.stray + rounding,
@@ -333,7 +333,7 @@ impl Trajectory for Motion {
         if from == 0.0 {
             return Ok(Stretch::exact(*self));
         }
-        let stretch = Stretch::exact(*self).started(from)?;
+        let stretch = Stretch::exact(*self).with_start_at(from)?;
         let stray = stretch.rounding_of_start(from);
         Ok(Stretch { stray, ..stretch })
     }

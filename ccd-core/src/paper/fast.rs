@@ -86,10 +86,10 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let Some(hulls) = HullPair::of(problem) else {
+        let Some(hulls) = HullPair::for_problem(problem) else {
             return self.without_trees.solve(problem, oracle);
         };
-        self.reaches.forget();
+        self.reaches.invalidate();
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
             in_rounds(problem, meter, |problem, meter| {
@@ -111,7 +111,7 @@ impl<O: DistanceOracle> Fast<O> {
         meter: &mut Meter,
     ) -> Outcome {
         let mut proven = Proven::default();
-        self.front.plant(hulls);
+        self.front.reset(hulls);
         let mut s = 0.0;
         while s < 1.0 {
             meter.stats.advancements += 1;
@@ -139,7 +139,7 @@ impl<O: DistanceOracle> Fast<O> {
             }
             s = next;
         }
-        proven.end(problem)
+        proven.finish(problem)
     }
 }
 

@@ -92,12 +92,13 @@ impl<O: DistanceOracle> Naive<O> {
                 if let Err(limit) = meter.count_visit(problem) {
                     return unresolved(s, limit);
                 }
-                let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
+                let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step = pair.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
-                    snapshot.directed_time(checked, kept, self.bound, reaches)
-                });
-                match proven.conclude(problem, oracle, meter, step, s) {
+                let step =
+                    pair.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
+                        snapshot.directed_time(checked, kept, self.bound, reaches)
+                    });
+                match proven.on_advance(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
                 }
@@ -107,12 +108,14 @@ impl<O: DistanceOracle> Naive<O> {
             }
             s = next;
         }
-        proven.end(problem)
+        proven.finish(problem)
     }
 }
 
 /// Returns for each piece the largest distance of its points from its body's axis of rotation.
 fn reaches(side: &Side<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
-    pieces.map(|piece| side.path.reach(piece.points)).collect()
+    pieces
+        .map(|piece| side.path.max_distance_from_axis(piece.points))
+        .collect()
 }

@@ -6,14 +6,14 @@ use crate::motion::pose::Pose;
 use crate::query::Moving;
 use crate::settings::Settings;
 
-fn posed(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
+fn build_problem(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
     let ball = Body::ball(1.0).unwrap();
     let moving = |motion| Moving::from((&ball, motion));
     let still = Motion::still(Pose::IDENTITY);
     Problem::about(moving(motion), moving(still), duration, config).map(|p| p.tolerance())
 }
 
-fn refused(result: Result<f64, InputError>) -> &'static str {
+fn assert_refused(result: Result<f64, InputError>) -> &'static str {
     match result {
         Err(InputError::OutOfRange { what, .. }) => what,
         other => panic!("{other:?}"),
@@ -25,37 +25,52 @@ fn quantities_out_of_range_are_refused_by_name() {
     let still = Motion::still(Pose::IDENTITY);
     let config = Settings::DEFAULT;
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(refused(posed(still, bad, &config)), "duration");
+        assert_eq!(
+            assert_refused(build_problem(still, bad, &config)),
+            "duration"
+        );
         let margin = Settings {
             margin: bad,
             ..config.clone()
         };
-        assert_eq!(refused(posed(still, 1.0, &margin)), "margin");
+        assert_eq!(assert_refused(build_problem(still, 1.0, &margin)), "margin");
     }
     for bad in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
         let tolerance = Settings {
             tolerance: bad,
             ..config.clone()
         };
-        assert_eq!(refused(posed(still, 1.0, &tolerance)), "tolerance");
+        assert_eq!(
+            assert_refused(build_problem(still, 1.0, &tolerance)),
+            "tolerance"
+        );
     }
     let new = |velocity, spin| Motion::new(Pose::IDENTITY, velocity, spin).unwrap();
     let fast = new(1e10 * DVec3::X, DVec3::ZERO);
-    assert!(posed(fast, 1.0, &config).is_ok());
-    assert_eq!(refused(posed(fast, 1e3, &config)), "travel");
-    assert_eq!(refused(posed(fast, f64::MAX, &config)), "travel");
+    assert!(build_problem(fast, 1.0, &config).is_ok());
+    assert_eq!(assert_refused(build_problem(fast, 1e3, &config)), "travel");
+    assert_eq!(
+        assert_refused(build_problem(fast, f64::MAX, &config)),
+        "travel"
+    );
     let turning = new(DVec3::ZERO, 1e5 * DVec3::Y);
-    assert!(posed(turning, 1.0, &config).is_ok());
-    assert_eq!(refused(posed(turning, 11.0, &config)), "turn");
-    assert_eq!(refused(posed(turning, f64::MAX, &config)), "turn");
+    assert!(build_problem(turning, 1.0, &config).is_ok());
+    assert_eq!(
+        assert_refused(build_problem(turning, 11.0, &config)),
+        "turn"
+    );
+    assert_eq!(
+        assert_refused(build_problem(turning, f64::MAX, &config)),
+        "turn"
+    );
 }
 
 #[test]
 fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     let config = Settings::DEFAULT;
     let pose = |at: f64| Pose::at(at * DVec3::Z).unwrap();
-    let refusal = |motion| refused(posed(motion, 1.0, &config));
-    let good = |motion| posed(motion, 1.0, &config).is_ok();
+    let refusal = |motion| assert_refused(build_problem(motion, 1.0, &config));
+    let good = |motion| build_problem(motion, 1.0, &config).is_ok();
     let about = |start, centre| Motion::about(start, DVec3::ZERO, DVec3::Y, centre).unwrap();
     for sign in [1.0, -1.0] {
         let (most, beyond) = (sign * MAX_COORDINATE, sign * 1e13);
@@ -76,7 +91,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     let apart =
         |at: f64| Problem::about(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
     assert!(apart(0.5 * MAX_COORDINATE).is_ok());
-    assert_eq!(refused(apart(0.6 * MAX_COORDINATE)), "travel");
+    assert_eq!(assert_refused(apart(0.6 * MAX_COORDINATE)), "travel");
     // Bodies side by side are as exact as anywhere, whatever their position.
     let side_by_side = Problem::about(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
     assert_eq!(side_by_side.tolerance(), config.tolerance);
@@ -87,7 +102,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
             ..config.clone()
         };
         assert_eq!(
-            posed(Motion::still(pose(3.0)), 1.0, &margin).is_ok(),
+            build_problem(Motion::still(pose(3.0)), 1.0, &margin).is_ok(),
             is_good
         );
         let tolerance = Settings {
@@ -95,7 +110,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
             ..config.clone()
         };
         assert_eq!(
-            posed(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
+            build_problem(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
             is_good
         );
         assert_eq!(Body::ball(large).is_ok(), is_good);
@@ -111,12 +126,12 @@ fn a_tolerance_that_cannot_be_certified_is_raised() {
         ..Settings::DEFAULT
     };
     let (low, high) = (
-        posed(near, 1.0, &fine).unwrap(),
-        posed(far, 1.0, &fine).unwrap(),
+        build_problem(near, 1.0, &fine).unwrap(),
+        build_problem(far, 1.0, &fine).unwrap(),
     );
     assert!(low > 1e-15 && low < 1e-12, "{low:e}");
     assert!(high > 1e3 * low && high < 1e-3, "{high:e}");
-    assert_eq!(posed(near, 1.0, &Settings::DEFAULT), Ok(1e-3));
+    assert_eq!(build_problem(near, 1.0, &Settings::DEFAULT), Ok(1e-3));
 }
 
 #[test]
@@ -149,17 +164,20 @@ fn ranges_are_named_as_they_are() {
         tolerance,
         ..config.clone()
     };
-    named(posed(still, 1.0, &tolerance(0.0)), LEAST_TOLERANCE);
-    named(posed(still, 1.0, &tolerance(0.0)), MAX_COORDINATE);
+    named(build_problem(still, 1.0, &tolerance(0.0)), LEAST_TOLERANCE);
+    named(build_problem(still, 1.0, &tolerance(0.0)), MAX_COORDINATE);
     let margin = Settings {
         margin: -1.0,
         ..config.clone()
     };
-    named(posed(still, 1.0, &margin), MAX_COORDINATE);
+    named(build_problem(still, 1.0, &margin), MAX_COORDINATE);
     let far = Motion::still(Pose::at([2.0 * MAX_COORDINATE, 0.0, 0.0]).unwrap());
-    named(posed(far, 1.0, &config), MAX_COORDINATE);
+    named(build_problem(far, 1.0, &config), MAX_COORDINATE);
     let travels = Motion::new(Pose::IDENTITY, [2.0 * MAX_COORDINATE, 0.0, 0.0], [0.0; 3]);
-    named(posed(travels.unwrap(), 1.0, &config), MAX_COORDINATE);
+    named(
+        build_problem(travels.unwrap(), 1.0, &config),
+        MAX_COORDINATE,
+    );
     let turns = Motion::new(Pose::IDENTITY, [0.0; 3], [2.0 * MAX_TURN, 0.0, 0.0]);
-    named(posed(turns.unwrap(), 1.0, &config), MAX_TURN);
+    named(build_problem(turns.unwrap(), 1.0, &config), MAX_TURN);
 }

@@ -8,7 +8,7 @@ use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
 use crate::engine::proven::{Proven, free_by_bounding_volumes};
 use crate::engine::search::{Advance, Question, Search};
-use crate::engine::start::overlapping;
+use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
@@ -43,7 +43,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
                 in_rounds(problem, meter, |problem, meter| {
                     self.stack.clear();
-                    let outcome = self.contact(problem, oracle, meter);
+                    let outcome = self.contact_outcome(problem, oracle, meter);
                     let stats = &mut meter.stats;
                     stats.peak_front = stats.peak_front.max(self.stack.peak());
                     outcome
@@ -51,10 +51,15 @@ impl<O: DistanceOracle> DepthFirst<O> {
             });
         self.stack.clear();
         self.scratch = scratch;
-        any(answer)
+        start_contact_as_any(answer)
     }
 
-    fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
+    fn contact_outcome(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Outcome {
         if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
@@ -63,7 +68,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             oracle,
             meter,
         };
-        let mut any = Any::default();
+        let mut any = AnyContactSearch::default();
         match search.run(problem, &mut any) {
             // Waiting pairs are proven apart only until their clocks.
             Outcome::Unresolved(known) => Outcome::unresolved(
@@ -76,7 +81,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Converts an answer to one in which a contact at the start counts like any other contact.
-pub(crate) fn any(answer: Answer) -> Answer {
+pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
     let outcome = match answer.outcome {
         Outcome::Touching { contact } => Outcome::Contact { time: 0.0, contact },
         outcome => outcome,
@@ -86,31 +91,31 @@ pub(crate) fn any(answer: Answer) -> Answer {
 
 /// The search for any contact of the bodies.
 #[derive(Default)]
-struct Any {
+struct AnyContactSearch {
     proven: Proven,
     /// The clock of the first pair that could not be proven to the end, and the reason.
-    stuck: Option<(f64, Limit)>,
+    first_failure: Option<(f64, Limit)>,
 }
 
-impl Any {
+impl AnyContactSearch {
     /// Gives up a pair that cannot be proven further, because another pair may be in contact.
-    fn leave(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
-        if self.stuck.is_none_or(|(first, _)| s < first) {
-            self.stuck = Some((s, limit));
+    fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
+        if self.first_failure.is_none_or(|(first, _)| s < first) {
+            self.first_failure = Some((s, limit));
         }
         ControlFlow::Continue(f64::INFINITY)
     }
 
-    fn unresolved(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-        let stuck = self.stuck.map_or(f64::INFINITY, |(first, _)| first);
-        Outcome::unresolved(problem.time(lesser(s, stuck)), reason)
+    fn unresolved_outcome(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+        let first_failure = self.first_failure.map_or(f64::INFINITY, |(first, _)| first);
+        Outcome::unresolved(problem.time(lesser(s, first_failure)), reason)
     }
 }
 
-impl<O: DistanceOracle> Question<O> for Any {
+impl<O: DistanceOracle> Question<O> for AnyContactSearch {
     type Found = Outcome;
 
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         _: &mut O,
@@ -125,20 +130,20 @@ impl<O: DistanceOracle> Question<O> for Any {
                 time: problem.time(s),
                 contact: contact.cap_lower_bound(0.0),
             },
-            Step::Overlap(contact) => overlapping(contact),
-            Step::Stalled => return self.leave(s, Limit::Stalled),
-            Step::GaveUp => return self.leave(s, Limit::OracleGaveUp),
+            Step::Overlap(contact) => overlap_outcome(contact),
+            Step::Stalled => return self.give_up_pair(s, Limit::Stalled),
+            Step::GaveUp => return self.give_up_pair(s, Limit::OracleGaveUp),
         })
     }
 
-    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Outcome {
-        self.unresolved(problem, s, limit)
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Outcome {
+        self.unresolved_outcome(problem, s, limit)
     }
 
-    fn done(&mut self, problem: &Problem<'_>) -> Outcome {
-        match self.stuck {
-            Some((s, limit)) => self.unresolved(problem, s, limit),
-            None => self.proven.end(problem),
+    fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
+        match self.first_failure {
+            Some((s, limit)) => self.unresolved_outcome(problem, s, limit),
+            None => self.proven.finish(problem),
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{SearchResult, contact_for_given_bodies, run_metered};
 use crate::engine::depth_first::DepthFirst;
 use crate::engine::meter::Meter;
-use crate::engine::nodes::common::Common;
+use crate::engine::nodes::common::NodeContext;
 use crate::engine::proven::Proven;
 use crate::engine::search::Search;
 use crate::engine::start::at_start;
@@ -22,9 +22,9 @@ use crate::query::Query;
 use crate::shortcuts::balls::least_distance;
 use crate::shortcuts::closer_look::CloserLook;
 use crate::shortcuts::rounds::Sample;
-use guess::guess;
+use guess::initial_estimate;
 use ladder::Ladder;
-use nearing::Nearing;
+use nearing::LeastDistanceSearch;
 use required::Required;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -56,7 +56,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// Bounds the least distance of two bodies with constant velocities.
     pub(crate) fn closest_approach_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let answer = match problem.clearance.filter(|_| moves(problem)) {
-            Some(distance) => self.keeps(problem, distance, oracle),
+            Some(distance) => self.decide_clearance(problem, distance, oracle),
             None => self.approach_of_bodies(problem, oracle),
         };
         answer.to_shapes(problem.excess())
@@ -68,14 +68,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let found = answer.found;
         Answer {
             outcome: found
-                .unwrap_or_else(|Beyond { lower }| unresolved(lower, Limit::OracleGaveUp)),
+                .unwrap_or_else(|Beyond { lower }| unresolved_outcome(lower, Limit::OracleGaveUp)),
             tolerance: answer.tolerance,
             stats: answer.stats,
         }
     }
 
     /// Decides whether the bodies keep a distance, or their shapes come nearer.
-    fn keeps(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
+    fn decide_clearance(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
         let required = Required {
             distance,
             tolerance: problem.tolerance,
@@ -84,7 +84,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         let begun = problem.deadline.map(|_| Instant::now());
         let answer = required.decide(|rung| {
-            let mut problem = rung.problem(&problem.measuring());
+            let mut problem = rung.problem(&problem.for_distances());
             problem.deadline = begun.and_then(|begun| {
                 (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
             });
@@ -95,7 +95,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
     /// Like [`DepthFirst::approach_of_bodies`], if the bodies come nearer than `beyond`. If they meet, the answer does
     /// not say whether they overlap at the start.
-    pub(crate) fn approach_below(
+    pub(crate) fn least_distance_below(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
@@ -114,17 +114,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> SearchResult<Result<Outcome, Beyond>> {
         let mut scratch = self.scratch.take();
         let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
-            let problem = problem.measuring();
-            let found = match Sample::of(&problem) {
+            let problem = problem.for_distances();
+            let found = match Sample::for_problem(&problem) {
                 Some(sample) => {
-                    let found = self.approach(&sample.part, beyond, oracle, meter);
+                    let found = self.search_least_distance(&sample.part, beyond, oracle, meter);
                     at_all_times(&sample, found)
                 }
-                None => self.approach(&problem, beyond, oracle, meter),
+                None => self.search_least_distance(&problem, beyond, oracle, meter),
             };
             let told = found.map(|found| {
                 let found = last_look(&problem, oracle, meter, found);
-                told(&problem, oracle, meter, found)
+                outcome_for_given_bodies(&problem, oracle, meter, found)
             });
             let width = told.as_ref().map_or(0.0, Outcome::width);
             // Distances may not be known to the requested tolerance.
@@ -134,7 +134,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         answer
     }
 
-    fn approach(
+    fn search_least_distance(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
@@ -157,17 +157,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
         meter: &mut Meter,
     ) -> Result<Outcome, Beyond> {
         if !moves(problem) {
-            return at_one_pose(problem, beyond, oracle, meter);
+            return distance_at_rest(problem, beyond, oracle, meter);
         }
-        let best = match guess(problem, beyond, oracle, meter) {
+        let best = match initial_estimate(problem, beyond, oracle, meter) {
             ControlFlow::Continue(best) => best,
             ControlFlow::Break(found) => return Ok(found),
         };
-        let mut nearing = Nearing {
+        let mut nearing = LeastDistanceSearch {
             best,
             beyond,
             proven: Proven::default(),
-            stuck: None,
+            first_failure: None,
             ladder: ladder(problem),
         };
         let mut search = Search {
@@ -175,21 +175,21 @@ impl<O: DistanceOracle> DepthFirst<O> {
             oracle,
             meter,
         };
-        if search.open(problem).is_err() {
-            return Ok(nearing.unresolved(problem, Limit::Budget));
+        if search.push_roots(problem).is_err() {
+            return Ok(nearing.unresolved_outcome(problem, Limit::Budget));
         }
         // Pairs that keep the least distance also keep any smaller one.
         loop {
             let upper = nearing.upper();
-            let below = problem.below(upper);
+            let below = problem.for_distances_below(upper);
             // Written so that NaN is the end.
             if !(upper > problem.tolerance && upper > below.contact_distance()) {
                 return nearing.found(problem, 0.0);
             }
-            let common = Common::new(&below);
+            let common = NodeContext::new(&below);
             let mut look = CloserLook::new(&below);
             while nearing.upper() == upper {
-                if let Some(rung) = nearing.ladder.due(search.meter.stats.work(), upper) {
+                if let Some(rung) = nearing.ladder.next_if_due(search.meter.stats.work(), upper) {
                     if let ControlFlow::Break(found) =
                         nearing.climb(problem, rung, search.oracle, search.meter)
                     {
@@ -199,7 +199,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     continue;
                 }
                 if let ControlFlow::Break(found) = search.visit(&common, &mut look, &mut nearing) {
-                    return nearing.at_last(problem, found, search.oracle, search.meter);
+                    return nearing.final_outcome(problem, found, search.oracle, search.meter);
                 }
             }
         }
@@ -213,7 +213,7 @@ fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<O
     })?;
     let lower = sample.lower(found.lower());
     Ok(
-        match found.map_contacts(|contact, _| sample.contact(contact)) {
+        match found.map_contacts(|contact, _| sample.widen_contact(contact)) {
             Outcome::Measured { upper, at, .. } => Outcome::Measured { lower, upper, at },
             Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
                 lower: greater(0.0, lower),
@@ -241,7 +241,7 @@ fn or_overlap<O: DistanceOracle>(
 }
 
 /// Measures the distance of bodies at rest.
-fn at_one_pose<O: DistanceOracle>(
+fn distance_at_rest<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
@@ -249,11 +249,11 @@ fn at_one_pose<O: DistanceOracle>(
 ) -> Result<Outcome, Beyond> {
     Ok(match at_start(problem, beyond, oracle, meter) {
         Some(Outcome::Touching { contact }) => {
-            Outcome::least(greater(0.0, contact.separation.lower), 0.0, contact)
+            Outcome::from_least_distance(greater(0.0, contact.separation.lower), 0.0, contact)
         }
         Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         Some(Outcome::Unresolved(known)) => {
-            unresolved(greater(0.0, least_distance(problem)), known.limit)
+            unresolved_outcome(greater(0.0, least_distance(problem)), known.limit)
         }
         _ => return Err(Beyond { lower: beyond }),
     })
@@ -270,7 +270,7 @@ pub(crate) struct Beyond {
 fn ladder(problem: &Problem<'_>) -> Ladder {
     let ladder = Ladder::new(least_distance(problem), problem.budget);
     if problem.deadline.is_some() || problem.stop.is_some() {
-        ladder.timed()
+        ladder.with_early_start()
     } else {
         ladder
     }
@@ -280,8 +280,8 @@ fn moves(problem: &Problem<'_>) -> bool {
     problem.a.path.moves() || problem.b.path.moves()
 }
 
-fn unresolved(lower: f64, limit: Limit) -> Outcome {
-    Outcome::Unresolved(Unresolved::least(lower, None, limit))
+fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
+    Outcome::Unresolved(Unresolved::for_least_distance(lower, None, limit))
 }
 
 /// Returns whether the bodies come within the tolerance after the start, and not at the start.
@@ -296,7 +296,7 @@ pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
 }
 
 /// Converts the contacts of an outcome to those of the bodies that the caller gave, if surfaces replaced them.
-fn told<O: DistanceOracle>(
+fn outcome_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -310,7 +310,7 @@ fn told<O: DistanceOracle>(
 
 /// The nearest two pieces found so far, with the clock at which they were measured.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Best {
+pub(crate) struct BestPair {
     clock: f64,
     /// The indices of the two pieces in the problem.
     pieces: [u32; 2],

@@ -3,7 +3,9 @@
 use super::along::first::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{achieved_tolerance, ignoring_start_contact, outcome_for_given_bodies};
+use crate::engine::answer::{
+    achieved_tolerance, outcome_for_given_bodies, problem_after_start_contact,
+};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::{Proven, free_by_bounding_volumes};
@@ -67,13 +69,13 @@ struct Steps<'a, O: DistanceOracle> {
     memory: BestFirst<O>,
     meter: Meter,
     /// The state of the search; `None` before the first step.
-    begun: Option<Begun>,
+    state: Option<SearchState>,
     answer: Option<Answer>,
 }
 
 /// The state of the search without the waiting pairs.
 #[derive(Debug)]
-struct Begun {
+struct SearchState {
     look: CloserLook,
     proven: Proven,
 }
@@ -141,7 +143,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         let mut meter = Meter::new(&problem);
         meter.scratch = memory.scratch.take();
         memory.queue.clear();
-        let current = problem.reporting();
+        let current = problem.reporting_start_contact();
         Steps {
             part: first_part(&current),
             current,
@@ -149,7 +151,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             problem,
             memory,
             meter,
-            begun: None,
+            state: None,
             answer: None,
         }
     }
@@ -200,18 +202,18 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             let stats = &mut self.meter.stats;
             stats.peak_front = stats.peak_front.max(self.memory.queue.peak());
             self.memory.queue.clear();
-            self.begun = None;
+            self.state = None;
             let outcome = match &mut self.part {
                 None => outcome,
-                Some((rounds, part)) => match rounds.conclude(&outcome, &mut self.meter) {
+                Some((rounds, part)) => match rounds.on_outcome(&outcome, &mut self.meter) {
                     ControlFlow::Break(outcome) => outcome,
                     ControlFlow::Continue(()) => {
-                        *part = rounds.part();
+                        *part = rounds.between_clocks();
                         continue;
                     }
                 },
             };
-            let parting = ignoring_start_contact(
+            let parting = problem_after_start_contact(
                 &self.current,
                 self.start,
                 &outcome,
@@ -250,15 +252,15 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             oracle,
             meter: &mut self.meter,
         };
-        let Begun { look, proven } = match &mut self.begun {
-            Some(begun) => begun,
-            begun => {
+        let SearchState { look, proven } = match &mut self.state {
+            Some(state) => state,
+            state => {
                 if let Some(free) = free_by_bounding_volumes(problem) {
                     return ControlFlow::Break(free);
                 }
                 let mut proven = Proven::default();
-                if search.open(problem).is_err() {
-                    return ControlFlow::Break(Question::<O>::stopped(
+                if search.push_roots(problem).is_err() {
+                    return ControlFlow::Break(Question::<O>::on_limit(
                         &mut proven,
                         problem,
                         0.0,
@@ -266,7 +268,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     ));
                 }
                 let look = CloserLook::new(problem);
-                begun.insert(Begun { look, proven })
+                state.insert(SearchState { look, proven })
             }
         };
         let reached = search.until(problem, look, proven, until);
@@ -275,8 +277,8 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
 }
 
 fn first_part<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
-    let rounds = Rounds::of(problem)?;
-    let part = rounds.part();
+    let rounds = Rounds::for_problem(problem)?;
+    let part = rounds.between_clocks();
     Some((rounds, part))
 }
 

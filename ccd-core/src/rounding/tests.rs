@@ -17,7 +17,7 @@ use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
-    Look, Pcg64, RngExt, body, direction, magnitude, rng, rotation, soup, within,
+    Pcg64, RngExt, SoupKind, body, direction, magnitude, rng, rotation, soup, within,
 };
 use crate::tests::worst::share;
 use crate::{Body, Pose};
@@ -93,7 +93,7 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
 }
 
 fn far_body(rng: &mut impl RngExt, count: usize, size: f64) -> Body {
-    let look = Look::ALL[rng.random_range(0..5)];
+    let look = SoupKind::ALL[rng.random_range(0..5)];
     let offset = match rng.random_range(0..3) {
         0 => 0.0,
         _ => magnitude(rng, 0.0, 6.0),
@@ -132,7 +132,7 @@ fn sample(
     s: f64,
     worst: &mut Worst,
 ) {
-    let of = shares_of_a_look(rng, problem, motions, duration, s);
+    let of = shares_of_comparison(rng, problem, motions, duration, s);
     worst.place = greater(worst.place, of.place);
     worst.gap = greater(worst.gap, of.gap);
     worst.distance = greater(worst.distance, of.distance);
@@ -147,7 +147,7 @@ struct Shares {
 }
 
 /// Returns the errors of positions, of a support gap and of a distance at one clock, as shares of the bound.
-fn shares_of_a_look(
+fn shares_of_comparison(
     rng: &mut impl RngExt,
     problem: &Problem<'_>,
     motions: &[Motion; 2],

@@ -16,30 +16,30 @@ pub(crate) struct Approach {
     /// An upper bound of the rate at which any two points of the nodes approach.
     rate: f64,
     /// An upper bound of the second derivative of the approach; negative if the nodes accelerate away from each other.
-    bend: f64,
+    second_derivative: f64,
 }
 
 impl Approach {
     /// Computes the bounds along a unit vector from A to B, from clock `s` on.
     pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> Self {
         let straight = straight(problem, [a, b], n, s);
-        let (mut turning, mut bend, mut speed) = (0.0, 0.0, 0.0);
+        let (mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
             let (path, radius) = (&side.path, node.radius);
             let arm = node.centre - path.centre_at(s);
             let across = n.cross(path.spin);
             // n·(ω×w) = w·(n×ω) of points at w from the centre.
-            turning += greater(0.0, node.reach(across)) + RATE_F64 * path.rate * radius;
+            turning += greater(0.0, node.extent_along(across)) + RATE_F64 * path.rate * radius;
             let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
             let across = length(across) + RATE_F64 * path.rate;
-            bend += across * path.rate * from_axis * (1.0 + RATE_F64);
-            bend += n.dot(path.acceleration) + RATE_F64 * length(path.acceleration);
+            second_derivative += across * path.rate * from_axis * (1.0 + RATE_F64);
+            second_derivative += n.dot(path.acceleration) + RATE_F64 * length(path.acceleration);
             speed += path.speed() + path.rate * (length(arm) + radius);
         }
         Approach {
             straight,
             rate: straight + turning + 2.0 * RATE_F64 * speed,
-            bend,
+            second_derivative,
         }
     }
 
@@ -48,7 +48,7 @@ impl Approach {
         let gap = Gap {
             gap,
             rate: self.rate,
-            bend: self.bend,
+            second_derivative: self.second_derivative,
         };
         lesser(f64::MAX, gap.free_time())
     }

@@ -21,8 +21,9 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
 
 /// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
 pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
-    let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
-    let distance = least_length(b.centre - a.centre, b.velocity - a.velocity) - bow(problem);
+    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
+    let distance =
+        least_length(b.centre - a.centre, b.velocity - a.velocity) - deviation_from_line(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
     // the rounding of this distance, too.
     distance - a.radius - b.radius - 2.0 * problem.rounding
@@ -30,13 +31,13 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
 
 /// Returns how far the vector between the balls' centres may be off a linear function of time, because of
 /// accelerations.
-fn bow(problem: &Problem<'_>) -> f64 {
+fn deviation_from_line(problem: &Problem<'_>) -> f64 {
     0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
 }
 
 /// Returns the clock at which the bounding balls are nearest to each other.
 pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
-    let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
+    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
     least_at(b.centre - a.centre, b.velocity - a.velocity)
 }
 
@@ -49,8 +50,8 @@ struct Ball {
 }
 
 impl Ball {
-    fn of(side: &Side<'_>) -> Self {
-        let (centre, radius) = side.body.tree().ball();
+    fn around_body(side: &Side<'_>) -> Self {
+        let (centre, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
         // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
         let turned = match path.rate {

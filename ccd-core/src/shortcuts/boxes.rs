@@ -5,7 +5,7 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
-use crate::tuning::PROJECTIONS;
+use crate::tuning::BOX_PROJECTIONS;
 use glam::DVec3;
 
 /// Returns whether one fixed plane separates both bounding boxes by more than the contact distance for the whole
@@ -20,15 +20,15 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
     if whole(&problem.a) && whole(&problem.b) {
         return false;
     }
-    let [a, b] = [&problem.a, &problem.b].map(|side| Placed::whole(side, 0.0));
+    let [a, b] = [&problem.a, &problem.b].map(|side| Placed::body_box(side, 0.0));
     // Repeated projection from one box to the other converges to the nearest points.
     let (mut on_a, mut on_b) = (a.centre, b.centre);
-    for _ in 0..PROJECTIONS {
+    for _ in 0..BOX_PROJECTIONS {
         on_a = a.project(on_b);
         on_b = b.project(on_a);
     }
     let nearest = unit(on_b - on_a);
-    let passing = unit(passing(problem, [&a, &b]));
+    let passing = unit(offset_at_closest_approach(problem, [&a, &b]));
     let ways = [nearest, passing].into_iter().flatten();
     // Between adjacent faces the offset is mostly rounding, but it is perpendicular to the faces.
     let along = ways
@@ -38,7 +38,7 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
 }
 
 /// Returns the vector between the centres when they are nearest, if they keep their velocities at the start.
-fn passing(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
+fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
     let way = b.centre - a.centre;
     let velocity =
         problem.b.path.velocity_at(b.centre, 0.0) - problem.a.path.velocity_at(a.centre, 0.0);
@@ -49,7 +49,7 @@ fn passing(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
 
 /// Returns whether a fixed plane perpendicular to a unit vector keeps the boxes apart.
 fn keeps_apart(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3) -> bool {
-    let gap = n.dot(b.centre - a.centre) - a.reach(n) - b.reach(-n);
+    let gap = n.dot(b.centre - a.centre) - a.extent_along(n) - b.extent_along(-n);
     let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;
     // Written so that NaN proves nothing. Most planes fail at the first two conditions, which cost the least: no bound
     // of the approach is below that of the centres, unless the bodies accelerate away from each other.

@@ -9,13 +9,13 @@ use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
 use crate::problem::{Problem, Side};
 use crate::rounding::REACH_F32;
-use crate::tuning::{AXIS_ROUNDS, COARSE_F32, SCREW_AFTER};
+use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for the pairs of a query, as far as they are useful.
 #[derive(Debug)]
 pub(crate) struct CloserLook {
     /// True if f32 is too coarse for the gap to keep between the largest nodes.
-    fine: bool,
+    is_f32_coarse: bool,
     /// The number of splits in the search so far.
     splits: u64,
     screw: Option<Screw>,
@@ -26,7 +26,8 @@ impl CloserLook {
         let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
         CloserLook {
-            fine: problem.takes(Shortcut::FlatNodes) && rounding > COARSE_F32 * problem.node_gap(),
+            is_f32_coarse: problem.uses(Shortcut::FlatNodes)
+                && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
             splits: 0,
             screw: None,
         }
@@ -35,13 +36,13 @@ impl CloserLook {
     /// Removes the pair with the least clock `s` from its siblings, if a later clock can be proven for it. Returns that
     /// clock and the pair, which then waits alone.
     #[inline(always)]
-    pub(crate) fn part(
+    pub(crate) fn remove_if_provable(
         &self,
         problem: &Problem<'_>,
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.fine && siblings.removed_count() < AXIS_ROUNDS {
+        if self.is_f32_coarse && siblings.removed_count() < MAX_NEWTON_STEPS {
             part_flat(problem, siblings, s)
         } else {
             None
@@ -50,7 +51,7 @@ impl CloserLook {
 
     /// Marks the pairs of a new split that are proven apart to the end as finished.
     #[inline(always)]
-    pub(crate) fn finish(
+    pub(crate) fn finish_proven(
         &mut self,
         problem: &Problem<'_>,
         split: &Split,
@@ -58,7 +59,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits >= SCREW_AFTER {
+        if self.splits >= SPLITS_BEFORE_SCREW {
             self.finish_along_screw(problem, split, s, siblings, meter);
         }
         self.splits += 1;
@@ -73,8 +74,8 @@ impl CloserLook {
         siblings: &mut Siblings,
         meter: &mut Meter,
     ) {
-        if self.splits == SCREW_AFTER && problem.takes(Shortcut::Screw) {
-            self.screw = Screw::of(problem, &mut meter.scratch_memory().profiles);
+        if self.splits == SPLITS_BEFORE_SCREW && problem.uses(Shortcut::Screw) {
+            self.screw = Screw::for_problem(problem, &mut meter.scratch_memory().profiles);
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw

@@ -10,7 +10,7 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{Problem, Side};
 use crate::rounding::{RATE_F64, REACH_F32};
-use crate::tuning::{CLOSED_GAP, COARSE_F32, TURNED_SHARE};
+use crate::tuning::{CLOSED_GAP, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
 use glam::DVec3;
 
 /// Returns a time for which two flat nodes of A and B certainly keep the gap of nodes, from clock `s` on. The time is 0
@@ -24,7 +24,7 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
         return 0.0;
     };
     let rounding = f64::from(REACH_F32) * (a.node.radius + b.node.radius);
-    if !(rounding > COARSE_F32 * problem.node_gap()) {
+    if !(rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap()) {
         return 0.0;
     }
     let along = |n: DVec3| free_along(problem, &a, &b, n, s);
@@ -63,21 +63,21 @@ impl Flat {
             }
         };
         Some(Flat {
-            normal: node.turned(normal),
+            normal: node.rotated(normal),
             node,
             half,
         })
     }
 
     /// Returns `max n·(x − centre)` over the node's points `x`, for a unit vector `n`.
-    fn reach(&self, n: DVec3) -> f64 {
+    fn extent_along(&self, n: DVec3) -> f64 {
         match self.half {
             Some(half) => {
                 let along = self.normal.dot(n).abs();
                 let across = length(n.cross(self.normal));
                 half * along + self.node.radius * (across + RATE_F64)
             }
-            None => self.node.reach(n),
+            None => self.node.extent_along(n),
         }
     }
 }
@@ -87,7 +87,7 @@ fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f6
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.node_gap();
-    let gap = n.dot(way) - a.reach(n) - b.reach(-n) - kept;
+    let gap = n.dot(way) - a.extent_along(n) - b.extent_along(-n) - kept;
     // Written so that NaN gives no time.
     if !(gap > CLOSED_GAP * problem.tolerance) {
         return 0.0;
@@ -96,7 +96,7 @@ fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f6
     let free = approach.free_time(gap);
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.
-    if free >= 1.0 - s || approach.straight * free >= (1.0 - TURNED_SHARE) * gap {
+    if free >= 1.0 - s || approach.straight * free >= (1.0 - ROTATION_GAP_SHARE) * gap {
         free
     } else {
         0.0

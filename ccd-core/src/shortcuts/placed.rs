@@ -33,9 +33,9 @@ enum Shape {
 impl Placed {
     /// Places the bounding box of a whole body at clock `s`.
     #[inline]
-    pub(crate) fn whole(side: &Side<'_>, s: f64) -> Self {
+    pub(crate) fn body_box(side: &Side<'_>, s: f64) -> Self {
         let frame = side.path.frame(s);
-        let whole = side.body.tree().whole();
+        let whole = side.body.tree().body_box();
         Placed {
             frame,
             shape: Shape::Box {
@@ -86,7 +86,7 @@ impl Placed {
     }
 
     /// Rotates a vector from the body's frame.
-    pub(crate) fn turned(&self, vector: DVec3) -> DVec3 {
+    pub(crate) fn rotated(&self, vector: DVec3) -> DVec3 {
         self.frame.rotation * vector
     }
 
@@ -101,7 +101,7 @@ impl Placed {
             let half = half[k] + slack;
             axes[k] * greater(-half, lesser(half, way.dot(axes[k])))
         };
-        self.centre + self.turned(along(0) + along(1) + along(2))
+        self.centre + self.rotated(along(0) + along(1) + along(2))
     }
 
     /// Returns the axis of the box that is nearest in direction to `n`, oriented like it; `n` itself for a triangle.
@@ -109,7 +109,7 @@ impl Placed {
         let Shape::Box { axes, .. } = &self.shape else {
             return n;
         };
-        let along = axes.map(|axis| self.turned(axis));
+        let along = axes.map(|axis| self.rotated(axis));
         let nearest = along
             .into_iter()
             .max_by(|x, y| x.dot(n).abs().total_cmp(&y.dot(n).abs()));
@@ -118,7 +118,7 @@ impl Placed {
 
     /// Returns `max n·(x − centre)` over the node's points `x`, for a vector `n` of any length.
     #[inline]
-    pub(crate) fn reach(&self, n: DVec3) -> f64 {
+    pub(crate) fn extent_along(&self, n: DVec3) -> f64 {
         match &self.shape {
             Shape::Triangle(corners) => {
                 let [a, b, c] = corners.map(|x| n.dot(x));

@@ -13,11 +13,11 @@ use crate::engine::meter::Meter;
 use crate::engine::proven::free_by_bounding_volumes;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
-use crate::motion::period::{Period, Reaching};
+use crate::motion::period::{PathWithReach, Period};
 use crate::problem::{Problem, Side};
 use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
 use crate::settings::StartPolicy;
-use crate::tuning::{LEAST_GAIN, REPEATED, SCREW_DRIFT};
+use crate::tuning::{MAX_PERIOD_SHARE, MAX_SCREW_DRIFT, PERIOD_CHANGE_SHARE};
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
@@ -28,12 +28,12 @@ pub(crate) fn in_rounds(
     meter: &mut Meter,
     mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
 ) -> Outcome {
-    let Some(mut rounds) = Rounds::of(problem) else {
+    let Some(mut rounds) = Rounds::for_problem(problem) else {
         return search(problem, meter);
     };
     loop {
-        let outcome = search(&rounds.part(), meter);
-        match rounds.conclude(&outcome, meter) {
+        let outcome = search(&rounds.between_clocks(), meter);
+        match rounds.on_outcome(&outcome, meter) {
             ControlFlow::Continue(()) => {}
             ControlFlow::Break(outcome) => return outcome,
         }
@@ -68,17 +68,17 @@ enum Round {
 impl<'a> Rounds<'a> {
     /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
-    pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
-        if turns_often(problem) && free_by_bounding_volumes(problem).is_none() {
-            Rounds::of_many_turns(problem)
+    pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
+        if turns_many_times(problem) && free_by_bounding_volumes(problem).is_none() {
+            Rounds::for_many_turns(problem)
         } else {
             None
         }
     }
 
     #[cold]
-    fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
-        if !problem.takes(Shortcut::Rounds) {
+    fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
+        if !problem.uses(Shortcut::Rounds) {
             return None;
         }
         // Bodies that rest on each other are let go pair by pair, from the start on.
@@ -86,20 +86,21 @@ impl<'a> Rounds<'a> {
             return None;
         }
         let tolerance = problem.tolerance;
-        let bodies = [&problem.a, &problem.b].map(reaching);
-        let [a, b] = bodies.map(|Reaching { path, reach }| {
+        let bodies = [&problem.a, &problem.b].map(with_reach);
+        let [a, b] = bodies.map(|PathWithReach { path, reach }| {
             let way = length(path.centre_at(0.0)) + path.speed();
             place_rounding(reach, path.rate, way)
         });
         let rounding = a + b;
-        let known = REPEATED * tolerance;
+        let known = PERIOD_CHANGE_SHARE * tolerance;
         // Written so that NaN is too much.
         if !(rounding + least_tolerance(problem.rounding) <= 0.5 * known) {
             return None;
         }
         let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
         let size = lesser(a, b);
-        let period = cheapest(bodies, known).or_else(|| cheapest(bodies, SCREW_DRIFT * size))?;
+        let period = period_with_least_work(bodies, known)
+            .or_else(|| period_with_least_work(bodies, MAX_SCREW_DRIFT * size))?;
         let mut rounds = Rounds {
             whole: problem.clone(),
             period,
@@ -109,30 +110,30 @@ impl<'a> Rounds<'a> {
             patience: 1.0,
             gap: f64::INFINITY,
         };
-        rounds.plan(f64::INFINITY);
+        rounds.start_round(f64::INFINITY);
         Some(rounds)
     }
 
     /// Returns the problem to search in this round.
-    pub(crate) fn part(&self) -> Problem<'a> {
+    pub(crate) fn between_clocks(&self) -> Problem<'a> {
         let tolerance = self.whole.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
         // distances is lost.
-        let room = (tolerance - 2.0 * self.change()) - 4.0 * self.rounding;
-        let left = greater(room, REPEATED * tolerance);
+        let room = (tolerance - 2.0 * self.distance_change()) - 4.0 * self.rounding;
+        let left = greater(room, PERIOD_CHANGE_SHARE * tolerance);
         let to = match self.round {
-            Round::Repeated(_) => lesser(1.0, self.from + self.period.covering()),
-            Round::Each(_) => self.end(),
+            Round::Repeated(_) => lesser(1.0, self.from + self.period.length_rounded_up()),
+            Round::Each(_) => self.end_clock(),
         };
-        self.whole.part(
+        self.whole.between_clocks(
             [self.from, to],
-            self.raised() + 0.5 * (tolerance - left),
+            self.raised_margin() + 0.5 * (tolerance - left),
             left,
         )
     }
 
     /// Processes the outcome of a round, and starts the next round or returns the outcome of the query.
-    pub(crate) fn conclude(
+    pub(crate) fn on_outcome(
         &mut self,
         outcome: &Outcome,
         meter: &mut Meter,
@@ -140,9 +141,11 @@ impl<'a> Rounds<'a> {
         let unresolved =
             |rounds: &Self, reason| Outcome::unresolved(rounds.whole.time(rounds.from), reason);
         match *outcome {
-            Outcome::Free { proven_gap } => self.prove(proven_gap)?,
-            Outcome::Contact { time, contact } => self.meet(time, contact)?,
-            Outcome::Touching { contact } => self.meet(self.whole.time(self.from), contact)?,
+            Outcome::Free { proven_gap } => self.record_gap(proven_gap)?,
+            Outcome::Contact { time, contact } => self.process_contact(time, contact)?,
+            Outcome::Touching { contact } => {
+                self.process_contact(self.whole.time(self.from), contact)?;
+            }
             Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
             Outcome::Interval { .. } | Outcome::Measured { .. } => {
                 unreachable!("no outcome of a search for contacts")
@@ -161,9 +164,9 @@ impl<'a> Rounds<'a> {
     }
 
     /// Records that the bodies keep a gap in a round, and continues with the next.
-    fn prove(&mut self, gap: f64) -> ControlFlow<Outcome> {
-        self.gap = lesser(self.gap, (gap - self.raised()).next_down());
-        self.from = self.end();
+    fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
+        self.gap = lesser(self.gap, (gap - self.raised_margin()).next_down());
+        self.from = self.end_clock();
         if self.from >= 1.0 {
             let proven_gap = greater(self.gap, self.whole.margin);
             return ControlFlow::Break(Outcome::Free { proven_gap });
@@ -171,27 +174,27 @@ impl<'a> Rounds<'a> {
         match self.round {
             Round::Repeated(count) => {
                 self.patience = 1.0;
-                self.plan(2.0 * count);
+                self.start_round(2.0 * count);
             }
             Round::Each(count) => {
                 self.patience = 2.0 * count;
-                self.plan(2.0);
+                self.start_round(2.0);
             }
         }
         ControlFlow::Continue(())
     }
 
     /// Processes a contact in a round: the bodies are in contact, or the round was too long and is shortened.
-    fn meet(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
+    fn process_contact(&mut self, time: f64, contact: Contact) -> ControlFlow<Outcome> {
         let within = self.whole.contact_distance();
-        let contact = loosened(contact, self.rounding);
+        let contact = widened(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
             Round::Repeated(count) if !(upper <= within) => {
                 // More periods than this would give the same contact.
                 let fewer = (upper - within) / self.period.change;
                 match lesser(0.5 * count, fewer).floor() {
-                    fewer if fewer >= 2.0 => self.plan(fewer),
+                    fewer if fewer >= 2.0 => self.start_round(fewer),
                     _ => self.round = Round::Each(self.patience),
                 }
                 ControlFlow::Continue(())
@@ -205,7 +208,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Starts a round of `count` periods, or of all that are left.
-    fn plan(&mut self, count: f64) {
+    fn start_round(&mut self, count: f64) {
         let left = ((1.0 - self.from) / self.period.length).ceil();
         self.round = match lesser(count, left) {
             count if count >= 2.0 => Round::Repeated(count),
@@ -214,7 +217,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns the clock at which the round ends.
-    fn end(&self) -> f64 {
+    fn end_clock(&self) -> f64 {
         let (Round::Repeated(count) | Round::Each(count)) = self.round;
         let end = self.from + count * self.period.length;
         // A rest of the time that is only rounding is covered, too.
@@ -226,7 +229,7 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns a bound of the difference between distances in the round and those in the searched part.
-    fn change(&self) -> f64 {
+    fn distance_change(&self) -> f64 {
         match self.round {
             Round::Repeated(count) => count * self.period.change,
             Round::Each(_) => 0.0,
@@ -234,13 +237,13 @@ impl<'a> Rounds<'a> {
     }
 
     /// Returns the distance beyond the margin that the searched part has to keep.
-    fn raised(&self) -> f64 {
-        self.change() + self.rounding
+    fn raised_margin(&self) -> f64 {
+        self.distance_change() + self.rounding
     }
 }
 
 #[inline]
-fn turns_often(problem: &Problem<'_>) -> bool {
+fn turns_many_times(problem: &Problem<'_>) -> bool {
     let turns = |side: &Side<'_>| side.path.rate >= 2.0 * TAU;
     turns(&problem.a) || turns(&problem.b)
 }
@@ -259,22 +262,23 @@ pub(crate) struct Sample<'a> {
 impl<'a> Sample<'a> {
     /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
     #[inline]
-    pub(crate) fn of(problem: &Problem<'a>) -> Option<Self> {
-        if turns_often(problem) {
-            Sample::of_many_turns(problem)
+    pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
+        if turns_many_times(problem) {
+            Sample::for_many_turns(problem)
         } else {
             None
         }
     }
 
     #[cold]
-    fn of_many_turns(problem: &Problem<'a>) -> Option<Self> {
-        let rounds = Rounds::of_many_turns(problem)?;
-        let (change, rounding) = (rounds.change(), rounds.rounding);
+    fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
+        let rounds = Rounds::for_many_turns(problem)?;
+        let (change, rounding) = (rounds.distance_change(), rounds.rounding);
         // Written so that NaN is too much.
-        let stands_for_all = matches!(rounds.round, Round::Repeated(_)) && rounds.end() >= 1.0;
-        (stands_for_all && change <= REPEATED * problem.tolerance).then(|| Sample {
-            part: rounds.part().measuring(),
+        let stands_for_all =
+            matches!(rounds.round, Round::Repeated(_)) && rounds.end_clock() >= 1.0;
+        (stands_for_all && change <= PERIOD_CHANGE_SHARE * problem.tolerance).then(|| Sample {
+            part: rounds.between_clocks().for_distances(),
             change,
             rounding,
         })
@@ -286,13 +290,13 @@ impl<'a> Sample<'a> {
     }
 
     /// Widens the bounds of a contact in the period so that they hold for the whole problem.
-    pub(crate) fn contact(&self, contact: Contact) -> Contact {
-        loosened(contact, self.rounding)
+    pub(crate) fn widen_contact(&self, contact: Contact) -> Contact {
+        widened(contact, self.rounding)
     }
 }
 
 /// Widens the bounds of a contact by an error.
-fn loosened(contact: Contact, rounding: f64) -> Contact {
+fn widened(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
     Contact {
         separation: Separation {
@@ -304,9 +308,9 @@ fn loosened(contact: Contact, rounding: f64) -> Contact {
     }
 }
 
-fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
-    let (centre, radius) = side.body.tree().ball();
-    Reaching {
+fn with_reach<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
+    let (centre, radius) = side.body.tree().bounding_ball();
+    PathWithReach {
         path: &side.path,
         reach: centre.distance(side.path.centre) * (1.0 + f64::EPSILON) + radius,
     }
@@ -314,7 +318,7 @@ fn reaching<'p>(side: &'p Side<'_>) -> Reaching<'p> {
 
 /// Returns the period that leaves the least time to search, if rounds end once distances have changed by `change`;
 /// `None` if no period saves time.
-fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
+fn period_with_least_work(bodies: [PathWithReach<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
         let rounds = greater(1.0, period.change / (period.length * change));
         lesser(1.0, period.length * rounds)
@@ -322,7 +326,7 @@ fn cheapest(bodies: [Reaching<'_>; 2], change: f64) -> Option<Period> {
     Period::all(bodies)
         .map(|period| (searched(&period), period))
         .reduce(|best, next| if next.0 < best.0 { next } else { best })
-        .filter(|(searched, _)| *searched <= LEAST_GAIN)
+        .filter(|(searched, _)| *searched <= MAX_PERIOD_SHARE)
         .map(|(_, period)| period)
 }
 

@@ -13,14 +13,14 @@ mod outline;
 mod profile;
 
 use super::placed::Placed;
-use super::screw::profile::{Profile, ScrewAxis, Way, keep_apart};
+use super::screw::profile::{Profile, ScrewAxis, ScrewPath, keep_apart};
 use crate::body::tree::{Below, Members, NodeId, NodeOrTriangle};
 use crate::engine::capacity::empty;
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
 use crate::rounding::{ADVANCE_F64, RATE_F64};
-use crate::tuning::{CLOSED_GAP, LEAST_ADVANCE, SCREW_DRIFT};
+use crate::tuning::{CLOSED_GAP, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -30,28 +30,28 @@ pub(crate) struct Screw {
     turning: Which,
     axis: ScrewAxis,
     /// The whole path along the screw, and the distance to keep on it. The distance includes the drift of the axis.
-    way: Way,
+    path: ScrewPath,
 }
 
 /// The profiles of both bodies' nodes and triangles, each computed when first needed.
 #[derive(Debug, Default)]
-pub(crate) struct Profiles([OfBody; 2]);
+pub(crate) struct Profiles([BodyProfiles; 2]);
 
 #[derive(Debug, Default)]
-struct OfBody {
+struct BodyProfiles {
     /// The index of each node's profile, by node id.
-    places: Vec<u32>,
+    profile_indices: Vec<u32>,
     known: Vec<Profile>,
 }
 
-/// The value of `places` for a profile that is not computed yet.
+/// The value of `profile_indices` for a profile that is not computed yet.
 const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
     /// Returns the screw motion of the problem, and clears all profiles; `None` unless one body turns, and the axis
     /// hardly moves relative to the other.
-    pub(crate) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
+    pub(crate) fn for_problem(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
             (false, true) => Which::B,
@@ -64,7 +64,7 @@ impl Screw {
         let [a, b] = [&problem.a, &problem.b].map(|side| f64::from(side.body.tree().radius()));
         let size = lesser(a, b);
         // A tiny advance would make a tiny pitch.
-        let along = if along.abs() > LEAST_ADVANCE * size {
+        let along = if along.abs() > MIN_SCREW_ADVANCE * size {
             along
         } else {
             0.0
@@ -75,20 +75,20 @@ impl Screw {
         let acceleration = side.path.acceleration - other.path.acceleration;
         let drift = drift + 0.5 * length(acceleration);
         // Written so that NaN is no screw.
-        if !(drift <= SCREW_DRIFT * size) {
+        if !(drift <= MAX_SCREW_DRIFT * size) {
             return None;
         }
         // Rounding counts once for the positions, and once for the axis.
         let kept = problem.node_gap() + 2.0 * problem.rounding + CLOSED_GAP * problem.tolerance;
-        profiles.0[0].forget(&problem.a);
-        profiles.0[1].forget(&problem.b);
+        profiles.0[0].clear(&problem.a);
+        profiles.0[1].clear(&problem.b);
         Some(Screw {
             turning,
             axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
-            way: Way {
+            path: ScrewPath {
                 pitch: TAU * (along / side.path.rate),
                 angles: [0.0, side.path.rate],
-                needed: kept + drift * (1.0 + RATE_F64),
+                needed_gap: kept + drift * (1.0 + RATE_F64),
             },
         })
     }
@@ -127,32 +127,32 @@ impl Screw {
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
-        let a = of_a.of(&problem.a, a, &self.axis)?;
-        let b = of_b.of(&problem.b, b, &self.axis)?;
+        let a = of_a.profile_of(&problem.a, a, &self.axis)?;
+        let b = of_b.profile_of(&problem.b, b, &self.axis)?;
         let (turning, still) = match self.turning {
             Which::A => (a, b),
             Which::B => (b, a),
         };
-        let [_, end] = self.way.angles;
-        let way = Way {
+        let [_, end] = self.path.angles;
+        let way = ScrewPath {
             angles: [s * end, end],
-            ..self.way
+            ..self.path
         };
         Some(keep_apart(turning, still, &self.axis, &way))
     }
 }
 
-impl OfBody {
-    fn forget(&mut self, side: &Side<'_>) {
+impl BodyProfiles {
+    fn clear(&mut self, side: &Side<'_>) {
         let count = side.body.tree().nodes() + side.body.pieces().len();
         empty(&mut self.known);
-        empty(&mut self.places);
-        self.places.resize(count, UNKNOWN);
+        empty(&mut self.profile_indices);
+        self.profile_indices.resize(count, UNKNOWN);
     }
 
     /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly does.
-    fn of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
-        let place = &mut self.places[id as usize];
+    fn profile_of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
+        let place = &mut self.profile_indices[id as usize];
         if *place == UNKNOWN {
             *place = match profile(side, id, axis) {
                 Some(profile) if self.known.len() < NONE as usize => {
@@ -171,7 +171,7 @@ impl OfBody {
 fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| Placed::new(side, id, 0.0);
     match triangles(side, id) {
-        Some(few) => Profile::about(few.map(place), axis),
+        Some(few) => Profile::union_of(few.map(place), axis),
         None => Profile::new(&place(id), axis),
     }
 }

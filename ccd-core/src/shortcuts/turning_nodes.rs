@@ -14,7 +14,7 @@ use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::lanes::{Vec3x8, splat};
 use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
-use crate::tuning::ATTACHED_TIME;
+use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// A node of one body in the frame of a plane that turns with the other body.
@@ -39,15 +39,15 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split.velocity(at) - self.other_turning;
-        let across = motion.split.across(axis.n);
-        let own = motion.other.across(axis.n);
+        let across = motion.split.cross_spin(axis.n);
+        let own = motion.other.cross_spin(axis.n);
         self.free_attached(
             axis,
             second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
             &TurningNode {
-                rate: axis.n.dot(velocity) + other.reach(own - across),
-                distance: motion.split.arms(at) + other.radius(),
+                rate: axis.n.dot(velocity) + other.extent_along(own - across),
+                distance: motion.split.distances_from_centre(at) + other.radius(),
                 speed: self.other_speed,
                 own_rate: motion.other.rate,
             },
@@ -62,15 +62,15 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let at = children.centre(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
-        let across = motion.other.across(axis.n);
-        let own = motion.split.across(axis.n);
+        let across = motion.other.cross_spin(axis.n);
+        let own = motion.split.cross_spin(axis.n);
         self.free_attached(
             axis,
             second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
             &TurningNode {
-                rate: axis.n.dot(velocity) + children.reach(own - across),
-                distance: motion.other.arms(at) + children.radius(level),
+                rate: axis.n.dot(velocity) + children.extent_along(own - across),
+                distance: motion.other.distances_from_centre(at) + children.radius(level),
                 speed: self.speed,
                 own_rate: motion.split.rate,
             },
@@ -92,16 +92,17 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         };
         let straight = motion.velocity.length() + change + motion.rate_slack;
         let speed = sweep.speed + straight;
-        let far = sweep.distance + speed * ATTACHED_TIME;
-        let bend = across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
+        let far = sweep.distance + speed * MAX_TURNING_PLANE_TIME;
+        let second_derivative =
+            across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
         // Each sweep happens at the distance of its node from the turning body's centre.
         let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
         let free = clock::free_time(
             axis.gap - motion.slack,
             motion.closed,
             sweep.rate + rate_slack,
-            bend * BEND_F32 + LEAST_BEND_F32,
+            second_derivative * BEND_F32 + LEAST_BEND_F32,
         );
-        free.min(ATTACHED_TIME)
+        free.min(MAX_TURNING_PLANE_TIME)
     }
 }

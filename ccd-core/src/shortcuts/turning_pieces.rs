@@ -13,52 +13,52 @@ use crate::body::piece::Piece;
 use crate::math::order::lesser;
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
-use crate::motion::track::{Angle, Spinning};
+use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::Side;
 use crate::rounding::{RATE_F64, attached_rounding};
-use crate::tuning::{ATTACHED_TIME, AXIS_ROUNDS};
+use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
 use glam::DVec3;
 use std::cell::Cell;
 
 /// A piece with the pose and the motion of its body at a clock.
-pub(crate) struct Member<'p> {
+pub(crate) struct MovingPiece<'p> {
     pub(crate) side: &'p Side<'p>,
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
     /// An upper bound of the rate at which any point moves relative to the first one, along any fixed axis.
-    pub(crate) swing: f64,
+    pub(crate) relative_speed: f64,
 }
 
-impl<'p> Member<'p> {
+impl<'p> MovingPiece<'p> {
     pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
-        let swing = if side.path.turns() {
+        let relative_speed = if side.path.turns() {
             side.path.rate * piece.max_distance_from(piece.points[0])
         } else {
             0.0
         };
-        Member {
+        MovingPiece {
             side,
             frame,
             piece,
             clock,
-            swing,
+            relative_speed,
         }
     }
 
-    /// Returns the upper bound `swing` for one axis.
-    pub(crate) fn swing_about(&self, normal: DVec3) -> f64 {
+    /// Returns the upper bound `relative_speed` for one axis.
+    pub(crate) fn relative_speed_along(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
-        self.swing * path.spin.cross(normal).length() / path.rate
+        self.relative_speed * path.spin.cross(normal).length() / path.rate
     }
 }
 
 /// A piece of one body in the frame of a plane that turns with the other body.
 pub(crate) struct TurningPiece<'p> {
     /// The plane's normal `n`, which turns at `ω`.
-    normal: Spinning,
+    normal: RotatingVector,
     unit: DVec3,
-    omega: f64,
+    angular_speed: f64,
     /// The vector `D` at the present time.
     offset: DVec3,
     velocity: DVec3,
@@ -66,8 +66,8 @@ pub(crate) struct TurningPiece<'p> {
     /// The derivative `V'` of `V`, which is constant.
     acceleration: DVec3,
     /// The direction of the angular velocity `ω_s` of the piece's own body.
-    own_unit: DVec3,
-    own_omega: f64,
+    own_axis: DVec3,
+    own_angular_speed: f64,
     /// The relative angular velocity `Δ`.
     relative: DVec3,
     piece: Piece<'p>,
@@ -78,7 +78,7 @@ pub(crate) struct TurningPiece<'p> {
     /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
     reach: f64,
     /// A bound of the displacement of points by rounding, for both bodies together.
-    misplaced: f64,
+    rounding_displacement: f64,
     /// The number of evaluations of the plane against a point.
     pub(crate) looks: Cell<u64>,
 }
@@ -96,8 +96,8 @@ impl<'p> TurningPiece<'p> {
     /// Creates the view of a piece that moves past a plane which turns with the body of `holder`. The `normal` points
     /// from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
-        holder: &Member<'_>,
-        other: &Member<'p>,
+        holder: &MovingPiece<'_>,
+        other: &MovingPiece<'p>,
         normal: DVec3,
         rounding: f64,
     ) -> Self {
@@ -114,22 +114,22 @@ impl<'p> TurningPiece<'p> {
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
         TurningPiece {
-            normal: Spinning::new(path.axis, normal),
+            normal: RotatingVector::new(path.axis, normal),
             unit: path.axis,
-            omega: path.rate,
+            angular_speed: path.rate,
             offset,
             velocity,
             speed,
             acceleration,
-            own_unit: own.axis,
-            own_omega: own.rate,
+            own_axis: own.axis,
+            own_angular_speed: own.rate,
             relative: path.spin - own.spin,
             piece: other.piece,
             frame: other.frame,
             reference,
             radius,
             reach: offset.length() + speed + radius,
-            misplaced: rounding,
+            rounding_displacement: rounding,
             looks: Cell::new(0),
         }
     }
@@ -138,51 +138,56 @@ impl<'p> TurningPiece<'p> {
     /// `slack` is the present excess over that gap.
     pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
-        let apart = slack - height - self.least();
-        first_crossing(horizon, AXIS_ROUNDS, |tau| {
-            self.looks.set(self.looks.get() + self.piece.looks());
+        let apart = slack - height - self.least_start_height();
+        first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
+            self.looks
+                .set(self.looks.get() + self.piece.evaluations_per_search());
             let turned = self.turned(tau);
-            let bend = self.bend(tau);
+            let second_derivative = self.second_derivative(tau);
             let free = |axis: f64, closing: f64| {
                 let gap = Gap {
                     gap: apart + (turned.height + axis),
                     rate: rate - (turned.rate + closing),
-                    bend,
+                    second_derivative,
                 };
                 gap.free_time()
             };
-            let least = match self.piece.ball() {
-                Some(_) => free(self.lowest(turned.axis), self.lowest(turned.closing)),
+            let least = match self.piece.bounding_ball() {
+                Some(_) => free(
+                    self.least_height_along(turned.axis),
+                    self.least_height_along(turned.closing),
+                ),
                 None => self
                     .arms()
                     .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
                     .fold(f64::INFINITY, lesser),
             };
             // The bound of the second derivative holds for that long only.
-            lesser(f64::from(ATTACHED_TIME), least)
+            lesser(f64::from(MAX_TURNING_PLANE_TIME), least)
         })
     }
 
     /// Returns bounds of the rounding of height changes, and of rates.
     fn allowances(&self) -> (f64, f64) {
-        let turns = self.omega + self.own_omega;
+        let turns = self.angular_speed + self.own_angular_speed;
         let rounding = attached_rounding(turns);
-        let fastest = self.omega * self.reach + self.speed + self.own_omega * self.radius;
+        let fastest =
+            self.angular_speed * self.reach + self.speed + self.own_angular_speed * self.radius;
         (
-            2.0 * self.misplaced + rounding * self.reach,
-            turns * self.misplaced + rounding * fastest,
+            2.0 * self.rounding_displacement + rounding * self.reach,
+            turns * self.rounding_displacement + rounding * fastest,
         )
     }
 
     /// Returns the least height of the points at the start.
-    fn least(&self) -> f64 {
+    fn least_start_height(&self) -> f64 {
         let Turned { height, axis, .. } = self.turned(0.0);
-        height + self.lowest(axis)
+        height + self.least_height_along(axis)
     }
 
     /// Returns the least height along a direction over the vectors to the points.
-    fn lowest(&self, direction: DVec3) -> f64 {
-        if self.piece.ball().is_some() {
+    fn least_height_along(&self, direction: DVec3) -> f64 {
+        if self.piece.bounding_ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
             return direction.dot(lowest - self.reference);
         }
@@ -197,14 +202,14 @@ impl<'p> TurningPiece<'p> {
     }
 
     fn turned(&self, tau: f64) -> Turned {
-        let angle = Angle::new(self.omega * tau);
-        let own = Angle::new(self.own_omega * tau);
+        let angle = Angle::new(self.angular_speed * tau);
+        let own = Angle::new(self.own_angular_speed * tau);
         let axis = self.normal.at(angle);
-        let (offset, velocity) = self.moved(tau);
-        let turning = self.normal.slope_at(angle) * self.omega;
+        let (offset, velocity) = self.offset_and_velocity_after(tau);
+        let turning = self.normal.derivative_at(angle) * self.angular_speed;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
-            let turned = Spinning::new(-self.own_unit, v).at(own);
+            let turned = RotatingVector::new(-self.own_axis, v).at(own);
             self.frame.inverse_vector(turned)
         };
         Turned {
@@ -216,7 +221,7 @@ impl<'p> TurningPiece<'p> {
     }
 
     /// Returns the vectors `D` and `V` after a time `tau`.
-    fn moved(&self, tau: f64) -> (DVec3, DVec3) {
+    fn offset_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
             self.offset + velocity * tau,
@@ -224,16 +229,18 @@ impl<'p> TurningPiece<'p> {
         )
     }
 
-    /// Returns a bound of the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
-    fn bend(&self, tau: f64) -> f64 {
-        let (offset, _) = self.moved(tau);
-        let arm = self.unit.cross(offset).length() + self.speed * f64::from(ATTACHED_TIME);
-        let across = self.omega * (self.normal.slope() + RATE_F64);
-        let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
-        let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
-            + relative * (across + self.own_omega) * self.radius
+    /// Returns a bound of the second derivative of heights, for [`MAX_TURNING_PLANE_TIME`] from `tau` on.
+    fn second_derivative(&self, tau: f64) -> f64 {
+        let (offset, _) = self.offset_and_velocity_after(tau);
+        let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
+        let across = self.angular_speed * (self.normal.derivative_length() + RATE_F64);
+        let relative =
+            self.relative.length() + RATE_F64 * (self.angular_speed + self.own_angular_speed);
+        let second_derivative = across
+            * (self.angular_speed * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+            + relative * (across + self.own_angular_speed) * self.radius
             + self.acceleration.length();
-        bend * (1.0 + RATE_F64)
+        second_derivative * (1.0 + RATE_F64)
     }
 }
 

@@ -33,7 +33,10 @@ fn points_stay_in_their_box() {
                 let pieces = scene.bodies[k].pieces();
                 for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
                     let point = frame.point(x);
-                    (low, high) = (least(low, point), most(high, point));
+                    (low, high) = (
+                        componentwise_min(low, point),
+                        componentwise_max(high, point),
+                    );
                 }
             }
             assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());
@@ -41,7 +44,7 @@ fn points_stay_in_their_box() {
             let excess = (swept.max - swept.min - size).max_element() / size.max_element();
             tightest = lesser(tightest, excess);
             // In the worst case the box is about a ball.
-            let whole = scene.bodies[k].tree().whole();
+            let whole = scene.bodies[k].tree().body_box();
             let ball = distance(whole.centre, path.centre) + whole.radius;
             let worst = path.velocity.abs() + 2.0 * (ball + room_of(&scene, k));
             // Coordinates are rounded at their position.
@@ -71,7 +74,10 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
             let pieces = body.pieces();
             for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
                 let point = pose.transform_point(x);
-                (low, high) = (least(low, point), most(high, point));
+                (low, high) = (
+                    componentwise_min(low, point),
+                    componentwise_max(high, point),
+                );
             }
         }
         assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());
@@ -89,7 +95,7 @@ fn room_of(scene: &Scene, k: usize) -> f64 {
         given: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
     };
-    room(&side, &scene.config.terms())
+    half_contact_distance(&side, &scene.config.terms())
 }
 
 /// Tests that bodies do not touch if their boxes are apart, also if the boxes are hardly apart.

@@ -20,7 +20,7 @@ use std::convert::Infallible;
 
 /// The shapes and sizes of a soup's triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Look {
+pub(crate) enum SoupKind {
     Plump,
     /// Each triangle is 1e-7 times as wide as long.
     Needles,
@@ -32,13 +32,13 @@ pub(crate) enum Look {
     Mixed,
 }
 
-impl Look {
-    pub(crate) const ALL: [Look; 5] = [
-        Look::Plump,
-        Look::Needles,
-        Look::Flat,
-        Look::Stretched,
-        Look::Mixed,
+impl SoupKind {
+    pub(crate) const ALL: [SoupKind; 5] = [
+        SoupKind::Plump,
+        SoupKind::Needles,
+        SoupKind::Flat,
+        SoupKind::Stretched,
+        SoupKind::Mixed,
     ];
 }
 
@@ -101,23 +101,28 @@ pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
 }
 
 /// Draws triangles about the origin, none of which extends much beyond `size`.
-pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -> Vec<Triangle> {
+pub(crate) fn soup(
+    rng: &mut impl RngExt,
+    look: SoupKind,
+    count: usize,
+    size: f64,
+) -> Vec<Triangle> {
     let frame = rotation(rng);
     (0..count)
         .map(|_| {
             let centre = within(rng, size);
             let edge = match look {
-                Look::Mixed => size * magnitude(rng, -6.0, 0.0),
+                SoupKind::Mixed => size * magnitude(rng, -6.0, 0.0),
                 _ => size * rng.random_range(0.05..1.0),
             };
             let mut corners = [0; 3].map(|_| centre + within(rng, edge));
-            if look == Look::Needles {
+            if look == SoupKind::Needles {
                 let tip = 0.5 * (corners[0] + corners[1]) + within(rng, 1e-7 * edge);
                 corners[2] = tip;
             }
             let squeeze = match look {
-                Look::Flat => DVec3::new(1.0, 1.0, 1e-7),
-                Look::Stretched => DVec3::new(1.0, 1e-7, 1e-7),
+                SoupKind::Flat => DVec3::new(1.0, 1.0, 1e-7),
+                SoupKind::Stretched => DVec3::new(1.0, 1e-7, 1e-7),
                 _ => DVec3::ONE,
             };
             corners.map(|p| frame * (p * squeeze))
@@ -130,7 +135,7 @@ pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
         return [(); 2].map(|()| [(); 3].map(|()| within(rng, 1.0)));
     }
-    let look = Look::ALL[rng.random_range(0..5)];
+    let look = SoupKind::ALL[rng.random_range(0..5)];
     let pair = soup(rng, look, 2, 0.5);
     [pair[0], pair[1]]
 }
@@ -280,7 +285,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let mut motions = Vec::new();
     let mut velocities = [DVec3::ZERO; 2];
     for (k, sign) in [(0, 0.0), (1, near)] {
-        let look = Look::ALL[rng.random_range(0..5)];
+        let look = SoupKind::ALL[rng.random_range(0..5)];
         let count = magnitude(rng, 0.0, (most as f64).log10()) as usize;
         let middle = direction(rng) * offset(rng, sizes[k]);
         let triangles = soup(rng, look, count.max(1), sizes[k]);

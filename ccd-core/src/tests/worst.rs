@@ -116,7 +116,7 @@ impl Worst {
 }
 
 impl Found {
-    /// Checks that no error exceeded its bound, and that one came within this factor of it.
+    /// Checks that no error exceeded its bound, and that the largest came within a factor `looseness` of it.
     pub(crate) fn is_within(&self, looseness: f64) {
         let (name, ratio) = (self.name, 1.0 / self.share);
         assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");

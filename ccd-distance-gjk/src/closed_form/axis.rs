@@ -50,7 +50,7 @@ impl<L: Simd> Candidates<L> {
     pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
         let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
-        let lanes_q = with(level, edges_q, DVec3::ZERO);
+        let lanes_q = with_lane(level, edges_q, DVec3::ZERO);
         // Nearly parallel edges have a cross product that rounding tilts along them.
         let cross = |e: DVec3| {
             let e = Lanes3::splat(level, e);
@@ -63,11 +63,11 @@ impl<L: Simd> Candidates<L> {
                 cross(edges_p[0]),
                 cross(edges_p[1]),
                 cross(edges_p[2]),
-                w.perpendicular_to(with(level, edges_p, DVec3::ZERO)),
+                w.perpendicular_to(with_lane(level, edges_p, DVec3::ZERO)),
                 w.perpendicular_to(lanes_q),
-                with(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
-                with(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
-                frame(level, &edges_p, &edges_q),
+                with_lane(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
+                with_lane(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
+                axes_of_longest_edge(level, &edges_p, &edges_q),
             ],
             gaps: [splat(level, 0.0); GROUPS],
         };
@@ -134,11 +134,15 @@ fn normal(edges: &[DVec3; 3]) -> DVec3 {
 
 /// Returns axes along and perpendicular to the longest edge of both triangles, for segments on one line and for points.
 #[inline(always)]
-fn frame<L: Simd>(level: L, edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3<L> {
+fn axes_of_longest_edge<L: Simd>(
+    level: L,
+    edges_p: &[DVec3; 3],
+    edges_q: &[DVec3; 3],
+) -> Lanes3<L> {
     let edge = longest(&[longest(edges_p), longest(edges_q)]);
     let along = unit(edge).unwrap_or(DVec3::X);
     let (across, other) = along.any_orthonormal_pair();
-    with(level, [along, across, other], DVec3::ZERO)
+    with_lane(level, [along, across, other], DVec3::ZERO)
 }
 
 fn longest(edges: &[DVec3]) -> DVec3 {
@@ -152,6 +156,6 @@ fn longest(edges: &[DVec3]) -> DVec3 {
 }
 
 #[inline(always)]
-fn with<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
+fn with_lane<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
     Lanes3::new(level, [a, b, c, d])
 }

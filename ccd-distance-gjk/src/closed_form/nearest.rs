@@ -38,7 +38,7 @@ fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     let corners_p = corners_to_face(level, q, p);
     let face_p = corners_q.square.simd_lt(corners_p.square);
     let faces = corners_q.square.min(corners_p.square);
-    let (at_edges, at_faces) = (least(edges.square), least(faces));
+    let (at_edges, at_faces) = (least_lane(edges.square), least_lane(faces));
     if at_edges.0 <= at_faces.0 {
         return edges.weights(at_edges.1);
     }
@@ -91,7 +91,7 @@ fn edges_to_edges<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
     for i in 0..3 {
         let e = Lanes3::splat(level, p[(i + 1) % 3] - p[i]);
         let per_e = reciprocal(e.dot(e));
-        let w = starts.minus(Lanes3::splat(level, p[i]));
+        let w = starts.subtract(Lanes3::splat(level, p[i]));
         // The lines cross at s = ((w×f)·n) / n² with n = e×f. Unlike the determinant of scalar
         // products, this keeps an error of rounding / angle when the edges are nearly parallel.
         let n = e.cross(f);
@@ -99,9 +99,9 @@ fn edges_to_edges<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
         // Projects to the other edge, and back: exact where the first or second was clamped, and
         // where the lines are parallel.
         let t = clamp_unit(e_minus_w(e, s, w).dot(f) * per_f);
-        let reached = w.along(t, f);
+        let reached = w.add_scaled(t, f);
         let s = clamp_unit(reached.dot(e) * per_e);
-        let apart = reached.back(s, e);
+        let apart = reached.subtract_scaled(s, e);
         let square = apart.dot(apart);
         let better = square.simd_lt(best.square);
         best.square = better.select(square, best.square);
@@ -153,8 +153,8 @@ fn corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> Corn
     let u = w.dot(Lanes3::splat(level, g));
     let v = w.dot(Lanes3::splat(level, h));
     let apart = w
-        .back(u, Lanes3::splat(level, e))
-        .back(v, Lanes3::splat(level, f));
+        .subtract_scaled(u, Lanes3::splat(level, e))
+        .subtract_scaled(v, Lanes3::splat(level, f));
     let zero = splat(level, 0.0);
     let inside = u.simd_ge(zero) & v.simd_ge(zero) & (splat(level, 1.0) - u - v).simd_gt(zero);
     CornerFace {
@@ -166,7 +166,7 @@ fn corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> Corn
 
 /// Returns the least of four values and its lane.
 #[inline(always)]
-fn least<L: Simd>(x: f64x4<L>) -> (f64, usize) {
+fn least_lane<L: Simd>(x: f64x4<L>) -> (f64, usize) {
     let low = if x[1] < x[0] { 1 } else { 0 };
     let high = if x[3] < x[2] { 3 } else { 2 };
     let lane = if x[high] < x[low] { high } else { low };

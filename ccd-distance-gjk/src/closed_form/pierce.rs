@@ -11,8 +11,8 @@ use ccd_core::order::lesser;
 /// Triangles in one plane have crossing edges or a corner inside, which `near` covers. Clamping to edge and face
 /// replaces an inside test.
 pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
-    let through_p = pierces(q, p).map(|(b, a)| Nearest { a, b });
-    let through_q = pierces(p, q).map(|(a, b)| Nearest { a, b });
+    let through_p = edge_plane_intersections(q, p).map(|(b, a)| Nearest { a, b });
+    let through_q = edge_plane_intersections(p, q).map(|(a, b)| Nearest { a, b });
     let square = |n: &Nearest| n.difference(p, q).length_squared();
     through_p
         .into_iter()
@@ -28,7 +28,7 @@ pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
 
 /// Intersects the edges of the triangle `of` with the plane of `face`. Returns the weights of both triangles' corners
 /// for each intersection.
-fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
+fn edge_plane_intersections(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
     let heights = of.map(|x| n.dot(x - face[0]));
@@ -42,12 +42,12 @@ fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
         let mut edge = [0.0; 3];
         edge[start] = 1.0 - t;
         edge[end] = t;
-        (edge, foot(e, f, n, at(of, edge) - face[0]))
+        (edge, projected_weights(e, f, n, at(of, edge) - face[0]))
     })
 }
 
 /// Projects `x` onto a face, clamped to it, and returns the weights of the face's corners.
-fn foot(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
+fn projected_weights(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
     let per = n.length_squared().recip();
     let part = |weight: f64| match weight {
         weight if weight > 0.0 => lesser(1.0, weight),

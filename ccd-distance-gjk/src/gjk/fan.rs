@@ -2,26 +2,26 @@
 
 use super::search::Best;
 use super::simplex::{Simplex, Vertex};
-use crate::tolerance::SHARPEN_CAP;
+use crate::tolerance::MAX_AXIS_VERTICES;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use ccd_core::vector::unit;
 
 /// Vertices of the Minkowski difference, relative to the vertex with the largest weight in the nearest point.
-pub(crate) struct Fan {
+pub(crate) struct AxisCandidates {
     /// The point of the difference that is nearest to the origin.
     point: DVec3,
-    vertices: [Vertex; SHARPEN_CAP],
+    vertices: [Vertex; MAX_AXIS_VERTICES],
     len: usize,
 }
 
-impl Fan {
+impl AxisCandidates {
     /// Starts with the vertices of the nearest point; `None` if there are none.
     pub(crate) fn new(found: &Best) -> Option<Self> {
         let held = found.simplex.vertices();
-        let mut out = Fan {
+        let mut out = AxisCandidates {
             point: DVec3::ZERO,
-            vertices: [*held.first()?; SHARPEN_CAP],
+            vertices: [*held.first()?; MAX_AXIS_VERTICES],
             len: 0,
         };
         let mut heaviest = (0, f64::NEG_INFINITY);
@@ -40,10 +40,10 @@ impl Fan {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex. Returns `false` if it is a duplicate, or there are too many vertices.
+    /// Adds a vertex to the candidates. Returns `false` if it is a duplicate, or there are too many vertices.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| v.point == vertex.point;
-        let room = self.len < SHARPEN_CAP && !self.vertices().iter().any(same);
+        let room = self.len < MAX_AXIS_VERTICES && !self.vertices().iter().any(same);
         if room {
             self.vertices[self.len] = vertex;
             self.len += 1;
@@ -56,7 +56,7 @@ impl Fan {
     /// The candidates are the nearest point, a known axis, and an arbitrary one, as they are or
     /// made perpendicular to an edge, and the perpendiculars of two edges.
     pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
-        let mut edges = [DVec3::ZERO; SHARPEN_CAP];
+        let mut edges = [DVec3::ZERO; MAX_AXIS_VERTICES];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
             *edge = unit(vertex.point - self.vertices[0].point).unwrap_or(DVec3::ZERO);
         }
@@ -93,7 +93,7 @@ impl Fan {
     }
 
     /// Returns the four vertices with the least heights along an axis.
-    pub(crate) fn least(mut self, axis: DVec3) -> Simplex {
+    pub(crate) fn lowest_vertices(mut self, axis: DVec3) -> Simplex {
         let height = |v: &Vertex| axis.dot(v.point);
         self.vertices[..self.len].sort_by(|v, w| height(v).total_cmp(&height(w)));
         let mut out = Simplex::EMPTY;

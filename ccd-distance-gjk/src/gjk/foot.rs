@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 
 /// A point of a simplex's hull, usually the nearest to the origin.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Foot {
+pub(crate) struct NearestPoint {
     /// The weights of the vertices, none negative, of sum one.
     pub(crate) weights: [f64; 4],
     /// The combination of the vertices with these weights.
@@ -14,12 +14,12 @@ pub(crate) struct Foot {
     pub(crate) direction: Option<DVec3>,
 }
 
-impl Foot {
+impl NearestPoint {
     /// Creates the foot that is a vertex.
     pub(crate) fn corner(point: DVec3, index: usize) -> Self {
         let mut weights = [0.0; 4];
         weights[index] = 1.0;
-        Foot {
+        NearestPoint {
             weights,
             point,
             direction: Some(point),
@@ -27,16 +27,16 @@ impl Foot {
     }
 
     /// Converts the foot on a sub-simplex to one on the whole simplex, of which vertex `k` is `indices[k]`.
-    pub(crate) fn lifted(self, indices: &[usize]) -> Self {
+    pub(crate) fn with_indices(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
         for (&index, &weight) in indices.iter().zip(&self.weights) {
             weights[index] = weight;
         }
-        Foot { weights, ..self }
+        NearestPoint { weights, ..self }
     }
 
     /// Returns the foot that is nearer to the origin; `other` if they are equal.
-    pub(crate) fn or_nearer(self, other: Option<Self>) -> Self {
+    pub(crate) fn nearer_of(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if !(self.point.length_squared() < other.point.length_squared()) => other,
             _ => self,

@@ -1,7 +1,7 @@
 //! The Minkowski difference of a pair's hulls, with its support function.
 
 use super::simplex::Vertex;
-use crate::tolerance::SCANNED_POINTS;
+use crate::tolerance::MAX_SCANNED_POINTS;
 use ccd_core::glam::DVec3;
 use ccd_core::{Piece, PiecePair};
 
@@ -64,10 +64,10 @@ impl<'a> Difference<'a> {
 
 /// Returns the index of a point of a piece that is farthest along a direction.
 ///
-/// Scans up to [`SCANNED_POINTS`] points; for more, calls [`Piece::extremal`].
+/// Scans up to [`MAX_SCANNED_POINTS`] points; for more, calls [`Piece::extremal`].
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
-    if piece.points.len() > SCANNED_POINTS {
+    if piece.points.len() > MAX_SCANNED_POINTS {
         return piece.extremal(direction);
     }
     let mut best = (0, f64::NEG_INFINITY);

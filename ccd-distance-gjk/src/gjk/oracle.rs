@@ -6,8 +6,8 @@ use super::search::{Best, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
-use super::termination::{Stop, meets};
-use crate::tolerance::{CERTIFIED_ULPS, KEEP, ROUND_CAP};
+use super::termination::{Stop, gap_equals_distance};
+use crate::tolerance::{CERTIFIED_ULPS, MAX_ROUNDS, MIN_CERTIFIED_SHARE};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
@@ -45,7 +45,7 @@ impl DistanceOracle for Gjk {
 
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
         let Some(difference) = Difference::new(pair) else {
-            return Ok(NOTHING);
+            return Ok(EMPTY_CLAIM);
         };
         let found = solve_from(&difference, cache);
         *cache = Cache::from_found(&found);
@@ -54,7 +54,7 @@ impl DistanceOracle for Gjk {
 }
 
 /// The claim for a pair with an empty piece.
-pub(crate) const NOTHING: Claim = Claim {
+pub(crate) const EMPTY_CLAIM: Claim = Claim {
     axis: DVec3::ZERO,
     a: Combination::EMPTY,
     b: Combination::EMPTY,
@@ -65,8 +65,8 @@ pub(crate) const NOTHING: Claim = Claim {
 /// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
 pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
     let found = solve(difference, cache.simplex(difference));
-    if found.gap > 0.0 && !certified(&found) {
-        found.better(solve(difference, Cache::default().simplex(difference)))
+    if found.gap > 0.0 && !is_certified(&found) {
+        found.combine(solve(difference, Cache::default().simplex(difference)))
     } else {
         found
     }
@@ -76,25 +76,25 @@ pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
 ///
 /// A search that stalls before its axis certifies the distance continues from the vertices found by axes of features.
 pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
-    let mut found = Best::nothing();
-    for _ in 0..ROUND_CAP {
+    let mut found = Best::empty();
+    for _ in 0..MAX_ROUNDS {
         let before = found.square;
         let stop = search(difference, simplex, &mut found);
         if stop == Stop::Enclosed {
-            sharpen::to_faces(difference, &mut found);
+            sharpen::try_face_axes(difference, &mut found);
             break;
         }
-        if stop == Stop::Converged && found.gap >= KEEP * found.square.sqrt() {
+        if stop == Stop::Converged && found.gap >= MIN_CERTIFIED_SHARE * found.square.sqrt() {
             break;
         }
         refine::witnesses(difference, found.simplex, &mut found);
         // Written so that NaN breaks.
-        if certified(&found) || !(found.square < before) {
+        if is_certified(&found) || !(found.square < before) {
             break;
         }
-        simplex = sharpen::to_features(difference, &mut found);
+        simplex = sharpen::try_feature_axes(difference, &mut found);
         refine::witnesses(difference, simplex, &mut found);
-        if certified(&found) {
+        if is_certified(&found) {
             break;
         }
     }
@@ -102,15 +102,15 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
 }
 
 /// Returns whether the axis certifies the distance as well as rounding allows.
-pub(crate) fn certified(found: &Best) -> bool {
-    found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
+pub(crate) fn is_certified(found: &Best) -> bool {
+    found.gap > 0.0 && gap_equals_distance(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
 /// Converts the result of a search to a claim.
 pub(crate) fn claim(found: &Best) -> Claim {
     let mut out = Claim {
         axis: found.axis,
-        ..NOTHING
+        ..EMPTY_CLAIM
     };
     for (vertex, weight) in found.simplex.vertices().iter().zip(found.weights) {
         out.a.push(vertex.a, weight);

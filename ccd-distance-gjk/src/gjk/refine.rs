@@ -22,9 +22,9 @@ pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &m
     let near = nearest(Instructions::Best.level(), &p.corners, &q.corners);
     let square = near.difference(&p.corners, &q.corners).length_squared();
     if square < found.square {
-        let shares = Couple::new(near.a, near.b);
+        let shares = PairedWeights::new(near.a, near.b);
         found.square = square;
-        (found.simplex, found.weights) = coupled(difference, &p, &q, shares);
+        (found.simplex, found.weights) = pair_weights(difference, &p, &q, shares);
     }
 }
 
@@ -54,14 +54,14 @@ impl Points {
 }
 
 /// Returns vertices of the difference, and weights, whose combination equals given combinations of both pieces' points.
-fn coupled(
+fn pair_weights(
     difference: &Difference<'_>,
     p: &Points,
     q: &Points,
-    couple: Couple,
+    paired_weights: PairedWeights,
 ) -> (Simplex, [f64; 4]) {
     let (mut simplex, mut weights) = (Simplex::EMPTY, [0.0; 4]);
-    for (i, j, weight) in couple {
+    for (i, j, weight) in paired_weights {
         let vertex = difference.vertex(p.indices[i], q.indices[j]);
         if vertex.is_some_and(|vertex| simplex.push(vertex)) {
             weights[simplex.vertices().len() - 1] = weight;
@@ -74,19 +74,19 @@ fn coupled(
 ///
 /// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
 /// and edge.
-pub(crate) struct Couple {
+pub(crate) struct PairedWeights {
     a: [f64; 3],
     b: [f64; 3],
     at: (usize, usize),
 }
 
-impl Couple {
+impl PairedWeights {
     pub(crate) fn new(a: [f64; 3], b: [f64; 3]) -> Self {
-        Couple { a, b, at: (0, 0) }
+        PairedWeights { a, b, at: (0, 0) }
     }
 }
 
-impl Iterator for Couple {
+impl Iterator for PairedWeights {
     type Item = (usize, usize, f64);
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -2,8 +2,8 @@
 
 use super::minkowski::Difference;
 use super::simplex::{Simplex, Vertex};
-use super::termination::{Stop, meets, touches};
-use crate::tolerance::{CONVERGED_ULPS, STEP_CAP};
+use super::termination::{Stop, gap_equals_distance, is_at_origin};
+use crate::tolerance::{CONVERGED_ULPS, MAX_STEPS};
 use ccd_core::glam::DVec3;
 
 /// The best results for a pair so far: nearest point and axis.
@@ -22,7 +22,7 @@ pub(crate) struct Best {
 
 impl Best {
     /// Creates the results before a search, without a simplex and an axis.
-    pub(crate) fn nothing() -> Self {
+    pub(crate) fn empty() -> Self {
         Best {
             simplex: Simplex::EMPTY,
             weights: [0.0; 4],
@@ -33,7 +33,7 @@ impl Best {
     }
 
     /// Combines two results: the nearer point, and the axis of the larger gap.
-    pub(crate) fn better(self, other: Self) -> Self {
+    pub(crate) fn combine(self, other: Self) -> Self {
         let nearer = if other.square < self.square {
             other
         } else {
@@ -61,7 +61,7 @@ impl Best {
 /// Searches for the point of the difference that is nearest to the origin, from an initial simplex. `found` keeps the
 /// best result, however the search stops.
 pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Best) -> Stop {
-    for _ in 0..STEP_CAP {
+    for _ in 0..MAX_STEPS {
         let Some(foot) = simplex.foot() else {
             return Stop::Stalled;
         };
@@ -71,16 +71,16 @@ pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &
             return Stop::Stalled;
         }
         let reduced;
-        (reduced, found.weights) = simplex.reduced(&foot);
+        (reduced, found.weights) = simplex.without_zero_weights(&foot);
         (found.simplex, found.square) = (reduced, square);
         let Some(direction) = foot.direction else {
             return Stop::Enclosed;
         };
-        if touches(&foot, &simplex) {
+        if is_at_origin(&foot, &simplex) {
             return Stop::Touching;
         }
         let (vertex, gap) = found.probe(difference, direction);
-        if meets(gap, square, &simplex, CONVERGED_ULPS) {
+        if gap_equals_distance(gap, square, &simplex, CONVERGED_ULPS) {
             return Stop::Converged;
         }
         simplex = reduced;

@@ -1,11 +1,11 @@
 //! Improves axes from the features that contain the nearest points, which are more accurate than the points'
 //! difference.
 
-use super::fan::Fan;
+use super::fan::AxisCandidates;
 use super::minkowski::Difference;
 use super::search::Best;
 use super::simplex::{Simplex, Vertex};
-use crate::tolerance::SHARPEN_CAP;
+use crate::tolerance::MAX_AXIS_VERTICES;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
@@ -18,8 +18,8 @@ use ccd_core::vector::unit;
 /// the nearest point's direction out of that cone when the point is short. The axis is therefore
 /// made perpendicular to one or two of the edges `x − f` towards vertices x below it, repeatedly,
 /// until no vertex is below it.
-pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Best) -> Simplex {
-    let Some(mut fan) = Fan::new(found) else {
+pub(crate) fn try_feature_axes(difference: &Difference<'_>, found: &mut Best) -> Simplex {
+    let Some(mut fan) = AxisCandidates::new(found) else {
         return Simplex::EMPTY;
     };
     if found.axis == DVec3::ZERO {
@@ -27,7 +27,7 @@ pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Best) -> Simp
         let axis = unit(difference.between).unwrap_or(DVec3::X);
         fan.push(found.probe(difference, axis).0);
     }
-    for _ in 0..SHARPEN_CAP {
+    for _ in 0..MAX_AXIS_VERTICES {
         let (axis, promise) = fan.best(found.axis);
         // Written so that NaN stops it. The promised gap is at least the gap of the hulls.
         if !(promise > found.gap) {
@@ -38,11 +38,11 @@ pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Best) -> Simp
             break;
         }
     }
-    fan.least(found.axis)
+    fan.lowest_vertices(found.axis)
 }
 
 /// Tries the face normals of a simplex that encloses the origin as axes of least penetration.
-pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Best) {
+pub(crate) fn try_face_axes(difference: &Difference<'_>, found: &mut Best) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {
         return;

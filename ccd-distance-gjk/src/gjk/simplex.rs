@@ -1,6 +1,6 @@
 //! Simplices of up to four vertices of the Minkowski difference.
 
-use super::foot::Foot;
+use super::foot::NearestPoint;
 use super::{segment, tetrahedron, triangle};
 use ccd_core::glam::DVec3;
 
@@ -20,7 +20,7 @@ pub(crate) struct Simplex {
 }
 
 impl Simplex {
-    /// The empty simplex.
+    /// The simplex without vertices.
     pub(crate) const EMPTY: Self = Simplex {
         vertices: [Vertex {
             point: DVec3::ZERO,
@@ -35,7 +35,7 @@ impl Simplex {
         &self.vertices[..self.len]
     }
 
-    /// Adds a vertex. Returns `false` if it is a duplicate, or there are four already.
+    /// Adds a vertex to the simplex. Returns `false` if it is a duplicate, or there are four already.
     pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
         let same = |v: &Vertex| (v.a, v.b) == (vertex.a, vertex.b);
         let room = self.len < 4 && !self.vertices().iter().any(same);
@@ -47,11 +47,11 @@ impl Simplex {
     }
 
     /// Returns the point of the simplex that is nearest to the origin; `None` if it is empty.
-    pub(crate) fn foot(&self) -> Option<Foot> {
+    pub(crate) fn foot(&self) -> Option<NearestPoint> {
         let point = |k: usize| self.vertices[k].point;
         match self.len {
             0 => None,
-            1 => Some(Foot::corner(point(0), 0)),
+            1 => Some(NearestPoint::corner(point(0), 0)),
             2 => Some(segment::foot(point(0), point(1))),
             3 => Some(triangle::foot(point(0), point(1), point(2))),
             _ => Some(tetrahedron::foot(self.vertices.map(|v| v.point))),
@@ -59,7 +59,7 @@ impl Simplex {
     }
 
     /// Returns the simplex of the vertices with positive weights, and those weights.
-    pub(crate) fn reduced(&self, foot: &Foot) -> (Self, [f64; 4]) {
+    pub(crate) fn without_zero_weights(&self, foot: &NearestPoint) -> (Self, [f64; 4]) {
         let (mut kept, mut weights) = (Self::EMPTY, [0.0; 4]);
         for (&vertex, &weight) in self.vertices().iter().zip(&foot.weights) {
             if weight > 0.0 {

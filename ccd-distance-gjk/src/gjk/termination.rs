@@ -1,6 +1,6 @@
 //! The termination criteria of a GJK search.
 
-use super::foot::Foot;
+use super::foot::NearestPoint;
 use super::simplex::Simplex;
 use crate::tolerance::TOUCHING_ULPS;
 use ccd_core::order::greater;
@@ -21,7 +21,7 @@ pub(crate) enum Stop {
 }
 
 /// Returns whether the nearest point is the origin, up to rounding.
-pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
+pub(crate) fn is_at_origin(foot: &NearestPoint, simplex: &Simplex) -> bool {
     let rounding = TOUCHING_ULPS * f64::EPSILON;
     foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
@@ -29,7 +29,7 @@ pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
 /// Returns whether a support gap equals the distance whose square is given, up to a share of rounding.
 ///
 /// They may differ by `share` units in the last place of the distance, plus rounding.
-pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
+pub(crate) fn gap_equals_distance(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
     let rounding = TOUCHING_ULPS * f64::EPSILON * reach(simplex).sqrt();
     distance - gap <= share * f64::EPSILON * distance + rounding

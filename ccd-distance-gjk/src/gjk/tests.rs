@@ -1,10 +1,10 @@
 //! Tests the nearest points of each kind of simplex, and the recovery from a stalled search.
 
-use super::fan::Fan;
-use super::foot::Foot;
+use super::fan::AxisCandidates;
+use super::foot::NearestPoint;
 use super::minkowski::Difference;
-use super::oracle::{certified, solve, solve_from};
-use super::refine::Couple;
+use super::oracle::{is_certified, solve, solve_from};
+use super::refine::PairedWeights;
 use super::search::{Best, search};
 use super::simplex::{Simplex, Vertex};
 use super::start::Cache;
@@ -40,7 +40,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
 }
 
 /// Checks that a foot is the nearest point: it is a convex combination, and no corner is nearer along it than the foot.
-fn is_nearest(corners: &[DVec3], foot: &Foot) {
+fn is_nearest(corners: &[DVec3], foot: &NearestPoint) {
     let size = corners
         .iter()
         .map(|c| c.length_squared())
@@ -116,7 +116,7 @@ fn an_enclosing_tetrahedron_weighs_its_corners() {
 #[case([0.5, 0.0, 0.5], [0.5, 0.5, 0.0], 2)]
 #[case([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], 1)]
 fn couples_keep_both_sides(#[case] a: [f64; 3], #[case] b: [f64; 3], #[case] pairs: usize) {
-    let couples: Vec<_> = Couple::new(a, b).collect();
+    let couples: Vec<_> = PairedWeights::new(a, b).collect();
     assert_eq!(couples.len(), pairs);
     let (mut left, mut right) = ([0.0; 3], [0.0; 3]);
     for (i, j, weight) in couples {
@@ -143,7 +143,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
 /// Tests that the only axis that all edges of a pyramid's apex allow is found edge by edge.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
-    let mut found = Best::nothing();
+    let mut found = Best::empty();
     let vertex = |x: f64, y: f64, z: f64, a| Vertex {
         point: DVec3::new(x, y, z),
         a,
@@ -151,7 +151,7 @@ fn a_fan_finds_the_axis_between_its_edges() {
     };
     found.simplex.push(vertex(0.0, 0.0, 0.0, 0));
     found.weights[0] = 1.0;
-    let mut fan = Fan::new(&found).expect("it has a vertex");
+    let mut fan = AxisCandidates::new(&found).expect("it has a vertex");
     for (k, (x, y)) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)]
         .into_iter()
         .enumerate()
@@ -174,7 +174,7 @@ fn stalled_searches_are_taken_up_again() {
         let pair = scene.pair();
         let difference = Difference::new(&pair).expect("pieces with points");
         let start = || Cache::default().simplex(&difference);
-        let mut alone = Best::nothing();
+        let mut alone = Best::empty();
         let stop = search(&difference, start(), &mut alone);
         stalled += u32::from(stop == Stop::Stalled);
         short += u32::from(alone.gap < 0.5 * alone.square.sqrt());
@@ -211,9 +211,9 @@ fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
             };
             let difference = Difference::new(&pair).unwrap();
             let warm = solve(&difference, cache.simplex(&difference));
-            stalled += u32::from(!certified(&warm));
+            stalled += u32::from(!is_certified(&warm));
             let found = solve_from(&difference, &cache);
-            assert!(certified(&found), "{height} {t}: {found:?}");
+            assert!(is_certified(&found), "{height} {t}: {found:?}");
             cache = Cache::from_found(&found);
         }
     }

@@ -1,8 +1,8 @@
 //! The point of a tetrahedron that is nearest to the origin.
 
-use super::foot::Foot;
+use super::foot::NearestPoint;
 use super::triangle;
-use crate::tolerance::{INSIDE_ROUNDS, TOUCHING_ULPS, VOLUME_ULPS};
+use crate::tolerance::{TOUCHING_ULPS, VOLUME_ULPS, WEIGHT_CORRECTIONS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -11,27 +11,29 @@ use ccd_core::order::greater;
 /// The origin counts as inside only if it is certainly on the inner side of every face, and is a
 /// combination of the corners. Otherwise all faces are examined: if the tetrahedron is flat, even a
 /// face with the origin on its inner side may contain the nearest point.
-pub(crate) fn foot(corners: [DVec3; 4]) -> Foot {
-    let heights = FACES
-        .map(|[apex, a, b, c]| Height::certain(corners[a], corners[b], corners[c], corners[apex]));
+pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
+    let heights = FACES.map(|[apex, a, b, c]| {
+        Height::with_certain_side(corners[a], corners[b], corners[c], corners[apex])
+    });
     if let [Some(a), Some(b), Some(c), Some(d)] = heights
-        && let Some(inside) = inside(corners, [a, b, c, d])
+        && let Some(inside) = weights_of_origin(corners, [a, b, c, d])
     {
         return inside;
     }
-    let feet = FACES
-        .map(|[_, a, b, c]| triangle::foot(corners[a], corners[b], corners[c]).lifted(&[a, b, c]));
+    let feet = FACES.map(|[_, a, b, c]| {
+        triangle::foot(corners[a], corners[b], corners[c]).with_indices(&[a, b, c])
+    });
     let [first, others @ ..] = feet;
     others
         .into_iter()
-        .fold(first, |best, foot| foot.or_nearer(Some(best)))
+        .fold(first, |best, foot| foot.nearer_of(Some(best)))
 }
 
 /// The index of each corner, followed by those of the opposite face.
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
 /// Returns the weights of the origin inside the tetrahedron; `None` if rounding prevents it.
-fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
+fn weights_of_origin(corners: [DVec3; 4], heights: [Height; 4]) -> Option<NearestPoint> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
         terms.fold(DVec3::ZERO, |sum, (&corner, weight)| sum + corner * weight)
@@ -44,7 +46,7 @@ fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
     let mut weights = normalised(heights.map(|height| height.of_origin / height.of_apex));
     // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights is accurate, and
     // each round of correction gains as many digits again.
-    for _ in 0..INSIDE_ROUNDS {
+    for _ in 0..WEIGHT_CORRECTIONS {
         let missed = combined(weights);
         let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
         weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));
@@ -55,7 +57,7 @@ fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
         .fold(0.0, greater);
     let rounding = TOUCHING_ULPS * f64::EPSILON;
     let hit = combined(weights).length_squared() <= rounding * rounding * reach;
-    hit.then_some(Foot {
+    hit.then_some(NearestPoint {
         weights,
         point: DVec3::ZERO,
         direction: None,
@@ -72,7 +74,7 @@ struct Height {
 
 impl Height {
     /// Computes both heights; `None` unless both are certainly on the same side of the face.
-    fn certain(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
+    fn with_certain_side(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);
         let (of_origin, of_apex) = (-a.dot(normal), up.dot(normal));

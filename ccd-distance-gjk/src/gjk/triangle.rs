@@ -1,6 +1,6 @@
 //! The point of a triangle that is nearest to the origin.
 
-use super::foot::Foot;
+use super::foot::NearestPoint;
 use super::segment;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -10,7 +10,7 @@ use ccd_core::order::{greater, lesser};
 /// The foot is inside of the face if the origin is inside of all three edges. Otherwise it is the
 /// nearest foot on the edges that the origin is outside of. A triangle so flat that rounding may
 /// decide the sides is also compared with all of its edges.
-pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> Foot {
+pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> NearestPoint {
     let corners = [a, b, c];
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let n = ab.cross(ac);
@@ -21,19 +21,19 @@ pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> Foot {
     // sin² of the angle at `a` below which areas lose half of their digits.
     let flat = n.length_squared()
         <= f64::EPSILON * ab.length_squared() * greater(ac.length_squared(), bc.length_squared());
-    let mut best = inside.then(|| face(corners, n, areas));
+    let mut best = inside.then(|| nearest_in_face(corners, n, areas));
     for (opposite, &area) in areas.iter().enumerate() {
         if flat || !inside && !(area > 0.0) {
             let edge = [(opposite + 1) % 3, (opposite + 2) % 3];
-            let on_edge = segment::foot(corners[edge[0]], corners[edge[1]]).lifted(&edge);
-            best = Some(on_edge.or_nearer(best));
+            let on_edge = segment::foot(corners[edge[0]], corners[edge[1]]).with_indices(&edge);
+            best = Some(on_edge.nearer_of(best));
         }
     }
-    best.unwrap_or(Foot::corner(a, 0))
+    best.unwrap_or(NearestPoint::corner(a, 0))
 }
 
 /// Returns the nearest point inside the face, from the areas opposite of each corner.
-fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
+fn nearest_in_face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> NearestPoint {
     let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).length_squared();
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
     let end = (start + 1) % 3;
@@ -49,10 +49,10 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     weights[start] += back;
     weights[end] -= back;
     let point = combined(corners, weights);
-    Foot {
+    NearestPoint {
         weights: [weights[0], weights[1], weights[2], 0.0],
         point,
-        direction: Some(straighter(corners, n, point, length2)),
+        direction: Some(less_tilted_direction(corners, n, point, length2)),
     }
 }
 
@@ -61,7 +61,7 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
 ///
 /// The tilt of the normal is inverse to the triangle's height relative to the longest edge, that of the foot to its
 /// length relative to the corners'.
-fn straighter(corners: [DVec3; 3], n: DVec3, point: DVec3, length2: f64) -> DVec3 {
+fn less_tilted_direction(corners: [DVec3; 3], n: DVec3, point: DVec3, length2: f64) -> DVec3 {
     let reach = corners
         .iter()
         .map(|c| c.length_squared())

@@ -7,7 +7,7 @@ use crate::placed::{Placed, PlacedPair};
 use crate::termination::End;
 use crate::tests::setting::{cube, features, moved, needle, point, prepared, turned};
 use crate::tests::shape;
-use crate::tolerance::FAR;
+use crate::tolerance::CERTAIN_DISTANCE;
 use crate::witness::Witness;
 use ccd_core::GiveUp;
 use ccd_core::glam::{DQuat, DVec3};
@@ -22,7 +22,8 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             }
             let pair = Pair { a: one, b: other };
             // A stop is only examined if rounding could hide a nearer pair.
-            let close = Witness::new(placed, pair).distance() < FAR * placed.scale.size;
+            let close =
+                Witness::new(placed, pair).distance() < CERTAIN_DISTANCE * placed.scale.size;
             let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
             let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];
             for end in ends.into_iter().chain(tie) {

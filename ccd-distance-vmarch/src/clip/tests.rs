@@ -1,6 +1,6 @@
 //! Tests lines over the top of a cube, and lines parallel to each other.
 
-use super::{beside, to_prism};
+use super::{middle_of_overlap, to_prism};
 use crate::placed::{Line, Placed};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
@@ -65,5 +65,8 @@ fn parallels_have_a_middle(#[case] shift: f64, #[case] middle: f64) {
         along: DVec3::X,
         length,
     };
-    assert_eq!(beside(&line(0.0, 3.0), &line(shift, 3.0)), middle);
+    assert_eq!(
+        middle_of_overlap(&line(0.0, 3.0), &line(shift, 3.0)),
+        middle
+    );
 }

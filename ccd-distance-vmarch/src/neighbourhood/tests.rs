@@ -1,6 +1,6 @@
 //! Tests that features next to the nearest ones lead to these.
 
-use super::nearer;
+use super::nearer_pair;
 use crate::feature::{Feature, Pair};
 use crate::tests::setting::{cube, edge, face, moved, prepared, turned, vertex};
 use crate::tests::shape;
@@ -17,7 +17,7 @@ fn the_nearest_pair_has_no_nearer_pair_around() {
         b: Feature::Vertex(vertex(&cube, -DVec3::ONE)),
     };
     let distance = Witness::new(&placed, pair).distance();
-    assert_eq!(nearer(&placed, pair, distance), None);
+    assert_eq!(nearer_pair(&placed, pair, distance), None);
 }
 
 /// Tests two cubes almost face to face, tilted so that the corners at one end are nearer by less than their edges'
@@ -43,7 +43,7 @@ fn slow_approaches_are_found() {
     let [far, near] = [high, low].map(|pair| Witness::new(&placed, pair).distance());
     assert!((far - near).abs() > 1e-10);
     let (above, pair) = if far > near { (far, high) } else { (near, low) };
-    let found = nearer(&placed, pair, above).expect("the other end is nearer");
+    let found = nearer_pair(&placed, pair, above).expect("the other end is nearer");
     let distance = Witness::new(&placed, found).distance();
     assert!((distance - lesser(far, near)).abs() < 1e-15, "{found:?}");
 }
@@ -56,7 +56,7 @@ fn all_kinds_of_features_are_found() {
         b: Feature::Vertex(vertex(&cube, DVec3::new(-1.0, -1.0, -1.0))),
     };
     let placed = moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
-    let found = nearer(&placed, top, 9.0).expect("the faces are nearer");
+    let found = nearer_pair(&placed, top, 9.0).expect("the faces are nearer");
     assert!((Witness::new(&placed, found).distance() - 1.0).abs() < 1e-15);
     let single = prepared(&shape::few(&[DVec3::ZERO]));
     let placed = moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
@@ -64,6 +64,6 @@ fn all_kinds_of_features_are_found() {
         a: Feature::Edge(edge(&cube, DVec3::X + DVec3::Z)),
         b: Feature::Vertex(0),
     };
-    let found = nearer(&placed, pair, 2.5).expect("the top is nearer");
+    let found = nearer_pair(&placed, pair, 2.5).expect("the top is nearer");
     assert_eq!(found.a, Feature::Face(face(&cube, DVec3::Z)));
 }

@@ -1,6 +1,9 @@
 //! Tests common points of needles, tetrahedra and cubes, to the last bit.
 
-use super::{contained, enclosed, passes, pierced, searched, weights};
+use super::{
+    barycentric_coordinates, corner_inside, pierced, search_crossing, segment_meets_triangle,
+    weights,
+};
 use crate::placed::Placed;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use crate::tests::shape::{Pcg64, SeedableRng, direction, magnitude, vector};
@@ -32,9 +35,9 @@ fn signs_decide_to_the_last_bit(#[case] start: DVec3, #[case] end: DVec3, #[case
         for turn in 0..3 {
             let mut triangle = TRIANGLE;
             triangle.rotate_left(turn);
-            assert_eq!(passes(edge, triangle), meets);
+            assert_eq!(segment_meets_triangle(edge, triangle), meets);
             triangle.swap(0, 1);
-            assert_eq!(passes(edge, triangle), meets);
+            assert_eq!(segment_meets_triangle(edge, triangle), meets);
         }
     }
 }
@@ -51,7 +54,7 @@ fn both_sides_name_the_same_point() {
         let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
         let offset = direction(&mut rng);
         let edge = [middle - 0.7 * offset, middle + 0.4 * offset];
-        if !passes(edge, triangle) {
+        if !segment_meets_triangle(edge, triangle) {
             continue;
         }
         met += 1;
@@ -67,17 +70,20 @@ fn both_sides_name_the_same_point() {
 #[test]
 fn tetrahedra_enclose_to_the_last_bit() {
     let apex = DVec3::new(0.0, 0.0, -1.0);
-    let weights = enclosed(DVec3::new(0.25, 0.25, -0.25), apex, TRIANGLE);
+    let weights = barycentric_coordinates(DVec3::new(0.25, 0.25, -0.25), apex, TRIANGLE);
     assert_eq!(weights, Some([0.25, 0.25, 0.25, 0.25]));
-    assert!(enclosed(DVec3::new(0.25, 0.25, 0.0), apex, TRIANGLE).is_some());
+    assert!(barycentric_coordinates(DVec3::new(0.25, 0.25, 0.0), apex, TRIANGLE).is_some());
     assert_eq!(
-        enclosed(DVec3::new(0.25, 0.25, 1e-80), apex, TRIANGLE),
+        barycentric_coordinates(DVec3::new(0.25, 0.25, 1e-80), apex, TRIANGLE),
         None
     );
-    assert_eq!(enclosed(DVec3::new(0.25, 0.25, -2.0), apex, TRIANGLE), None);
+    assert_eq!(
+        barycentric_coordinates(DVec3::new(0.25, 0.25, -2.0), apex, TRIANGLE),
+        None
+    );
     // A flat one encloses nothing.
     assert_eq!(
-        enclosed(DVec3::new(0.25, 0.25, 0.0), DVec3::ZERO, TRIANGLE),
+        barycentric_coordinates(DVec3::new(0.25, 0.25, 0.0), DVec3::ZERO, TRIANGLE),
         None
     );
 }
@@ -90,7 +96,7 @@ fn tetrahedra_enclose_to_the_last_bit() {
 fn corners_are_inside_or_not(#[case] at: DVec3, #[case] inside: bool) {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
-    let found = contained(&placed.b, 0, &placed.a);
+    let found = corner_inside(&placed.b, 0, &placed.a);
     assert_eq!(found.is_some(), inside);
     if let Some(found) = found {
         let corners = found.on_face.vertices.iter().zip(found.on_face.weights);
@@ -122,7 +128,7 @@ fn faces_are_pierced_anywhere() {
 fn the_search_finds_common_points(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
     let placed = moved(&one, &other, at);
-    let found = searched(&placed.a, &placed.b, placed.scale)
-        .or_else(|| searched(&placed.b, &placed.a, placed.scale));
+    let found = search_crossing(&placed.a, &placed.b, placed.scale)
+        .or_else(|| search_crossing(&placed.b, &placed.a, placed.scale));
     assert_eq!(found.is_some(), meets);
 }

@@ -1,7 +1,7 @@
 use super::{Placed, PlacedPair};
 use crate::polytope::Polytope;
 use crate::rational::{Exact3, exact};
-use crate::tolerance::PLACING;
+use crate::tolerance::PLACEMENT_ERROR;
 use crate::worst::{Tape, Worst, share};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
@@ -57,7 +57,8 @@ fn worst_placing() {
                 .into_iter()
                 .fold(f64::INFINITY, |a, b| -greater(-a, -b))
         });
-        (least[0] > 1e-12 * size && least[1] > 1e-12 * size).then(|| share(off, PLACING * size))
+        (least[0] > 1e-12 * size && least[1] > 1e-12 * size)
+            .then(|| share(off, PLACEMENT_ERROR * size))
     });
     found.is_within(40.0);
 }

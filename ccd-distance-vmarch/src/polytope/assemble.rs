@@ -1,6 +1,6 @@
 //! Assembles polytopes from outlines of faces.
 
-use super::facets::{Plane, turn, unit};
+use super::facets::{Plane, sides_of_loop, unit};
 use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -77,7 +77,7 @@ fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
 
 /// Returns every edge once, from its lower to its higher vertex, in ascending order.
 fn edges_of(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> {
-    let sides = loops.iter().flat_map(|outline| turn(outline));
+    let sides = loops.iter().flat_map(|outline| sides_of_loop(outline));
     let mut edges: Vec<(u32, u32)> = sides.filter(|(v, w)| v < w).collect();
     edges.sort_unstable();
     edges.into_iter()
@@ -86,7 +86,7 @@ fn edges_of(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> {
 fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
     for (outline, face) in loops.iter().zip(0u32..) {
         let first_side = out.sides.len() as u32;
-        for (v, w) in turn(outline) {
+        for (v, w) in sides_of_loop(outline) {
             let key = (v.min(w), v.max(w));
             let found = out
                 .edges

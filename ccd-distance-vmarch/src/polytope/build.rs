@@ -1,9 +1,9 @@
 //! Prepares pieces for marching.
 
-use super::facets::{Facets, off_line};
+use super::facets::{Facets, distance_from_line};
 use super::support::DirectionTable;
 use super::{Polytope, assemble, convex, merge};
-use crate::tolerance::{COPLANAR, TABLED};
+use crate::tolerance::{COPLANAR_DISTANCE, MAX_SCANNED_CORNERS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{GiveUp, Piece};
@@ -25,8 +25,8 @@ impl Polytope {
             return Err(GiveUp::BadFacets);
         }
         let largest = points.iter().map(|p| p.abs().max_element());
-        let rounding = COPLANAR * largest.fold(0.0, greater);
-        let ends = match spread(points, rounding) {
+        let rounding = COPLANAR_DISTANCE * largest.fold(0.0, greater);
+        let ends = match classify_spread(points, rounding) {
             Spread::Point => return Ok(Self::assembled(points, &[0], &[])),
             Spread::Line(ends) => return Ok(Self::assembled(points, &ends, &[])),
             Spread::Wide(ends) => ends,
@@ -48,7 +48,7 @@ impl Polytope {
 
     fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble(points, ends, loops);
-        if polytope.vertices.len() > TABLED {
+        if polytope.vertices.len() > MAX_SCANNED_CORNERS {
             polytope.directions = Some(Box::new(DirectionTable::new(&polytope)));
         }
         polytope
@@ -63,7 +63,7 @@ enum Spread {
 }
 
 /// Classifies points: within `rounding` of one point or of one line, or more.
-fn spread(points: &[DVec3], rounding: f64) -> Spread {
+fn classify_spread(points: &[DVec3], rounding: f64) -> Spread {
     let farthest = |from: DVec3| {
         let distances = points.iter().map(|p| p.distance(from)).zip(0..);
         distances.fold(
@@ -77,7 +77,10 @@ fn spread(points: &[DVec3], rounding: f64) -> Spread {
         return Spread::Point;
     }
     let ends = [one, other].map(|v| points[v as usize]);
-    if points.iter().all(|&p| off_line(p, ends) <= rounding) {
+    if points
+        .iter()
+        .all(|&p| distance_from_line(p, ends) <= rounding)
+    {
         Spread::Line([one, other])
     } else {
         Spread::Wide([one, other])

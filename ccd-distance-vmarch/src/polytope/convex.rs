@@ -1,7 +1,7 @@
 //! Tests whether faces enclose a convex polytope exactly once.
 
 use super::{NO_FACE, Polytope, Side, unit};
-use crate::tolerance::{CONVEX, COPLANAR, LINES};
+use crate::tolerance::{CONVEX_HEIGHT, COPLANAR_DISTANCE, MAX_RAYS};
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -16,13 +16,13 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
     if polytope.faces.len() < 2 || edges.iter().any(|edge| edge.faces.contains(&NO_FACE)) {
         return false;
     }
-    let rounding = rounding * (CONVEX / COPLANAR);
+    let rounding = rounding * (CONVEX_HEIGHT / COPLANAR_DISTANCE);
     let check = Check::new(points, polytope, rounding);
     let mut faces = 0..polytope.faces.len() as u32;
     faces.clone().all(|f| check.is_polygon(f))
-        && faces.all(|f| check.falls_away(f))
-        && check.is_in_one()
-        && (polytope.faces.len() == 2 || check.goes_around_once())
+        && faces.all(|f| check.is_convex_towards_neighbours(f))
+        && check.is_connected()
+        && (polytope.faces.len() == 2 || check.winds_once())
 }
 
 struct Check<'a> {
@@ -78,7 +78,7 @@ impl<'a> Check<'a> {
     }
 
     /// Returns whether a face is convex towards its neighbours: their vertices next to the common edges are behind it.
-    fn falls_away(&self, face: u32) -> bool {
+    fn is_convex_towards_neighbours(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         self.polytope.sides_of(face).iter().all(|side| {
             let edge = self.polytope.edge(side.edge);
@@ -96,7 +96,7 @@ impl<'a> Check<'a> {
     }
 
     /// Returns whether all faces are connected over edges.
-    fn is_in_one(&self) -> bool {
+    fn is_connected(&self) -> bool {
         let mut reached = vec![false; self.polytope.faces.len()];
         reached[0] = true;
         let mut open = vec![0];
@@ -114,7 +114,7 @@ impl<'a> Check<'a> {
 
     /// Returns whether the surface winds once: a ray from the mean of all vertices leaves through at most one face, by
     /// exact signs. Rays that meet an edge are skipped.
-    fn goes_around_once(&self) -> bool {
+    fn winds_once(&self) -> bool {
         let vertices = 0..self.polytope.vertices.len() as u32;
         let middle =
             vertices.clone().map(|v| self.corner(v)).sum::<DVec3>() / vertices.len() as f64;
@@ -127,13 +127,13 @@ impl<'a> Check<'a> {
                 .sum::<DVec3>()
         });
         let layers = targets
-            .take(LINES)
-            .find_map(|target| self.left_through(middle, target));
+            .take(MAX_RAYS)
+            .find_map(|target| self.count_exits(middle, target));
         layers.is_none_or(|layers| layers <= 1)
     }
 
     /// Counts the faces through which the ray from one point through another leaves; `None` if the ray meets an edge.
-    fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
+    fn count_exits(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let mut layers = 0;
         for face in 0..self.polytope.faces.len() as u32 {
             let sides = self.polytope.sides_of(face);

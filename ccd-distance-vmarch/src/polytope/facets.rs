@@ -31,7 +31,7 @@ impl Facets {
         points: &[DVec3],
         loops: impl Iterator<Item = &'a [u32]>,
     ) -> Option<Self> {
-        let welded = welded(points);
+        let welded = weld(points);
         let mut kept: Vec<Vec<u32>> = Vec::new();
         for corners in loops {
             let corners = corners.iter().map(|&v| welded.get(v as usize).copied());
@@ -55,7 +55,7 @@ impl Facets {
     fn joined(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
         let mut sides: Vec<(u32, u32, u32)> = Vec::new();
         for (corners, facet) in loops.iter().zip(0..) {
-            sides.extend(turn(corners).map(|(v, w)| (v, w, facet)));
+            sides.extend(sides_of_loop(corners).map(|(v, w)| (v, w, facet)));
         }
         sides.sort_unstable();
         let twice = sides
@@ -68,7 +68,8 @@ impl Facets {
             let found = sides.binary_search_by_key(&(v, w), |side| (side.0, side.1));
             found.ok().map(|at| sides[at].2)
         };
-        let across = |corners: &Vec<u32>| turn(corners).map(|(v, w)| holder(w, v)).collect();
+        let across =
+            |corners: &Vec<u32>| sides_of_loop(corners).map(|(v, w)| holder(w, v)).collect();
         Some(Facets {
             across: loops.iter().map(across).collect::<Option<Vec<_>>>()?,
             planes: loops
@@ -91,7 +92,8 @@ impl Plane {
         }
         let area = sum.value();
         let normal = unit(area);
-        let sides = turn(corners).map(|(v, w)| points[v as usize].distance(points[w as usize]));
+        let sides =
+            sides_of_loop(corners).map(|(v, w)| points[v as usize].distance(points[w as usize]));
         let (area, longest) = (0.5 * area.dot(normal), sides.fold(0.0, greater));
         Plane {
             normal,
@@ -102,7 +104,7 @@ impl Plane {
 }
 
 /// Returns the sides of a polygon, as pairs of vertices.
-pub(crate) fn turn(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+pub(crate) fn sides_of_loop(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
 }
@@ -113,7 +115,7 @@ pub(crate) fn unit(v: DVec3) -> DVec3 {
 }
 
 /// Returns the distance of a point from a line through two points, or from the first if they are equal.
-pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
+pub(crate) fn distance_from_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     let along = DoubleDoubleVector::difference(end, start);
     let area = DoubleDoubleVector::difference(p, start)
         .cross(along)
@@ -127,7 +129,7 @@ pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
 }
 
 /// Returns for every point the index of the first one at the same position.
-fn welded(points: &[DVec3]) -> Vec<u32> {
+fn weld(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {
         (points[v as usize] + DVec3::ZERO)

@@ -1,6 +1,6 @@
 //! Merges coplanar facets into faces.
 
-use super::facets::{Facets, off_line, turn};
+use super::facets::{Facets, distance_from_line, sides_of_loop};
 use ccd_core::glam::DVec3;
 
 /// Merges coplanar facets, and returns the outlines of the faces; `None` if a face has several outlines, or one of
@@ -10,13 +10,13 @@ use ccd_core::glam::DVec3;
 /// facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped. In
 /// a flat polygon, which has only two faces, only those within `rounding` of a side are.
 pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<Vec<Vec<u32>>> {
-    let (faces, count) = grouped(points, facets, rounding);
+    let (faces, count) = group_coplanar(points, facets, rounding);
     let mut outlines = outlines(facets, &faces, count, points.len())?;
     match count {
         0 | 1 => return None,
         2 => {
             // Both sides of one outline.
-            let front = without_straight(points, &outlines[0], rounding);
+            let front = without_collinear_corners(points, &outlines[0], rounding);
             outlines[1] = front.iter().rev().copied().collect();
             outlines[0] = front;
         }
@@ -35,7 +35,7 @@ pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<
 }
 
 /// Groups coplanar facets: returns the face of each facet, and the number of faces.
-fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
+fn group_coplanar(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
     const NONE: u32 = u32::MAX;
     let mut order: Vec<u32> = (0..facets.loops.len() as u32).collect();
     let area = |f: u32| facets.planes[f as usize].area;
@@ -83,7 +83,7 @@ fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option
     for (face, members) in (0..).zip(&members) {
         let sides = members.iter().flat_map(|&facet| {
             let across = facets.across[facet].iter();
-            turn(&facets.loops[facet]).zip(across)
+            sides_of_loop(&facets.loops[facet]).zip(across)
         });
         let outer = sides.filter(|&(_, &other)| faces[other as usize] != face);
         let outer: Vec<(u32, u32)> = outer.map(|(side, _)| side).collect();
@@ -108,7 +108,7 @@ fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option
 }
 
 /// Removes corners from an outline that are within `rounding` of the line between their neighbours.
-fn without_straight(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32> {
+fn without_collinear_corners(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32> {
     let at = |v: u32| points[v as usize];
     let mut kept: Vec<u32> = Vec::with_capacity(outline.len());
     // Starts at an extreme point, which is certainly a corner.
@@ -119,7 +119,7 @@ fn without_straight(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32
     for (&v, &after) in turned().zip(outline.iter().cycle().skip(first + 1)) {
         let straight = kept
             .last()
-            .is_some_and(|&before| off_line(at(v), [at(before), at(after)]) <= rounding);
+            .is_some_and(|&before| distance_from_line(at(v), [at(before), at(after)]) <= rounding);
         if !straight {
             kept.push(v);
         }

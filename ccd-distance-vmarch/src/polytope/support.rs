@@ -19,7 +19,7 @@ impl DirectionTable {
         let mut corners = [0; 6 * SQUARES * SQUARES];
         let mut at = 0;
         for (square, corner) in corners.iter_mut().enumerate() {
-            at = polytope.climbed(at, middle_of(square));
+            at = polytope.climb(at, middle_of(square));
             *corner = at;
         }
         DirectionTable(corners)
@@ -69,7 +69,7 @@ impl Polytope {
     /// Returns a corner that is farthest along a direction, up to rounding.
     pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(table) = &self.directions {
-            return self.climbed(table.vertex_towards(direction), direction);
+            return self.climb(table.vertex_towards(direction), direction);
         }
         let heights = self
             .vertices
@@ -85,7 +85,7 @@ impl Polytope {
     /// Climbs to the highest neighbour until no neighbour is higher.
     ///
     /// It may stop short of corners that are level up to rounding: a march goes on from there.
-    fn climbed(&self, start: u32, direction: DVec3) -> u32 {
+    fn climb(&self, start: u32, direction: DVec3) -> u32 {
         let height = |v: u32| self.vertex(v).point.dot(direction);
         let (mut at, mut highest) = (start, height(start));
         // Every round climbs.

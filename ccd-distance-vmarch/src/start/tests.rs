@@ -22,7 +22,7 @@ fn invalid_states_are_no_start(#[case] a: Feature, #[case] b: Feature) {
     };
     assert_eq!(Cache::default().start(&placed), corners);
     let mut cache = Cache::default();
-    cache.keep(&placed, Pair { a, b }, DVec3::ONE);
+    cache.store(&placed, Pair { a, b }, DVec3::ONE);
     assert_eq!(cache.start(&placed), corners);
 }
 
@@ -36,7 +36,7 @@ fn a_part_is_begun_with_along_the_last_axis() {
         a: Feature::Face(face(&cube, DVec3::X)),
         b: Feature::Vertex(3),
     };
-    cache.keep(&moved(&cube, &cube, far), pair, DVec3::X);
+    cache.store(&moved(&cube, &cube, far), pair, DVec3::X);
     let to_point = cache.start(&moved(&cube, &point, near));
     assert_eq!((to_point.a, to_point.b), (pair.a, Feature::Vertex(0)));
     let from_point = cache.start(&moved(&point, &cube, near));
@@ -62,7 +62,7 @@ fn the_nearest_features_are_the_next_start() {
         b: Feature::Vertex(2),
     };
     let mut cache = Cache::default();
-    cache.keep(&placed, pair, DVec3::X);
+    cache.store(&placed, pair, DVec3::X);
     assert_eq!(cache.start(&placed), pair);
     assert!(size_of::<Cache>() <= 64);
 }

@@ -25,7 +25,10 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
         assert!(body.excess() == about.excess() && body.excess() > 1e-4);
         // The triangles that replace the body represent the same shape.
         let ball = Body::ball(1.0).unwrap();
-        assert_eq!(Excess::of(&body, &ball), Excess::of(&ball, &body));
+        assert_eq!(
+            Excess::of_bodies(&body, &ball),
+            Excess::of_bodies(&ball, &body)
+        );
     }
     assert!(Body::cylinder(1.0, 2.0).unwrap().excess() > 1e-5);
     assert_eq!(Body::cylinder(0.0, 2.0).unwrap().excess(), 0.0);
@@ -34,7 +37,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
 #[test]
 fn a_sum_is_rounded_away_from_what_is_claimed() {
     let exceeding = |excess| Body::ball(1.0).unwrap().with_excess(excess).unwrap();
-    let exact = Excess::of(&exceeding(0.0), &exceeding(0.0));
+    let exact = Excess::of_bodies(&exceeding(0.0), &exceeding(0.0));
     // Exact bodies keep their bits.
     assert_eq!(
         (
@@ -43,7 +46,7 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
         ),
         (0.3, 0.3)
     );
-    let both = Excess::of(&exceeding(0.1), &exceeding(0.2));
+    let both = Excess::of_bodies(&exceeding(0.1), &exceeding(0.2));
     assert!(both.distance_of_overlap() > 0.1 + 0.2);
     assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.distance_of_overlap());
     assert!(

@@ -14,13 +14,13 @@ fn solid(triangles: &[Triangle]) -> Body {
 /// Checks the normal of every face against the direction away from the middle of its shell.
 fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
-        let out = out_of(body.middle(piece));
+        let out = out_of(body.centroid(piece));
         let Facing::Out(normal) = body.facing(piece) else {
             panic!("{:?}", body.facing(piece));
         };
         assert!(normal.dot(out) > 0.1, "{normal} {out}");
         let inside = body.point_inside(piece).unwrap();
-        assert!((inside - body.middle(piece)).dot(out) < 0.0);
+        assert!((inside - body.centroid(piece)).dot(out) < 0.0);
     }
 }
 

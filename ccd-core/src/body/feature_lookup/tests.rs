@@ -44,7 +44,9 @@ fn names_agree_with_a_scan_of_all_facets() {
         slot: None,
         ..piece
     };
-    assert!(FacetsByCorner::of(&piece).is_some() && FacetsByCorner::of(&bare).is_none());
+    assert!(
+        FacetsByCorner::for_piece(&piece).is_some() && FacetsByCorner::for_piece(&bare).is_none()
+    );
     let mut rng = rng(41);
     let (mut faces, mut edges) = (0, 0);
     for _ in 0..3_000 {

@@ -3,9 +3,9 @@
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
 use crate::body::{Body, Volume};
 use crate::error::InputError;
-use crate::tests::scene::{Look, pieces, rng, soup};
+use crate::tests::scene::{SoupKind, pieces, rng, soup};
 
-fn refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
+fn assert_refused(nodes: &[super::HierarchyNode], pieces: usize) -> usize {
     match Hierarchy::new(nodes.to_vec(), pieces) {
         Err(InputError::BadHierarchy { at }) => at,
         other => panic!("{nodes:?} made {other:?}"),
@@ -23,20 +23,23 @@ fn a_tree_over_all_pieces_is_taken() {
 #[test]
 fn invalid_nodes_are_refused_by_index() {
     // There is no root, and no node for the piece.
-    assert_eq!(refused(&[], 1), 0);
-    assert_eq!(refused(&[], 0), 0);
-    assert_eq!(refused(&[Leaf(0)], 0), 0);
+    assert_eq!(assert_refused(&[], 1), 0);
+    assert_eq!(assert_refused(&[], 0), 0);
+    assert_eq!(assert_refused(&[Leaf(0)], 0), 0);
     // A piece is missing, repeated, or out of range.
-    assert_eq!(refused(&[Leaf(0)], 2), 1);
-    assert_eq!(refused(&[Inner(1, 2), Leaf(1), Leaf(1)], 2), 1);
-    assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(9)], 2), 9);
+    assert_eq!(assert_refused(&[Leaf(0)], 2), 1);
+    assert_eq!(assert_refused(&[Inner(1, 2), Leaf(1), Leaf(1)], 2), 1);
+    assert_eq!(assert_refused(&[Inner(1, 2), Leaf(0), Leaf(9)], 2), 9);
     // A node is reached twice, from itself, never, or is out of range.
-    assert_eq!(refused(&[Inner(1, 1), Leaf(0)], 1), 1);
-    assert_eq!(refused(&[Inner(0, 1), Leaf(0)], 1), 0);
-    assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2), 3);
-    assert_eq!(refused(&[Inner(1, 7), Leaf(0)], 1), 7);
+    assert_eq!(assert_refused(&[Inner(1, 1), Leaf(0)], 1), 1);
+    assert_eq!(assert_refused(&[Inner(0, 1), Leaf(0)], 1), 0);
     assert_eq!(
-        refused(&[Inner(1, u32::MAX), Leaf(0)], 1),
+        assert_refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2),
+        3
+    );
+    assert_eq!(assert_refused(&[Inner(1, 7), Leaf(0)], 1), 7);
+    assert_eq!(
+        assert_refused(&[Inner(1, u32::MAX), Leaf(0)], 1),
         u32::MAX as usize
     );
 }
@@ -47,12 +50,12 @@ fn a_hierarchy_of_other_pieces_is_refused() {
     let of = |count| {
         Hierarchy::median_split(&pieces(&soup(
             &mut crate::tests::scene::rng(2),
-            Look::Plump,
+            SoupKind::Plump,
             count,
             1.0,
         )))
     };
-    let pieces = pieces(&soup(&mut rng, Look::Plump, 5, 1.0));
+    let pieces = pieces(&soup(&mut rng, SoupKind::Plump, 5, 1.0));
     for count in [1, 4, 6, 40] {
         let made = Body::with_hierarchy(&pieces, &of(count), Volume::Surface);
         assert!(
@@ -66,7 +69,7 @@ fn a_hierarchy_of_other_pieces_is_refused() {
 #[test]
 fn the_median_split_is_a_tree_and_balanced() {
     let mut rng = rng(3);
-    for look in Look::ALL {
+    for look in SoupKind::ALL {
         for count in [1, 2, 3, 31, 1_000] {
             let pieces = pieces(&soup(&mut rng, look, count, 1.0));
             let hierarchy = Hierarchy::median_split(&pieces);
@@ -105,7 +108,7 @@ fn a_chain_is_a_hierarchy_too() {
     let mut short: Vec<_> = nodes[..2 * few - 2].to_vec();
     short.push(Leaf(few as u32 - 1));
     let hierarchy = Hierarchy::new(short, few).unwrap();
-    let pieces = pieces(&soup(&mut rng(4), Look::Plump, few, 1.0));
+    let pieces = pieces(&soup(&mut rng(4), SoupKind::Plump, few, 1.0));
     let body = Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap();
     assert_eq!(body.pieces().len(), few);
 }

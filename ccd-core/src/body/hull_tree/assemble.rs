@@ -9,7 +9,7 @@ use super::inherit::{Child, inherit};
 use super::inside::Container;
 use super::node::{FacetData, Node};
 use super::{HullTree, Hulls};
-use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounds};
+use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounding_box};
 use crate::body::pieces::Pieces;
 use crate::body::pieces::builder::{Capacity, PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
@@ -196,6 +196,6 @@ fn hierarchy(pieces: &Pieces, nodes: &[HullNode]) -> Result<Hierarchy, HullTreeE
 }
 
 fn size(points: &[DVec3], radius: f64) -> f64 {
-    let (lo, hi) = bounds(points.iter().copied());
+    let (lo, hi) = bounding_box(points.iter().copied());
     0.5 * hi.distance(lo) + radius
 }

@@ -16,7 +16,8 @@ pub(super) struct Container<'a> {
 }
 
 impl<'a> Container<'a> {
-    /// Prepares the hull. Every edge of the facets must occur exactly once in reverse in another facet.
+    /// Prepares a hull for tests whether it contains points. Every edge of the facets must occur exactly once in
+    /// reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
         let at = |&v: &u32| points[v as usize];
         let fan = |corners: &[u32]| {

@@ -1,6 +1,7 @@
 //! Lists of polygons, stored contiguously.
 
-/// A list of polygons, such as the facets of a [hull](super::Hull). Each is a loop of indices into a list of points.
+/// A list of polygons, for example the facets of a [hull](super::Hull). Each is a loop of indices into a list of
+/// points.
 ///
 /// ```
 /// use ccd_core::Loops;
@@ -27,7 +28,7 @@ impl Loops {
         }
     }
 
-    /// Adds a polygon.
+    /// Adds a polygon, given by its corners, at the end of the list.
     pub fn push(&mut self, corners: &[u32]) {
         self.corners.extend_from_slice(corners);
         self.ends.push(self.corners.len());

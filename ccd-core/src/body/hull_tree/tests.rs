@@ -345,16 +345,16 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
         made.fetch_add(1, Ordering::Relaxed);
         Points(piece.points.len())
     };
-    body.keep(make);
+    body.precompute(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
-    body.keep(make);
+    body.precompute(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
     let never = |_: &Piece<'_>| -> Points { panic!("it is there") };
     for list in [body.pieces(), body.hull_tree().unwrap().hulls()] {
-        assert!(list.iter().all(|p| p.kept(never).unwrap().0 == 8));
+        assert!(list.iter().all(|p| p.cached(never).unwrap().0 == 8));
     }
     // A copy has its own pieces, and shares the hulls.
-    body.clone().keep(make);
+    body.clone().precompute(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3 + 2);
 }
 

@@ -1,4 +1,4 @@
-//! Serialisation of pieces. Pieces that are read are checked like pieces that are built.
+//! Serialisation of lists of pieces. Pieces that are read are checked like pieces that are built.
 
 use super::{Pieces, Radii, Shape};
 use crate::body::polytope::Polytope;

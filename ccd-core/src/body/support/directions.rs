@@ -23,7 +23,7 @@ const TAN: [f64; 4] = [
 ];
 
 /// Returns all directions in the order of their numbers.
-pub(super) fn all() -> impl Iterator<Item = DVec3> {
+pub(super) fn all_directions() -> impl Iterator<Item = DVec3> {
     let circle = |latitude: u32| {
         let (sin, cos) = (f64::from(latitude) * FRAC_PI_8).sin_cos();
         (0..16).map(move |longitude| {
@@ -39,7 +39,7 @@ pub(super) fn all() -> impl Iterator<Item = DVec3> {
 /// Returns the number of the direction that is nearest in latitude and longitude to a vector of any length. The number
 /// is arbitrary if the vector is not finite.
 #[inline]
-pub(super) fn nearest(v: DVec3) -> usize {
+pub(super) fn nearest_direction(v: DVec3) -> usize {
     let square = v.length_squared();
     let from_pole = count(COS_SQUARED.map(|c| v.z * v.z < c * square));
     let from_axis = count(TAN.map(|t| v.y.abs() > t * v.x.abs()));

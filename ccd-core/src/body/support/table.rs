@@ -5,7 +5,7 @@ use super::tree::ball_about;
 use crate::body::facets::Facets;
 use crate::math::order::greater;
 use crate::rounding::HEIGHT_F64;
-use crate::tuning::PLATEAU_POINTS;
+use crate::tuning::MAX_PLATEAU_POINTS;
 use glam::DVec3;
 
 /// The corners of a convex polytope, the edges between them, and the corners that are farthest
@@ -49,7 +49,7 @@ impl SupportTable {
             starts: [first; DIRECTIONS],
         };
         let mut at = first;
-        for (number, direction) in directions::all().enumerate() {
+        for (number, direction) in directions::all_directions().enumerate() {
             at = table.climb(at, direction);
             table.starts[number] = at;
         }
@@ -63,7 +63,10 @@ impl SupportTable {
     /// the hull.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
-        self.climb(self.starts[directions::nearest(direction)], direction)
+        self.climb(
+            self.starts[directions::nearest_direction(direction)],
+            direction,
+        )
     }
 
     /// Like `SupportTable::extremal`, but starts at a given corner, such as the last answer. If that corner is on no
@@ -89,7 +92,7 @@ impl SupportTable {
 
     /// Returns the centre and radius of a ball around the points.
     #[inline]
-    pub(crate) fn ball(&self) -> (DVec3, f64) {
+    pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         self.ball
     }
 
@@ -133,7 +136,7 @@ impl SupportTable {
         slack: f64,
         direction: DVec3,
     ) -> Option<(u32, f64)> {
-        let mut level = [at; PLATEAU_POINTS];
+        let mut level = [at; MAX_PLATEAU_POINTS];
         let (mut next, mut count) = (0, 1);
         while next < count {
             let from = level[next];

@@ -87,7 +87,7 @@ fn shapes() -> Vec<Pieces> {
 }
 
 /// Returns directions, along some of which several corners have the same height.
-fn looks(count: usize) -> Vec<DVec3> {
+fn directions_with_ties(count: usize) -> Vec<DVec3> {
     let mut rng = rng(11);
     let mut whole = || DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-3..=3))));
     let mut looks: Vec<DVec3> = (0..count / 2).map(|_| whole()).collect();
@@ -109,7 +109,7 @@ fn climbing_agrees_with_a_scan() {
         let scan = SupportScan::new(piece.points);
         let reach = piece.points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(0.0, greater);
-        for look in looks(2_000) {
+        for look in directions_with_ties(2_000) {
             let height = |v: u32| look.dot(piece.points[v as usize]);
             let highest = (0..piece.points.len() as u32)
                 .map(height)
@@ -140,7 +140,7 @@ fn scanning_takes_the_first_of_the_highest() {
             .map(|_| DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..=2)))))
             .collect();
         let scan = SupportScan::new(&points);
-        for look in looks(40).into_iter().take(20) {
+        for look in directions_with_ties(40).into_iter().take(20) {
             let height = |p: &DVec3| look.dot(*p);
             let highest = points.iter().map(height).fold(f64::NEG_INFINITY, greater);
             let first = points.iter().position(|p| height(p) == highest);
@@ -151,17 +151,17 @@ fn scanning_takes_the_first_of_the_highest() {
 
 #[test]
 fn directions_are_their_own_nearest_and_none_is_far() {
-    let all: Vec<DVec3> = directions::all().collect();
+    let all: Vec<DVec3> = directions::all_directions().collect();
     assert_eq!(all.len(), DIRECTIONS);
     for (number, direction) in all.iter().enumerate() {
         for scale in [1e-150, 1.0, 1e150] {
-            assert_eq!(directions::nearest(*direction * scale), number);
+            assert_eq!(directions::nearest_direction(*direction * scale), number);
         }
     }
     let mut rng = rng(14);
     for _ in 0..10_000 {
         let look = direction(&mut rng);
-        let angle = look.angle_between(all[directions::nearest(look)]);
+        let angle = look.angle_between(all[directions::nearest_direction(look)]);
         // The limit is half a step of latitude, and half a step of longitude on the equator.
         assert!(angle <= 16f64.to_radians(), "{}", angle.to_degrees());
     }

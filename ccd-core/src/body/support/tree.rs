@@ -95,7 +95,7 @@ impl SupportTree {
 
     /// Returns the centre and radius of a ball around the points.
     #[inline]
-    pub(crate) fn ball(&self) -> (DVec3, f64) {
+    pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         self.ball
     }
 

@@ -1,7 +1,7 @@
 //! Builds the wide tree from a binary hierarchy.
 
 use super::fit::{NodePoints, Sample, fit};
-use super::group::longest;
+use super::group::longest_length;
 use super::{Below, BodyBox, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
@@ -20,8 +20,8 @@ pub(crate) struct Layout {
 }
 
 /// Returns the largest distance of a point from the origin, rounding radii included.
-fn span(pieces: &Pieces) -> f64 {
-    let farthest = |points: &[DVec3]| longest(points.iter().copied());
+fn max_point_distance(pieces: &Pieces) -> f64 {
+    let farthest = |points: &[DVec3]| longest_length(points.iter().copied());
     if pieces.all_triangles() {
         return farthest(pieces.points());
     }
@@ -105,13 +105,16 @@ impl Layout {
     ///
     /// A binary node opens its largest descendants until there are eight. The smallest clusters have up to eight
     /// triangles, or one piece of another kind.
-    pub(crate) fn of(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Self, Pieces), InputError> {
+    pub(crate) fn from_hierarchy(
+        pieces: &Pieces,
+        hierarchy: &Hierarchy,
+    ) -> Result<(Self, Pieces), InputError> {
         let ranges = PieceRanges::new(hierarchy, pieces.len())?;
-        let layout = Layout::over(hierarchy, &ranges, pieces.all_triangles());
+        let layout = Layout::build_layout(hierarchy, &ranges, pieces.all_triangles());
         Ok((layout, pieces.reordered(&ranges.order)))
     }
 
-    fn over(hierarchy: &Hierarchy, ranges: &PieceRanges, triangles: bool) -> Self {
+    fn build_layout(hierarchy: &Hierarchy, ranges: &PieceRanges, triangles: bool) -> Self {
         let opener = ChildChooser {
             hierarchy,
             ranges,
@@ -186,7 +189,7 @@ impl Layout {
             *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
-            whole: BodyBox::about(
+            whole: BodyBox::fit_to(
                 &self.nodes[0].node_points(pieces),
                 &mut Sample::EMPTY.clone(),
             ),
@@ -194,7 +197,7 @@ impl Layout {
             nodes,
             boxes,
             triangles,
-            span: span(pieces),
+            span: max_point_distance(pieces),
         }
     }
 }
@@ -210,7 +213,7 @@ impl Layout {
                 return None;
             }
             let corners = pieces.points_of(slot.start as usize..slot.end as usize);
-            Some((id, Slab::about(corners, node.centre)?))
+            Some((id, Slab::fit_to(corners, node.centre)?))
         };
         (0..)
             .zip(self.nodes.iter().zip(nodes))

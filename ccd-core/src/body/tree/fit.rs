@@ -2,7 +2,7 @@
 
 mod sample;
 
-use super::group::up;
+use super::group::round_up_to_f32;
 use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
@@ -41,7 +41,7 @@ const TRIED_ROTATIONS: [(f64, f64); 6] = [
 pub(crate) fn fit(node_points: &NodePoints<'_>, below: Below, sample: &mut Sample) -> Node {
     sample.take(node_points);
     let frame = best_frame(sample, node_points.triangles);
-    FittedBox::along(frame, node_points.points).node(node_points, below)
+    FittedBox::fit_along(frame, node_points.points).to_node(node_points, below)
 }
 
 /// Returns the frame whose box around the sample has the least surface area. The frames tried are along the
@@ -94,14 +94,14 @@ struct FittedBox {
 }
 
 impl FittedBox {
-    fn along(frame: DMat3, points: &[DVec3]) -> Self {
+    fn fit_along(frame: DMat3, points: &[DVec3]) -> Self {
         let turned = frame.transpose();
-        let (low, high) = crate::body::hierarchy::bounds(points.iter().map(|&p| turned * p));
+        let (low, high) = crate::body::hierarchy::bounding_box(points.iter().map(|&p| turned * p));
         FittedBox { frame, low, high }
     }
 
     /// Creates the node, with axes rounded to f32, the longest first. The sizes are measured along the rounded axes.
-    fn node(&self, node_points: &NodePoints<'_>, below: Below) -> Node {
+    fn to_node(&self, node_points: &NodePoints<'_>, below: Below) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
@@ -116,15 +116,15 @@ impl FittedBox {
             }
             square = greater(square, way.length_squared());
         }
-        // A product that cancels is off by this much, which `up` does not cover in a flat box.
+        // A product that cancels is off by this much, which `round_up_to_f32` does not cover in a flat box.
         let rounding = 8.0 * U64 * square.sqrt();
-        let outward = |x: f64| up(x + rounding).next_up();
+        let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
         Node {
             centre,
             axes,
             half: half.map(outward),
             radius: outward(square.sqrt() + node_points.radius),
-            rounding: up(node_points.radius),
+            rounding: round_up_to_f32(node_points.radius),
             below,
         }
     }

@@ -87,7 +87,7 @@ impl BoxGroup {
             let way = node.centre - origin;
             let centre = way.as_vec3();
             // The rounded centre is off by this much: the box and the ball grow by it.
-            let off = up(length(way - centre.as_dvec3()));
+            let off = round_up_to_f32(length(way - centre.as_dvec3()));
             set(&mut group.centre, lane, centre);
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
                 set(rows, lane, axis);
@@ -97,7 +97,7 @@ impl BoxGroup {
             }
             group.rounding[lane] = node.rounding;
             group.radius[lane] = (node.radius + off).next_up();
-            let reach = up(length(way) + f64::from(node.radius));
+            let reach = round_up_to_f32(length(way) + f64::from(node.radius));
             group.members.reach = greater(group.members.reach, reach);
             if matches!(node.below, Below::Piece(_)) {
                 group.leaves |= 1 << lane;
@@ -138,10 +138,12 @@ impl TriangleRow {
         for (triangle, radius) in triangles.iter().zip(&mut row.radius) {
             let corners = triangle.map(|p| p - origin);
             let mean = (corners[0] + corners[1] + corners[2]) / 3.0;
-            *radius = up(longest(corners.into_iter().map(|corner| corner - mean)));
+            *radius = round_up_to_f32(longest_length(
+                corners.into_iter().map(|corner| corner - mean),
+            ));
         }
         let corners = triangles.as_flattened().iter();
-        row.members.reach = up(longest(corners.map(|&p| p - origin)));
+        row.members.reach = round_up_to_f32(longest_length(corners.map(|&p| p - origin)));
         row
     }
 }
@@ -177,7 +179,7 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
 }
 
 /// Returns the length of the longest of some vectors, as accurate as [`length`].
-pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
+pub(super) fn longest_length(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
     // The square of a longer vector is not less, so that one root suffices for all.
@@ -189,7 +191,7 @@ pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
 }
 
 /// Rounds a number up to f32.
-pub(crate) fn up(x: f64) -> f32 {
+pub(crate) fn round_up_to_f32(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) < x {
         near.next_up()

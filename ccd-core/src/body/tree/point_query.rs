@@ -1,6 +1,6 @@
 //! Finds the pieces at a point, and the surface near it.
 
-use super::waiting::Waiting;
+use super::waiting::NodeStack;
 use super::{Below, Tree};
 use crate::body::pieces::Pieces;
 use crate::rounding::SIGN_F64;
@@ -46,7 +46,7 @@ enum Leaf {
 
 /// Returns the leaves whose boxes are within about `reach` of a point.
 fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Leaf> {
-    let mut stack = Waiting::root();
+    let mut stack = NodeStack::root();
     std::iter::from_fn(move || {
         while let Some(id) = stack.pop() {
             let node = &tree.nodes[id as usize];

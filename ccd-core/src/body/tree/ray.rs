@@ -1,11 +1,11 @@
 //! Computes the winding number of a body's surface about a point, by a ray.
 
-use super::waiting::Waiting;
+use super::waiting::NodeStack;
 use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
 use crate::rounding::{SIGN_F64, U64};
-use crate::tuning::RAYS;
+use crate::tuning::MAX_RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -36,7 +36,7 @@ pub(crate) fn crossings(
     slack: f64,
 ) -> Option<Crossings> {
     let start = Start { from, slack };
-    (0..RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
+    (0..MAX_RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
 }
 
 /// The start of a ray, with the accuracy of its position.
@@ -63,7 +63,7 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
         triangles_at_start: 0,
         along,
     };
-    let mut stack = Waiting::root();
+    let mut stack = NodeStack::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
         if !may_hit(node, start.from, along) {
@@ -118,7 +118,7 @@ enum Sign {
 
 impl Sign {
     /// Returns the sign of a number with an error of at most [`SIGN_F64`] times `size`.
-    fn of(number: f64, size: f64) -> Sign {
+    fn of_number(number: f64, size: f64) -> Sign {
         // Written so that NaN is unclear. Products that underflow are off by less than the added term.
         let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
         match () {
@@ -135,14 +135,14 @@ impl Crossings {
         let along = self.along;
         let corners = triangle.map(|p| p - start.from);
         let size = |p: DVec3| p.abs().element_sum();
-        let ahead = corners.map(|p| Sign::of(along.dot(p), size(p)));
+        let ahead = corners.map(|p| Sign::of_number(along.dot(p), size(p)));
         if ahead == [Sign::Negative; 3] {
             return Some(());
         }
         let [a, b, c] = corners;
         // The volumes of the ray with each edge have one sign if the line passes inside.
         let sides = [(a, b), (b, c), (c, a)]
-            .map(|(p, q)| Sign::of(along.dot(p.cross(q)), size(p) * size(q)));
+            .map(|(p, q)| Sign::of_number(along.dot(p.cross(q)), size(p) * size(q)));
         if sides.contains(&Sign::Positive) && sides.contains(&Sign::Negative) {
             return Some(());
         }
@@ -161,7 +161,7 @@ impl Crossings {
         let height = match ahead == [Sign::Positive; 3] {
             true => Sign::Positive,
             _ if height.abs() <= start.slack * normal => Sign::Unclear,
-            false => match Sign::of(height, size(a) * size(b) * size(c)) {
+            false => match Sign::of_number(height, size(a) * size(b) * size(c)) {
                 Sign::Unclear => sign_by_edges(triangle, corners, sign),
                 clear => clear,
             },
@@ -190,7 +190,7 @@ fn sign_by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
             triangle[last] - triangle[k],
         ];
         let height = f64::from(sign) * way.dot(p.cross(q));
-        Sign::of(height, size(way) * size(p) * size(q))
+        Sign::of_number(height, size(way) * size(p) * size(q))
     });
     let clear = signs.into_iter().find(|&sign| sign != Sign::Unclear);
     clear.unwrap_or(Sign::Unclear)

@@ -3,7 +3,7 @@
 use crate::math::order::greater;
 use crate::math::vector::unit;
 use crate::rounding::U64;
-use crate::tuning::FLAT;
+use crate::tuning::MAX_FLAT_THICKNESS;
 use glam::DVec3;
 
 /// Two parallel planes that bound a flat node's triangles, at equal distances from the node's centre. It contains all
@@ -21,7 +21,7 @@ pub(crate) struct Slab {
 
 impl Slab {
     /// Fits a slab to corners around a centre; `None` unless the triangles are in one plane up to rounding.
-    pub(super) fn about(corners: &[DVec3], centre: DVec3) -> Option<Self> {
+    pub(super) fn fit_to(corners: &[DVec3], centre: DVec3) -> Option<Self> {
         let triangles = corners.as_chunks().0.iter();
         let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;
         let (mut half, mut size) = (0.0, 0.0);
@@ -33,7 +33,7 @@ impl Slab {
         // Differences are off by 1u, products with a unit vector and their sum by 3u of √3.
         half += 16.0 * U64 * size;
         // Written so that NaN is not flat.
-        (half <= FLAT * size).then_some(Slab { normal, half })
+        (half <= MAX_FLAT_THICKNESS * size).then_some(Slab { normal, half })
     }
 }
 

@@ -7,7 +7,7 @@ use crate::body::{Body, Volume};
 use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tests::nearest::Triangle;
-use crate::tests::scene::{Look, Pcg64, RngExt, body, direction, magnitude, rng, soup, within};
+use crate::tests::scene::{Pcg64, RngExt, SoupKind, body, direction, magnitude, rng, soup, within};
 use glam::{DVec3, Vec3};
 
 /// The tolerance of the checks: boxes and balls contain the points up to the rounding of the f64 arithmetic that
@@ -144,7 +144,7 @@ fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
 }
 
 fn random_soup(rng: &mut Pcg64, count: usize) -> Vec<Triangle> {
-    let look = Look::ALL[rng.random_range(0..5)];
+    let look = SoupKind::ALL[rng.random_range(0..5)];
     let size = magnitude(rng, -6.0, 6.0);
     let offset = size * magnitude(rng, -3.0, 6.0);
     let middle = direction(rng) * offset;
@@ -182,7 +182,7 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
     let mut rng = rng(2);
     for scale in [1e-300, 1e-30, 1e-12, 1e6, 9e11] {
         for count in [1, 7, 100] {
-            let triangles: Vec<Triangle> = soup(&mut rng, Look::Mixed, count, 0.5)
+            let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::Mixed, count, 0.5)
                 .iter()
                 .map(|t| t.map(|p| p * scale))
                 .collect();
@@ -198,7 +198,7 @@ fn components_whose_squares_are_no_numbers() {
     for _ in 0..3_000 {
         let count = rng.random_range(1..30);
         let tiny = magnitude(&mut rng, -170.0, -150.0);
-        let triangles: Vec<Triangle> = soup(&mut rng, Look::Plump, count, 1.0)
+        let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::Plump, count, 1.0)
             .iter()
             .map(|t| {
                 let mut kept = |_| [1.0, tiny, 0.0][rng.random_range(0..3)];
@@ -249,6 +249,6 @@ fn unit_normals_and_upper_numbers_are_those_of_f64_rounded() {
     }
     assert_eq!(unit_normal([DVec3::ONE; 3]), Vec3::ZERO);
     for (x, above) in [(0.5, 0.5), (0.1, 0.1_f32), (0.7, 0.7_f32.next_up())] {
-        assert_eq!(up(x), above, "{x}");
+        assert_eq!(round_up_to_f32(x), above, "{x}");
     }
 }

@@ -4,7 +4,7 @@ use super::NodeId;
 
 /// A stack of nodes that allocates nothing unless the tree is deeper than any balanced one. It allocates nothing,
 /// unless the tree is deeper than any balanced one.
-pub(super) struct Waiting {
+pub(super) struct NodeStack {
     inline_nodes: [NodeId; INLINE_CAPACITY],
     count: usize,
     /// The nodes for which `inline_nodes` has no room.
@@ -15,10 +15,10 @@ pub(super) struct Waiting {
 /// eight children, 10⁸ pieces.
 const INLINE_CAPACITY: usize = 64;
 
-impl Waiting {
+impl NodeStack {
     /// Creates a stack that holds the root.
     pub(super) fn root() -> Self {
-        Waiting {
+        NodeStack {
             inline_nodes: [0; INLINE_CAPACITY],
             count: 1,
             overflow: Vec::new(),
@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn nodes_come_back_as_from_a_list() {
         let mut rng = rng(1);
-        let (mut waiting, mut list) = (Waiting::root(), vec![0]);
+        let (mut waiting, mut list) = (NodeStack::root(), vec![0]);
         let mut most = 0;
         for k in 0..20_000u32 {
             let count = rng.random_range(0..9);

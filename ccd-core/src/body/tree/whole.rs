@@ -26,12 +26,12 @@ pub(crate) struct BodyBox {
 
 impl BodyBox {
     /// Fits the box to all points of a body.
-    pub(super) fn about(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
+    pub(super) fn fit_to(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
         sample.take(node_points);
         let axes = best_frame(sample, node_points.triangles);
         let turned = axes.transpose();
         let (low, high) =
-            crate::body::hierarchy::bounds(node_points.points.iter().map(|&p| turned * p));
+            crate::body::hierarchy::bounding_box(node_points.points.iter().map(|&p| turned * p));
         let centre = axes * (0.5 * (low + high));
         let (mut half, mut radius) = (DVec3::ZERO, 0.0);
         for &point in node_points.points {
@@ -84,7 +84,7 @@ mod tests {
                 radius: 0.0,
                 triangles: tape.pick(2) == 0,
             };
-            let whole = BodyBox::about(&node_points, &mut sample);
+            let whole = BodyBox::fit_to(&node_points, &mut sample);
             // An axis of the box, or nearly, or any direction.
             let axis = whole.axes.col(tape.pick(3));
             let n = match tape.pick(3) {
@@ -134,7 +134,7 @@ mod tests {
                 radius: 0.0,
                 triangles: rng.random_bool(0.5),
             };
-            let whole = BodyBox::about(&node_points, &mut sample);
+            let whole = BodyBox::fit_to(&node_points, &mut sample);
             assert!(
                 whole.slack <= 1e-13 * size * 2.0,
                 "{} of {size}",

@@ -28,7 +28,7 @@ fn worst_box() {
         let node = Extent::new(&problem.a, 0, &Frame::IDENTITY);
         let along = points[tape.pick(8)] - points[tape.pick(8)];
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
-        let [_, high] = node.along(n);
+        let [_, high] = node.projection_on(n);
         let axes = node.axes.map(|axis| axis.dot(n).abs());
         let allowed = BOX_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
         let middle = Double3::from(n).dot(Double3::from(node.centre));

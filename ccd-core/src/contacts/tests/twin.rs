@@ -32,7 +32,8 @@ impl Mesh {
         }
     }
 
-    /// Creates a box. Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+    /// Creates a box of 12 triangles with the given half extents. Corner `k` has a positive x, y, z where bit 0, 1, 2
+    /// of `k` is set.
     pub(super) fn cuboid(half: DVec3) -> Self {
         let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let quads = [
@@ -156,7 +157,7 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
         for v in used {
             for face in 0..other.faces.len() {
                 let pair = |part| order.map(|k| [Feature::Vertex(v), part][k]);
-                offers.corner(one.points[v as usize], other, face, pair);
+                offers.add_vertex_and_face(one.points[v as usize], other, face, pair);
             }
         }
     }
@@ -194,7 +195,13 @@ impl Offers {
     }
 
     /// Adds a vertex and the nearest part of a face. The pair is clear if no smaller part is equally near.
-    fn corner(&mut self, v: DVec3, mesh: &Mesh, face: usize, pair: impl Fn(Feature) -> Key) {
+    fn add_vertex_and_face(
+        &mut self,
+        v: DVec3,
+        mesh: &Mesh,
+        face: usize,
+        pair: impl Fn(Feature) -> Key,
+    ) {
         let (triangle, ids) = (mesh.triangle(face), mesh.faces[face]);
         let distance = nearest(&[v; 3], &triangle).distance;
         let margin = 16.0 * self.rounding;

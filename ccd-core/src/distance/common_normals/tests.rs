@@ -7,7 +7,7 @@ const SLACK: f64 = 1e-13;
 
 fn common(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     let mut normals = CommonNormals::default();
-    normals.begin(SLACK);
+    normals.reset(SLACK);
     a.iter().for_each(|&offset| normals.add_offset_of_a(offset));
     b.iter().for_each(|&offset| normals.add_offset_of_b(offset));
     normals.sort();
@@ -39,11 +39,18 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
         let expected = -(turn * DVec3::Z);
         for towards in [direction(rng), expected, direction(rng)] {
             // A direction away from the cone is turned towards it, unless there is none but the opposite.
-            let found = normals.near(towards).unwrap();
+            let found = normals.nearest_normal(towards).unwrap();
             assert!(found.distance(expected) < 1e-14, "{found} {expected}");
         }
-        assert_eq!(normals.along(expected, 1e-12 * direction(rng)), None);
-        assert!(normals.along(expected, 1e-12 * expected).is_some());
+        assert_eq!(
+            normals.nearest_normal_along(expected, 1e-12 * direction(rng)),
+            None
+        );
+        assert!(
+            normals
+                .nearest_normal_along(expected, 1e-12 * expected)
+                .is_some()
+        );
     }
 }
 
@@ -103,6 +110,6 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
 #[test]
 fn surfaces_that_enclose_each_other_have_no_common_normal() {
     let normals = common(&level(), &[DVec3::Z, -DVec3::Z]);
-    assert_eq!(normals.near(DVec3::Z), None);
-    assert_eq!(common(&[DVec3::NAN], &[]).near(DVec3::X), None);
+    assert_eq!(normals.nearest_normal(DVec3::Z), None);
+    assert_eq!(common(&[DVec3::NAN], &[]).nearest_normal(DVec3::X), None);
 }

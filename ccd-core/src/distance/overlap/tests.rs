@@ -263,7 +263,7 @@ fn flat_differences_have_no_tetrahedron() {
             b_to_a: at(turn * DVec3::Z),
         };
         assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
-        assert!(!InnerPolytope::default().begin(&pair, ROUNDING));
+        assert!(!InnerPolytope::default().start_with_tetrahedron(&pair, ROUNDING));
     }
 }
 
@@ -309,8 +309,8 @@ fn balls_that_touch_exactly_do_not_intersect() {
 /// axes are the normals of both pieces and the cross products of their edges; for flat pieces also the normals of their
 /// edges within either plane.
 fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
-    let a = Directions::of(&pair.a, |p| p);
-    let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));
+    let a = Directions::of_piece(&pair.a, |p| p);
+    let b = Directions::of_piece(&pair.b, |p| pair.b_to_a.point(p));
     let across = |p: &[Double3], q: &[Double3]| -> Vec<Double3> {
         let crossed = p.iter().flat_map(|e| q.iter().map(|f| e.cross(*f)));
         crossed.collect()
@@ -347,7 +347,7 @@ struct Directions {
 }
 
 impl Directions {
-    fn of(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
+    fn of_piece(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
         let points: Vec<Double3> = piece.points.iter().map(|&p| place(p).into()).collect();
         let all: Vec<u32> = (0..points.len() as u32).collect();
         let loops: Vec<&[u32]> = if piece.facets.is_empty() {

@@ -34,8 +34,9 @@ pub(crate) fn sharpen(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) ->
 fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
-    let on_a = Feature::of(&pair.a, &checked.claim.a, checked.axis);
-    let on_b = Feature::of(&pair.b, &checked.claim.b, axis_in_b).seen(pair.b_to_a.rotation);
+    let on_a = Feature::at_combination(&pair.a, &checked.claim.a, checked.axis);
+    let on_b =
+        Feature::at_combination(&pair.b, &checked.claim.b, axis_in_b).seen(pair.b_to_a.rotation);
     let edges = match (on_a.edge, on_b.edge) {
         (Some(e), Some(f)) => across(e, f),
         (Some(e), None) | (None, Some(e)) => across(across(e, way), e),
@@ -54,7 +55,7 @@ struct Feature {
 
 impl Feature {
     /// Returns the feature at a combination, in the piece's frame.
-    fn of(piece: &Piece<'_>, combination: &Combination, axis: DVec3) -> Self {
+    fn at_combination(piece: &Piece<'_>, combination: &Combination, axis: DVec3) -> Self {
         let points = piece.points;
         let way = |from: u32, to: u32| points[to as usize] - points[from as usize];
         let support = combination.support();

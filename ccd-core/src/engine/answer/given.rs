@@ -4,7 +4,7 @@ use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::meeting::Meeting;
+use crate::engine::pieces::meeting::SurroundingSurfaces;
 use crate::engine::pieces::pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::{greater, lesser};
@@ -38,7 +38,7 @@ pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     time: f64,
 ) -> Contact {
     let s = problem.clock(time);
-    match problem.given() {
+    match problem.with_given_bodies() {
         Some(given) => {
             let contact = contact_of_pieces(&given, oracle, meter, contact, within, s);
             with_common_normal(&given, meter, contact, s)
@@ -73,8 +73,8 @@ fn with_common_normal(
     }
     let [frame, _] = &snapshot.frames;
     let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
-    let meeting = Meeting::at(&snapshot, points, meter);
-    let Some(axis) = meeting.normal(frame.inverse_vector(normal)) else {
+    let meeting = SurroundingSurfaces::at(&snapshot, points, meter);
+    let Some(axis) = meeting.common_normal(frame.inverse_vector(normal)) else {
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
@@ -105,7 +105,7 @@ fn contact_of_pieces<O: DistanceOracle>(
     let ids = [contact.piece_a, contact.piece_b];
     let snapshot = Snapshot::new(given, ids[0], ids[1], s);
     let bound = contact.separation.lower;
-    let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
+    let checked = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter);
     match checked.filter(|checked| checked.upper <= within) {
         Some(checked) => pair::contact(&snapshot, ids, &checked).cap_lower_bound(bound),
         // The oracle finds less for the pieces than for their surfaces. The result for the surfaces remains, with the

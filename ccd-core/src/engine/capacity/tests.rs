@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_list_keeps_its_memory_up_to_the_bound() {
-    let most = MOST_KEPT / size_of::<[u32; 4]>();
+    let most = MAX_KEPT_BYTES / size_of::<[u32; 4]>();
     for (needed, kept) in [(most / 2, most / 2), (most, most), (2 * most, most)] {
         let mut list = vec![[1; 4]; needed];
         empty(&mut list);

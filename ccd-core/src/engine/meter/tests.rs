@@ -4,7 +4,7 @@ use super::*;
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::settings::Settings;
-use crate::tuning::LOOKS_PER_VISIT;
+use crate::tuning::EVALUATIONS_PER_VISIT;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -36,7 +36,7 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
     let problem = limited(&ball, &config);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
-    meter.stats.point_looks += 3 * LOOKS_PER_VISIT;
+    meter.stats.point_looks += 3 * EVALUATIONS_PER_VISIT;
     assert_eq!(meter.count_visit(&problem), Ok(()));
     assert_eq!(meter.stats.work(), 5);
     assert_eq!(meter.count_visit(&problem), Err(Limit::Budget));
@@ -65,12 +65,12 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
     while meter.count_visit(&problem) == Ok(()) {
         visits += 1;
     }
-    assert!(visits < WORK_BETWEEN_LOOKS, "{visits}");
+    assert!(visits < WORK_BETWEEN_CLOCK_READS, "{visits}");
     // Equal costs count equally.
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
-    meter.stats.point_looks += WORK_BETWEEN_LOOKS * LOOKS_PER_VISIT;
+    meter.stats.point_looks += WORK_BETWEEN_CLOCK_READS * EVALUATIONS_PER_VISIT;
     assert_eq!(meter.count_visit(&problem), Err(Limit::Deadline));
 }
 
@@ -90,7 +90,7 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
     let visits = (0..)
         .take_while(|_| meter.count_visit(&problem) == Ok(()))
         .count();
-    assert!(visits < WORK_BETWEEN_LOOKS as usize, "{visits}");
+    assert!(visits < WORK_BETWEEN_CLOCK_READS as usize, "{visits}");
     assert_eq!(
         Meter::new(&problem).count_visit(&problem),
         Err(Limit::Stopped)

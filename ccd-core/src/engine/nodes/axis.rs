@@ -18,31 +18,31 @@ pub(crate) struct Axis<L: Simd> {
 ///
 /// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
-pub(crate) fn widest<L: Simd, C: Children, P: OtherNode>(
+pub(crate) fn widest_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     offset: Vec3x8<L>,
 ) -> Axis<L> {
     let level = offset.level();
     let between = children.offset_to(other.offset_near(offset));
-    let between = along(children, other, offset, between);
-    let own = towards(children.normal(level), offset);
+    let between = axis_along(children, other, offset, between);
+    let own = oriented_towards(children.normal(level), offset);
     let own = Axis::new(
         own,
         offset,
-        children.reach_along_normal(own),
-        other.reach(own),
+        children.extent_along_normal(own),
+        other.extent_along(own),
     );
-    let others = towards(Vec3x8::splat(level, other.normal()), offset);
-    let reach = other.reach_along_normal(others);
-    let others = Axis::new(others, offset, children.reach(others), reach);
+    let others = oriented_towards(Vec3x8::splat(level, other.normal()), offset);
+    let reach = other.extent_along_normal(others);
+    let others = Axis::new(others, offset, children.extent_along(others), reach);
     // The gap along the axis between the nodes is available last.
-    better(better(own, others), between)
+    wider_of(wider_of(own, others), between)
 }
 
 /// Returns the axis between the centres at their time of nearest approach, if their relative displacement is `travel`.
 #[inline(always)]
-pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
+pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     offset: Vec3x8<L>,
@@ -50,7 +50,7 @@ pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
 ) -> Axis<L> {
     let nearest = offset.dot(travel) / travel.dot(travel).max(TINY);
     let nearest = nearest.min(1.0).max(0.0);
-    along(children, other, offset, offset - travel * nearest)
+    axis_along(children, other, offset, offset - travel * nearest)
 }
 
 /// Returns the axes along given vectors of any length, with the gaps along them.
@@ -58,13 +58,13 @@ pub(crate) fn passing<L: Simd, C: Children, P: OtherNode>(
 /// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
 /// measurement.
 #[inline(always)]
-pub(crate) fn along<L: Simd, C: Children, P: OtherNode>(
+pub(crate) fn axis_along<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     offset: Vec3x8<L>,
     v: Vec3x8<L>,
 ) -> Axis<L> {
-    let axis = Axis::new(v, offset, children.reach(v), other.reach(v));
+    let axis = Axis::new(v, offset, children.extent_along(v), other.extent_along(v));
     let unit = v.reciprocal_length();
     Axis {
         n: v * unit,
@@ -88,14 +88,14 @@ impl<L: Simd> Axis<L> {
 
 /// Returns `n` or `−n`, whichever points along `offset`.
 #[inline(always)]
-pub(crate) fn towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3x8<L> {
+pub(crate) fn oriented_towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3x8<L> {
     let level = n.level();
     let away = n.dot(offset).simd_lt(0.0);
     n * away.select(splat(level, -1.0), splat(level, 1.0))
 }
 
 #[inline(always)]
-fn better<L: Simd>(a: Axis<L>, b: Axis<L>) -> Axis<L> {
+fn wider_of<L: Simd>(a: Axis<L>, b: Axis<L>) -> Axis<L> {
     let pick = b.gap.simd_gt(a.gap);
     Axis {
         n: choose(pick, b.n, a.n),

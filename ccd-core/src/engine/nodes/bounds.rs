@@ -8,7 +8,7 @@ use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
 use super::free_times::FreeTimes;
 use super::shape::{Children, OtherNode};
 use crate::math::lanes::splat;
-use crate::tuning::{LOOK_AGAIN, SWEPT, THICKNESS};
+use crate::tuning::{ADDED_THICKNESS, MIN_SWEEP, REVISIT_DISTANCE};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 /// The bounds of eight pairs, and hints for the next step of each.
@@ -39,13 +39,13 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     lanes: u8,
 ) -> Bounds {
     let pairs = EightPairs::new(level, children, other, motion);
-    let widest = axis::widest(children, other, pairs.offset);
+    let widest = axis::widest_axis(children, other, pairs.offset);
     let travel = pairs.velocity * splat(level, motion.horizon);
-    let passing = axis::passing(children, other, pairs.offset, travel);
+    let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
-    let revisit = widest.gap - motion.slack - (radius + other.radius()) * LOOK_AGAIN;
-    let split_child = (widest.split_reach + radius * THICKNESS)
-        - (widest.other_reach + THICKNESS * other.radius());
+    let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
+    let split_child = (widest.split_reach + radius * ADDED_THICKNESS)
+        - (widest.other_reach + ADDED_THICKNESS * other.radius());
     let mut free = pairs.free(widest).max(pairs.free(passing));
     let mut revisit = bits(revisit.simd_gt(0.0));
     if let Some(past) = PassingNode::new(&pairs, widest) {
@@ -102,7 +102,7 @@ impl<L: Simd> PassingNode<L> {
             Larger::Split => Some(PassingNode {
                 turning_plane_time: pairs.free_with_split(axis),
                 spin: motion.split.rate,
-                arm: splat(level, motion.split.arm(other.centre())),
+                arm: splat(level, motion.split.distance_from_centre(other.centre())),
                 large: children.radius(level),
                 small: splat(level, other.radius()),
                 other_is_piece: children.pieces(level),
@@ -110,7 +110,7 @@ impl<L: Simd> PassingNode<L> {
             Larger::Other => Some(PassingNode {
                 turning_plane_time: pairs.free_with_other(axis),
                 spin: motion.other.rate,
-                arm: motion.other.arms(children.centre(level)),
+                arm: motion.other.distances_from_centre(children.centre(level)),
                 large: splat(level, other.radius()),
                 small: children.radius(level),
                 other_is_piece: mask32x8::splat(level, other.is_piece()),
@@ -121,8 +121,8 @@ impl<L: Simd> PassingNode<L> {
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn revisit(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
-        let swept = free * self.spin * self.arm - self.large * SWEPT;
-        let clear = apart - self.small * LOOK_AGAIN;
+        let swept = free * self.spin * self.arm - self.large * MIN_SWEEP;
+        let clear = apart - self.small * REVISIT_DISTANCE;
         swept.simd_gt(0.0) | self.other_is_piece & clear.simd_gt(0.0)
     }
 }

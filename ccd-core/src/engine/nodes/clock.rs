@@ -4,36 +4,36 @@ use crate::math::lanes::splat;
 use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
-/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`. It is 0 for NaN, and for a pair that is apart by at most
-/// `closed`, even if it recedes.
+/// Returns the largest τ with `apart ≥ rate τ + second_derivative τ²/2`. It is 0 for NaN, and for a pair that is apart
+/// by at most `closed`, even if it recedes.
 #[inline(always)]
 pub(crate) fn free_time<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
     rate: f32x8<L>,
-    bend: f32x8<L>,
+    second_derivative: f32x8<L>,
 ) -> f32x8<L> {
-    let root = (rate * rate + bend * 2.0 * apart).sqrt();
+    let root = (rate * rate + second_derivative * 2.0 * apart).sqrt();
     let approaching = apart * (2.0 * CLOCK_F32) / (rate + root);
-    let receding = (root - rate) / (bend * (1.0 / CLOCK_F32));
+    let receding = (root - rate) / (second_derivative * (1.0 / CLOCK_F32));
     let tau = rate.simd_gt(0.0).select(approaching, receding);
     // An overflowed root proves nothing.
     let proven = apart.simd_gt(closed) & tau.simd_gt(0.0) & root.simd_le(f32::MAX);
     proven.select(tau, splat(apart.token(), 0.0))
 }
 
-/// Like `free_time`, for a second derivative `bend` that may be negative: a gap that closes ever slower may never
+/// Like `free_time`, for a `second_derivative` that may be negative: a gap that closes ever slower may never
 /// close.
 #[inline(always)]
-pub(crate) fn parting_free_time<L: Simd>(
+pub(crate) fn free_time_decelerating<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
     rate: f32x8<L>,
-    bend: f32x8<L>,
+    second_derivative: f32x8<L>,
 ) -> f32x8<L> {
     let level = apart.token();
-    let bends = free_time(apart, closed, rate, bend.max(LEAST_BEND_F32));
-    let (square, lost) = (rate * rate, bend * -2.0 * apart);
+    let accelerating = free_time(apart, closed, rate, second_derivative.max(LEAST_BEND_F32));
+    let (square, lost) = (rate * rate, second_derivative * -2.0 * apart);
     // A sum that is lost to rounding or to underflow counts as zero.
     let left = (square - lost) + (square + lost) * (16.0 * U32) + f32::MIN_POSITIVE;
     let meets = rate.simd_gt(0.0) & left.simd_ge(0.0);
@@ -43,12 +43,12 @@ pub(crate) fn parting_free_time<L: Simd>(
     let known = square.simd_le(f32::MAX) & lost.simd_le(f32::MAX);
     let proven = apart.simd_gt(closed) & known & rate.simd_le(f32::MAX);
     let parts = proven.select(parts, splat(level, 0.0));
-    bend.simd_lt(0.0).select(parts, bends)
+    second_derivative.simd_lt(0.0).select(parts, accelerating)
 }
 
 /// Like `free_time`, with a second derivative of 0.
 #[inline(always)]
-pub(crate) fn straight_free_time<L: Simd>(
+pub(crate) fn free_time_at_constant_rate<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
     rate: f32x8<L>,

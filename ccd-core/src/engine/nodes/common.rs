@@ -1,19 +1,19 @@
 //! Values that all pairs of nodes of a query share.
 
-use crate::body::tree::up;
+use crate::body::tree::round_up_to_f32;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::relative::View;
 use crate::problem::{Problem, Side, Which};
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
 use crate::shortcuts::Shortcut;
-use crate::tuning::{CLOSED_GAP, MUCH_LARGER};
+use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;
 
 /// A query with derived numbers for pairs of nodes, rounded to f32.
 #[derive(Debug)]
-pub(crate) struct Common<'p> {
+pub(crate) struct NodeContext<'p> {
     pub(crate) problem: &'p Problem<'p>,
     /// The motion of B relative to A, and of A relative to B. Each is computed at the first split of its body: queries
     /// of a few pieces need neither.
@@ -43,7 +43,7 @@ fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
     let turning = |own: &Side<'_>, other: &Side<'_>| {
         // An arm is the difference of two positions, each rounded at its place, as seen from a group of the other
         // body. That group is in a ball which moves straight, and turns with its body.
-        let (ball, radius) = other.body.tree().ball();
+        let (ball, radius) = other.body.tree().bounding_ball();
         let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
         let start = distance(other.path.start_of(ball), own.path.centre_at(0.0));
         let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
@@ -55,26 +55,26 @@ fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
 /// Returns an upper bound of the distances of a body's nodes from its centre of rotation. The points of a node are
 /// within the diameter of the whole body from the node's centre, and that is in a cube around the body.
 fn reach(side: &Side<'_>) -> f64 {
-    let (centre, radius) = side.body.tree().ball();
+    let (centre, radius) = side.body.tree().bounding_ball();
     centre.distance(side.path.centre) + 4.0 * radius
 }
 
-impl<'p> Common<'p> {
+impl<'p> NodeContext<'p> {
     pub(crate) fn new(problem: &'p Problem<'_>) -> Self {
-        Common {
+        NodeContext {
             problem,
             views: [const { OnceCell::new() }; 2],
             spins: [&problem.a.path, &problem.b.path].map(|path| {
                 path.turns()
-                    .then(|| (path.spin_local.as_vec3(), up(path.rate)))
+                    .then(|| (path.spin_local.as_vec3(), round_up_to_f32(path.rate)))
             }),
-            gap: up(problem.gap()),
-            node_gap: up(problem.node_gap()),
-            rounding: up(problem.rounding),
-            rate_slack: RATE_F32 * up(speed(&problem.a, &problem.b)),
+            gap: round_up_to_f32(problem.gap()),
+            node_gap: round_up_to_f32(problem.node_gap()),
+            rounding: round_up_to_f32(problem.rounding),
+            rate_slack: RATE_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
             closed: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
-            much_larger: if problem.takes(Shortcut::TurningNodes) {
-                MUCH_LARGER
+            much_larger: if problem.uses(Shortcut::TurningNodes) {
+                MUCH_LARGER_RATIO
             } else {
                 f32::INFINITY
             },

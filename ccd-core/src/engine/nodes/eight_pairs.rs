@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::clock;
 use super::shape::{Children, OtherNode};
-use super::turn::Turn;
+use super::turn::BodyRotation;
 use crate::math::lanes::{Vec3x8, splat};
 use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8};
@@ -16,8 +16,8 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) velocity: Vec3,
     /// The derivative of `velocity`; `None` if both centres accelerate equally.
     pub(crate) acceleration: Option<Vec3>,
-    pub(crate) split: Turn,
-    pub(crate) other: Turn,
+    pub(crate) split: BodyRotation,
+    pub(crate) other: BodyRotation,
     /// The time left to the end of the duration.
     pub(crate) horizon: f32,
     /// The gap to keep, plus the rounding of a gap.
@@ -93,26 +93,31 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
-        let mut bend = splat(axis.n.level(), LEAST_BEND_F32);
-        if motion.split.turns {
-            let m = motion.split.across(axis.n);
-            rate += self.children.reach(m);
-            bend += second_derivative_bound(m, motion.split.rate, self.speed);
+        let mut second_derivative = splat(axis.n.level(), LEAST_BEND_F32);
+        if motion.split.is_turning {
+            let m = motion.split.cross_spin(axis.n);
+            rate += self.children.extent_along(m);
+            second_derivative += second_derivative_bound(m, motion.split.rate, self.speed);
         }
-        if motion.other.turns {
-            let m = motion.other.across(axis.n);
-            rate += self.other.reach(m);
-            bend += second_derivative_bound(m, motion.other.rate, self.other_speed);
+        if motion.other.is_turning {
+            let m = motion.other.cross_spin(axis.n);
+            rate += self.other.extent_along(m);
+            second_derivative += second_derivative_bound(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
             let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
             let rounding = splat(axis.n.level(), RATE_F32 * acceleration.length());
-            clock::parting_free_time(apart, motion.closed, rate, bend + along + rounding)
-        } else if motion.split.turns || motion.other.turns {
-            clock::free_time(apart, motion.closed, rate, bend)
+            clock::free_time_decelerating(
+                apart,
+                motion.closed,
+                rate,
+                second_derivative + along + rounding,
+            )
+        } else if motion.split.is_turning || motion.other.is_turning {
+            clock::free_time(apart, motion.closed, rate, second_derivative)
         } else {
-            clock::straight_free_time(apart, motion.closed, rate)
+            clock::free_time_at_constant_rate(apart, motion.closed, rate)
         }
     }
 }

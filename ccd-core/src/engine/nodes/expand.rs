@@ -1,14 +1,16 @@
 //! Splits one node of a pair: its children are bounded against the other node, at the poses at the pair's clock.
 
 use super::bounds::{Bounds, bound};
-use super::common::Common;
+use super::common::NodeContext;
 use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
-use super::turn::Turn;
-use crate::body::tree::{Below, LANES, Members, Node, NodeId, NodeOrTriangle, unit_normal, up};
+use super::turn::BodyRotation;
+use crate::body::tree::{
+    Below, LANES, Members, Node, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
+};
 use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
-use crate::motion::relative::{Seen, View};
+use crate::motion::relative::{RelativeState, View};
 use crate::problem::{Side, Which};
 use crate::rounding::{REACH_F32, WAY_F32};
 use crate::vectorize;
@@ -49,7 +51,7 @@ impl Split {
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
+pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
     split_at(common, split, s, ClosingRate::OfMotion)
 }
 
@@ -58,7 +60,7 @@ pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
+pub(crate) fn measure(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
     let mut expansion = split_at(common, split, s, ClosingRate::Unit);
     // A second visit would give the same result.
     expansion.bounds.revisit = 0;
@@ -77,14 +79,19 @@ enum ClosingRate {
 /// Bounds the children, with the best vector instructions. This function alone contains the kernels, compiled once for
 /// each set of instructions.
 #[inline(never)]
-fn split_at(common: &Common<'_>, split: &Split, s: f64, closing_rate: ClosingRate) -> Expansion {
+fn split_at(
+    common: &NodeContext<'_>,
+    split: &Split,
+    s: f64,
+    closing_rate: ClosingRate,
+) -> Expansion {
     vectorize!(common.problem.level, level => split_node(level, common, split, s, closing_rate))
 }
 
 #[inline(always)]
 fn split_node<L: Simd>(
     level: L,
-    common: &Common<'_>,
+    common: &NodeContext<'_>,
     split: &Split,
     s: f64,
     closing_rate: ClosingRate,
@@ -114,12 +121,12 @@ fn split_node<L: Simd>(
 /// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
 struct RelativeMotion<'p, L: Simd> {
     level: L,
-    common: &'p Common<'p>,
+    common: &'p NodeContext<'p>,
     split: &'p Split,
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
     /// The other body's present pose and motion in the split body's frame.
-    seen: Seen<L>,
+    seen: RelativeState<L>,
     view: &'p View,
     /// The time left to the end of the duration.
     horizon: f32,
@@ -131,7 +138,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
     #[inline(always)]
     fn new(
         level: L,
-        common: &'p Common<'_>,
+        common: &'p NodeContext<'_>,
         split: &'p Split,
         s: f64,
         closing_rate: ClosingRate,
@@ -153,7 +160,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
     /// Bounds the children in a group against the other body's node.
     #[inline(always)]
     fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
-        let Seen {
+        let RelativeState {
             rotation, offset, ..
         } = self.seen;
         let centre = self.view.centre(self.level) - Packed::new(self.level, members.origin);
@@ -238,33 +245,33 @@ impl<L: Simd> GroupView<'_, L> {
             centre: centre.as_vec3(),
             corners: [p.as_vec3(), q.as_vec3(), r.as_vec3()],
             normal: unit_normal([a, b, c]),
-            radius: up(greater(farthest, r.length_squared()).sqrt()).next_up(),
+            radius: round_up_to_f32(greater(farthest, r.length_squared()).sqrt()).next_up(),
         }
     }
 
     #[inline(always)]
-    fn split_turn(&self) -> Turn {
+    fn split_turn(&self) -> BodyRotation {
         match self.motion.common.spin(self.motion.split.body) {
-            Some((spin, rate)) => Turn {
-                turns: true,
+            Some((spin, rate)) => BodyRotation {
+                is_turning: true,
                 spin,
                 rate,
                 centre: self.centre,
             },
-            None => Turn::NONE,
+            None => BodyRotation::NONE,
         }
     }
 
     #[inline(always)]
-    fn other_turn(&self) -> Turn {
+    fn other_turn(&self) -> BodyRotation {
         match self.motion.common.spin(self.motion.split.body.other()) {
-            Some((_, rate)) => Turn {
-                turns: true,
+            Some((_, rate)) => BodyRotation {
+                is_turning: true,
                 spin: self.motion.seen.spin.as_vec3(),
                 rate,
                 centre: self.other_centre.as_vec3(),
             },
-            None => Turn::NONE,
+            None => BodyRotation::NONE,
         }
     }
 
@@ -286,9 +293,9 @@ impl<L: Simd> GroupView<'_, L> {
             slack,
             closed: common.closed,
             rate_slack: common.rate_slack,
-            larger: if split.turns && reach > common.much_larger * radius {
+            larger: if split.is_turning && reach > common.much_larger * radius {
                 Some(Larger::Split)
-            } else if other.turns && radius > common.much_larger * reach {
+            } else if other.is_turning && radius > common.much_larger * reach {
                 Some(Larger::Other)
             } else {
                 None
@@ -302,8 +309,8 @@ impl<L: Simd> GroupView<'_, L> {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
             acceleration: None,
-            split: Turn::NONE,
-            other: Turn::NONE,
+            split: BodyRotation::NONE,
+            other: BodyRotation::NONE,
             horizon: 0.0,
             slack: self.rounding(centre, radius),
             closed: 0.0,

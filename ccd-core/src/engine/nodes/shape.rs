@@ -13,11 +13,11 @@ pub(crate) trait Children {
     /// Returns upper bounds of the distances of each child's points from its centre.
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
     /// Returns `max n·(x − centre)` over each child's points `x`.
-    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Like `Children::reach`, for an axis that is each child's normal or its opposite.
+    fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Like `Children::extent_along`, for an axis that is each child's normal or its opposite.
     #[inline(always)]
-    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        self.reach(n)
+    fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.extent_along(n)
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
     /// from the children's centres to the target.
@@ -34,14 +34,14 @@ pub(crate) trait OtherNode {
     /// Returns an upper bound of the distances of the node's points from its centre.
     fn radius(&self) -> f32;
     /// Returns `max n·(centre − y)` over the node's points `y`: the node's extent along −n.
-    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
-    /// Like `OtherNode::reach`, for an axis that is the node's normal or its opposite.
+    fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Like `OtherNode::extent_along`, for an axis that is the node's normal or its opposite.
     #[inline(always)]
-    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        self.reach(n)
+    fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.extent_along(n)
     }
-    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads from
-    /// the given points to the node's centre.
+    /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
+    /// from the given points to the node's centre.
     fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
@@ -81,7 +81,7 @@ impl Children for BoxGroup {
         to
     }
     #[inline(always)]
-    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+    fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let level = n.level();
         let ([u, v, w], [x, y, z]) = (&self.axes, &self.half);
         let axes = [
@@ -94,7 +94,7 @@ impl Children for BoxGroup {
         box_reach(n, axes, half, grown)
     }
     #[inline(always)]
-    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+    fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         // The half size was measured in the same way.
         load(n.level(), &self.half[2]) + load(n.level(), &self.rounding)
     }
@@ -128,7 +128,7 @@ impl Children for TriangleGroup {
         to - nearest_of_edges(self.corners(level), to)
     }
     #[inline(always)]
-    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+    fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let level = n.level();
         let [a, b, c] = self.corners(level);
         let highest = n.dot(a).max(n.dot(b)).max(n.dot(c));
@@ -186,7 +186,7 @@ impl OtherNode for OtherBox {
         offset - (u * x + v * y + w * z)
     }
     #[inline(always)]
-    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+    fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let level = n.level();
         let [x, y, z] = self.half;
         let half = [splat(level, x), splat(level, y), splat(level, z)];
@@ -194,7 +194,7 @@ impl OtherNode for OtherBox {
         box_reach(n, splats(level, self.axes), half, grown)
     }
     #[inline(always)]
-    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+    fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         splat(n.level(), self.half[2] + self.rounding)
     }
     #[inline(always)]
@@ -232,7 +232,7 @@ impl OtherNode for OtherTriangle {
         offset + nearest_of_edges(splats(level, self.corners), from)
     }
     #[inline(always)]
-    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+    fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let [a, b, c] = splats(n.level(), self.corners);
         -n.dot(a).min(n.dot(b)).min(n.dot(c))
     }

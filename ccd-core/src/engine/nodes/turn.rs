@@ -6,9 +6,9 @@ use glam::Vec3;
 
 /// The angular velocity of a body, with its centre of rotation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn {
+pub(crate) struct BodyRotation {
     /// False for a body without rotation; the other fields are not used then.
-    pub(crate) turns: bool,
+    pub(crate) is_turning: bool,
     pub(crate) spin: Vec3,
     /// The angular speed `|ω|`, rounded up.
     pub(crate) rate: f32,
@@ -16,10 +16,10 @@ pub(crate) struct Turn {
     pub(crate) centre: Vec3,
 }
 
-impl Turn {
+impl BodyRotation {
     /// The rotation of a body that does not turn.
-    pub(crate) const NONE: Turn = Turn {
-        turns: false,
+    pub(crate) const NONE: BodyRotation = BodyRotation {
+        is_turning: false,
         spin: Vec3::ZERO,
         rate: 0.0,
         centre: Vec3::ZERO,
@@ -29,7 +29,7 @@ impl Turn {
     #[inline(always)]
     pub(crate) fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
         let level = x.level();
-        if self.turns {
+        if self.is_turning {
             Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre))
         } else {
             Vec3x8::splat(level, Vec3::ZERO)
@@ -38,8 +38,8 @@ impl Turn {
 
     /// Returns the cross products `n × ω`.
     #[inline(always)]
-    pub(crate) fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
-        if self.turns {
+    pub(crate) fn cross_spin<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
+        if self.is_turning {
             n.cross(Vec3x8::splat(n.level(), self.spin))
         } else {
             Vec3x8::splat(n.level(), Vec3::ZERO)
@@ -48,14 +48,14 @@ impl Turn {
 
     /// Returns the distances of points from the centre of rotation.
     #[inline(always)]
-    pub(crate) fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
+    pub(crate) fn distances_from_centre<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
         (x - Vec3x8::splat(x.level(), self.centre)).length()
     }
 
     /// Returns the distance of a point from the centre of rotation; 0 without rotation.
     #[inline(always)]
-    pub(crate) fn arm(&self, x: Vec3) -> f32 {
-        if self.turns {
+    pub(crate) fn distance_from_centre(&self, x: Vec3) -> f32 {
+        if self.is_turning {
             (x - self.centre).length()
         } else {
             0.0

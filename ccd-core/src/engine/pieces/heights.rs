@@ -4,7 +4,7 @@ use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
-use crate::motion::track::{Angle, AxisMotion, Spinning, Track};
+use crate::motion::track::{Angle, AxisMotion, RotatingVector, Track};
 use crate::problem::Side;
 use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
@@ -22,17 +22,17 @@ pub(crate) struct Heights<'a> {
     normal: DVec3,
     /// The unit axis about which the body turns.
     axis: DVec3,
-    along: AxisMotion,
+    axis_motion: AxisMotion,
     omega: f64,
     speed: f64,
     /// The magnitude of the centre's acceleration.
     acceleration: f64,
-    least: f64,
-    few: Few,
+    least_height: f64,
+    few_tracks: FewTracks,
     /// A bound of the second derivatives of all points' heights, if there are many points.
-    bend: f64,
+    second_derivative: f64,
     /// The error of the lowest height of many points. Times the angular speed, it is the error of the least rate.
-    missed: f64,
+    support_error: f64,
 }
 
 /// The height of one point along the axis, its rate, and a bound of the second derivative due to rotation. For many
@@ -41,24 +41,24 @@ pub(crate) struct Heights<'a> {
 pub(crate) struct Point {
     pub(crate) height: f64,
     pub(crate) rate: f64,
-    pub(crate) bend: f64,
+    pub(crate) second_derivative: f64,
 }
 
 /// The largest number of points of a piece for which all pairs of points are bounded one by one.
-const FEW: usize = 3;
+const MAX_FEW: usize = 3;
 
 /// The tracks of up to three points; unused entries repeat the last.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Few([(Track, f64); FEW]);
+pub(crate) struct FewTracks([(Track, f64); MAX_FEW]);
 
-impl Few {
+impl FewTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
-    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
-        self.0.map(|(track, bend)| Point {
+    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; MAX_FEW] {
+        self.0.map(|(track, second_derivative)| Point {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
-            bend,
+            second_derivative,
         })
     }
 }
@@ -79,46 +79,49 @@ impl<'a> Heights<'a> {
             centre: path.centre,
             normal,
             axis: path.axis,
-            along: AxisMotion::new(velocity, path.axis, path.rate, normal)
-                .pulled(path.acceleration.dot(normal)),
+            axis_motion: AxisMotion::new(velocity, path.axis, path.rate, normal)
+                .with_acceleration(path.acceleration.dot(normal)),
             omega: path.rate,
             speed: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
-            least: f64::INFINITY,
-            few: Few([(Track::default(), 0.0); FEW]),
-            bend: 0.0,
-            missed: 0.0,
+            least_height: f64::INFINITY,
+            few_tracks: FewTracks([(Track::default(), 0.0); MAX_FEW]),
+            second_derivative: 0.0,
+            support_error: 0.0,
         };
-        match piece.ball() {
-            Some((middle, radius)) => heights.see_many(middle, radius),
-            None => heights.see_all(),
+        match piece.bounding_ball() {
+            Some((middle, radius)) => heights.init_many(middle, radius),
+            None => heights.init_few(),
         }
         heights
     }
 
-    fn see_all(&mut self) {
-        let (mut least, mut farthest, mut few) = (f64::INFINITY, 0.0, self.few);
+    fn init_few(&mut self) {
+        let (mut least_height, mut farthest, mut few) = (f64::INFINITY, 0.0, self.few_tracks);
         for (k, (track, arm)) in self.tracks().enumerate() {
-            least = lesser(least, track.height_at(0.0, Angle::ZERO));
+            least_height = lesser(least_height, track.height_at(0.0, Angle::ZERO));
             farthest = greater(farthest, arm.length_squared());
             if let Some(rest) = few.0.get_mut(k..) {
-                rest.fill((track, track.bend()));
+                rest.fill((track, track.second_derivative()));
             }
         }
-        (self.least, self.few) = (least, few);
+        (self.least_height, self.few_tracks) = (least_height, few);
         self.speed += self.omega * farthest.sqrt();
     }
 
-    fn see_many(&mut self, middle: DVec3, radius: f64) {
-        self.least = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
-        if self.straight() {
+    fn init_many(&mut self, middle: DVec3, radius: f64) {
+        self.least_height = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
+        if self.is_nonrotating() {
             return;
         }
         let arm = self.frame.rotation * (middle - self.centre);
         let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
         self.speed += self.omega * farthest;
-        self.bend = self.along.bend(length(self.axis.cross(arm)) + radius) * (1.0 + RATE_F64);
-        self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
+        self.second_derivative = self
+            .axis_motion
+            .second_derivative(length(self.axis.cross(arm)) + radius)
+            * (1.0 + RATE_F64);
+        self.support_error = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
     /// Returns an upper bound of the speed of any point at any time.
@@ -127,108 +130,109 @@ impl<'a> Heights<'a> {
     }
 
     /// Returns the least height now.
-    pub(crate) fn least(&self) -> f64 {
-        self.least
+    pub(crate) fn least_height(&self) -> f64 {
+        self.least_height
     }
 
-    pub(crate) fn straight(&self) -> bool {
+    pub(crate) fn is_nonrotating(&self) -> bool {
         !(self.omega > 0.0)
     }
 
     pub(crate) fn angle(&self, tau: f64) -> Angle {
-        if tau > 0.0 && !self.straight() {
+        if tau > 0.0 && !self.is_nonrotating() {
             Angle::new(self.omega * tau)
         } else {
             Angle::ZERO
         }
     }
 
-    pub(crate) fn few(&self) -> Option<&Few> {
-        (self.piece.points.len() <= FEW).then_some(&self.few)
+    pub(crate) fn few_tracks(&self) -> Option<&FewTracks> {
+        (self.piece.points.len() <= MAX_FEW).then_some(&self.few_tracks)
     }
 
     /// Returns lower bounds of the heights and rates of all points after `tau`.
-    pub(crate) fn bound(&self, tau: f64) -> Point {
+    pub(crate) fn bound_all(&self, tau: f64) -> Point {
         let start = Point {
             height: f64::INFINITY,
             rate: f64::INFINITY,
-            bend: 0.0,
+            second_derivative: 0.0,
         };
-        match self.piece.ball() {
+        match self.piece.bounding_ball() {
             Some(_) => self.bound_of_many(self.angle(tau), tau),
-            None => self.each(tau).fold(start, |bound, point| Point {
+            None => self.points_at(tau).fold(start, |bound, point| Point {
                 height: lesser(bound.height, point.height),
                 rate: lesser(bound.rate, point.rate),
-                bend: greater(bound.bend, point.bend),
+                second_derivative: greater(bound.second_derivative, point.second_derivative),
             }),
         }
     }
 
-    /// Returns the largest descent of any point below [`Heights::least`] by rotation alone, up to `horizon`; `None` if
-    /// there are many points.
+    /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`;
+    /// `None` if there are many points.
     pub(crate) fn descent_until(&self, horizon: f64) -> Option<f64> {
-        if self.piece.ball().is_some() {
+        if self.piece.bounding_ball().is_some() {
             return None;
         }
         let end = self.angle(horizon);
-        let least = self
+        let least_height = self
             .tracks()
             .map(|(track, _)| track.least_until(horizon, end))
             .fold(f64::INFINITY, lesser);
-        Some(self.least - least)
+        Some(self.least_height - least_height)
     }
 
     /// Returns the present rate of the points' heights without rotation, which is the same for all points.
-    pub(crate) fn drift(&self) -> f64 {
-        self.along.drift()
+    pub(crate) fn linear_rate(&self) -> f64 {
+        self.axis_motion.linear_rate()
     }
 
     /// Returns the second derivative of the points' heights without rotation.
-    pub(crate) fn pull(&self) -> f64 {
-        self.along.pull()
+    pub(crate) fn linear_acceleration(&self) -> f64 {
+        self.axis_motion.linear_acceleration()
     }
 
     /// Returns a lower bound of the second derivative of the points' heights without rotation.
-    pub(crate) fn least_pull(&self) -> f64 {
-        self.along.pull() - RATE_F64 * self.acceleration
+    pub(crate) fn least_linear_acceleration(&self) -> f64 {
+        self.axis_motion.linear_acceleration() - RATE_F64 * self.acceleration
     }
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
     pub(crate) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
-        match self.piece.ball() {
-            Some(_) => of(&self.bound(tau)),
+        match self.piece.bounding_ball() {
+            Some(_) => of(&self.bound_all(tau)),
             None => self
-                .each(tau)
+                .points_at(tau)
                 .map(|point| of(&point))
                 .fold(f64::INFINITY, lesser),
         }
     }
 
-    fn each(&self, tau: f64) -> impl Iterator<Item = Point> {
+    fn points_at(&self, tau: f64) -> impl Iterator<Item = Point> {
         let angle = self.angle(tau);
         self.tracks().map(move |(track, _)| Point {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
-            bend: track.bend(),
+            second_derivative: track.second_derivative(),
         })
     }
 
     fn bound_of_many(&self, angle: Angle, tau: f64) -> Point {
-        if self.straight() {
+        if self.is_nonrotating() {
             return Point {
-                height: self.least + self.along.rise(tau),
-                rate: self.along.drift() + self.along.pull() * tau,
-                bend: 0.0,
+                height: self.least_height + self.axis_motion.linear_displacement(tau),
+                rate: self.axis_motion.linear_rate() + self.axis_motion.linear_acceleration() * tau,
+                second_derivative: 0.0,
             };
         }
         // The normal, as seen from the turning body.
-        let seen = Spinning::new(-self.axis, self.normal);
-        let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
+        let seen = RotatingVector::new(-self.axis, self.normal);
+        let (axis, derivative_length) = (seen.at(angle), seen.derivative_at(angle));
         Point {
-            height: self.lowest_of(axis).height_at(tau, angle) - self.missed,
-            rate: self.lowest_of(slope).rate_at(tau, angle) - self.omega * self.missed,
-            bend: self.bend,
+            height: self.lowest_of(axis).height_at(tau, angle) - self.support_error,
+            rate: self.lowest_of(derivative_length).rate_at(tau, angle)
+                - self.omega * self.support_error,
+            second_derivative: self.second_derivative,
         }
     }
 
@@ -246,7 +250,7 @@ impl<'a> Heights<'a> {
     #[inline]
     fn track(&self, point: DVec3) -> (Track, DVec3) {
         let arm = self.frame.rotation * (point - self.centre);
-        (self.along.track(self.normal.dot(arm), arm), arm)
+        (self.axis_motion.track(self.normal.dot(arm), arm), arm)
     }
 }
 
@@ -274,14 +278,14 @@ pub(crate) fn least_free_of_many(
     free: impl Fn(&Point, &Point) -> f64,
 ) -> f64 {
     let of_below = || {
-        let bound = above.bound(tau);
+        let bound = above.bound_all(tau);
         below.least_of(tau, |x| free(&bound, x))
     };
     let of_above = || {
-        let bound = below.bound(tau);
+        let bound = below.bound_all(tau);
         above.least_of(tau, |y| free(y, &bound))
     };
-    match (above.straight(), below.straight()) {
+    match (above.is_nonrotating(), below.is_nonrotating()) {
         (true, _) => of_below(),
         (false, true) => of_above(),
         (false, false) => greater(of_below(), of_above()),

@@ -12,19 +12,19 @@ use glam::DVec3;
 
 /// How a [`TouchingPlane`] keeps two pieces apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Level {
+pub(crate) struct PlaneContact {
     /// The body with which the plane moves.
-    holder: Which,
+    plane_body: Which,
     /// The gap along the plane's normal below which the pieces count as approaching.
-    floor: f64,
+    min_gap: f64,
 }
 
 impl TouchingPlane {
     /// Creates the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap along
     /// it.
-    pub(crate) fn of(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
+    pub(crate) fn from_contact(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
         let normal = contact.separation.normal;
-        let given = problem.given();
+        let given = problem.with_given_bodies();
         let problem = given.as_ref().unwrap_or(problem);
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;
@@ -45,19 +45,19 @@ impl Snapshot<'_> {
     ///
     /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
     /// between the faces there.
-    pub(crate) fn level(&self, ids: [u32; 2], from: DVec3) -> Option<Level> {
+    pub(crate) fn choose_plane(&self, ids: [u32; 2], from: DVec3) -> Option<PlaneContact> {
         let plane = self.problem.touching.as_ref()?;
         let resting = RESTING * self.problem.rounding;
-        let of = |holder: Which| {
-            let normal = self.normal_with(holder)?;
+        let of = |plane_body: Which| {
+            let normal = self.plane_normal(plane_body)?;
             let gap = self.gap_across(normal, from);
-            let level = Level {
-                holder,
-                floor: greater(plane.floor, gap - resting),
+            let level = PlaneContact {
+                plane_body,
+                min_gap: greater(plane.floor, gap - resting),
             };
             self.is_between_solids(ids, normal, from).then_some(level)
         };
-        let time = |level: &Level| self.level_time(level, from).unwrap_or(f64::INFINITY);
+        let time = |level: &PlaneContact| self.plane_time(level, from).unwrap_or(f64::INFINITY);
         [Which::A, Which::B]
             .into_iter()
             .filter_map(of)
@@ -68,24 +68,24 @@ impl Snapshot<'_> {
     }
 
     /// Returns a time for which the pieces certainly do not approach along the plane's normal; `None` if they never do.
-    pub(crate) fn level_time(&self, level: &Level, from: DVec3) -> Option<f64> {
-        let Some(normal) = self.normal_with(level.holder) else {
+    pub(crate) fn plane_time(&self, level: &PlaneContact, from: DVec3) -> Option<f64> {
+        let Some(normal) = self.plane_normal(level.plane_body) else {
             return Some(0.0);
         };
-        let slack = self.gap_across(normal, from) - level.floor;
+        let slack = self.gap_across(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
         if slack > RESTED * self.problem.rounding {
-            self.free_beside(&Plane { normal, slack })
+            self.plane_free_time(&Plane { normal, slack })
         } else {
             Some(0.0)
         }
     }
 
     /// Returns the normal of the plane that moves with a body, in the problem's coordinates.
-    fn normal_with(&self, holder: Which) -> Option<DVec3> {
+    fn plane_normal(&self, plane_body: Which) -> Option<DVec3> {
         let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
         let [frame_a, frame_b] = &self.frames;
-        Some(match holder {
+        Some(match plane_body {
             Which::A => frame_a.rotation * in_a,
             Which::B => frame_b.rotation * in_b,
         })

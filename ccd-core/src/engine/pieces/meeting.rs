@@ -7,12 +7,12 @@ use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
 /// The surfaces around the nearest points of two pieces, without their radii, in A's frame.
-pub(crate) struct Meeting<'s> {
+pub(crate) struct SurroundingSurfaces<'s> {
     points: [DVec3; 2],
     normals: &'s mut CommonNormals,
 }
 
-impl<'s> Meeting<'s> {
+impl<'s> SurroundingSurfaces<'s> {
     /// Collects the surfaces around two points, of A and of B, in A's frame.
     pub(crate) fn at(snapshot: &Snapshot<'_>, points: [DVec3; 2], meter: &'s mut Meter) -> Self {
         let Snapshot {
@@ -21,7 +21,7 @@ impl<'s> Meeting<'s> {
         let reach = AROUND * problem.rounding;
         let (mut looks, turn) = (0, pieces.b_to_a.rotation);
         let normals = &mut meter.scratch_memory().normals;
-        normals.begin(LEVEL * problem.rounding);
+        normals.reset(LEVEL * problem.rounding);
         problem.a.body.offsets_around(points[0], reach, |way| {
             looks += 1;
             normals.add_offset_of_a(way);
@@ -33,7 +33,7 @@ impl<'s> Meeting<'s> {
         });
         normals.sort();
         meter.stats.point_looks += looks;
-        Meeting {
+        SurroundingSurfaces {
             points,
             normals: &mut meter.scratch_memory().normals,
         }
@@ -41,8 +41,8 @@ impl<'s> Meeting<'s> {
 
     /// Returns the common normal of both surfaces that is nearest to a direction, if the vector between the points is
     /// along it up to rounding.
-    pub(crate) fn normal(&self, towards: DVec3) -> Option<DVec3> {
+    pub(crate) fn common_normal(&self, towards: DVec3) -> Option<DVec3> {
         let [on_a, on_b] = self.points;
-        self.normals.along(towards, on_b - on_a)
+        self.normals.nearest_normal_along(towards, on_b - on_a)
     }
 }

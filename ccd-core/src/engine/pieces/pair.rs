@@ -1,6 +1,6 @@
 //! Advances one pair of pieces: checks the oracle's claim, and computes a new clock.
 
-use super::level::Level;
+use super::level::PlaneContact;
 use super::snapshot::Snapshot;
 use crate::answer::{Contact, Separation};
 use crate::body::combination::Combination;
@@ -22,7 +22,7 @@ pub(crate) struct Pair<C> {
     pub(crate) b: u32,
     goal: Goal,
     /// True once the pair has been advanced.
-    known: bool,
+    was_advanced: bool,
     /// What the oracle remembers for its next call on this pair.
     cache: C,
 }
@@ -33,13 +33,13 @@ enum Goal {
     /// The pair is in contact within the query's tolerance. The clock proves half of it.
     Apart,
     /// Like `Apart`, for a pair that was in contact at the start and has separated since.
-    Parted,
+    Separated,
     /// The pair was in contact at the start, up to rounding. It is in contact again once its gap cannot be proven to be
     /// above `floor`.
     Resting { floor: f64 },
     /// The pair touches beside the plane of the contact at the start. It is in contact once it approaches along the
     /// normal of that plane.
-    Level(Level),
+    PlaneContact(PlaneContact),
 }
 
 /// What an advance of a pair found out.
@@ -64,7 +64,7 @@ impl<C: Default + Clone> Pair<C> {
             a,
             b,
             goal: Goal::Apart,
-            known: false,
+            was_advanced: false,
             cache: C::default(),
         }
     }
@@ -78,8 +78,8 @@ impl<C: Default + Clone> Pair<C> {
         s: f64,
     ) -> Step {
         let snapshot = Snapshot::new(problem, self.a, self.b, s);
-        let known = std::mem::replace(&mut self.known, true);
-        self.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+        let known = std::mem::replace(&mut self.was_advanced, true);
+        self.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
             if known {
                 snapshot.free_time(checked, kept)
             } else {
@@ -90,7 +90,7 @@ impl<C: Default + Clone> Pair<C> {
 
     /// Like [`Pair::advance`], with a given snapshot and another function for the free time. Pairs in contact at the
     /// start use the usual free time.
-    pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
+    pub(crate) fn advance_with<O: DistanceOracle<Cache = C>>(
         &mut self,
         snapshot: &Snapshot<'_>,
         oracle: &mut O,
@@ -98,7 +98,7 @@ impl<C: Default + Clone> Pair<C> {
         free_time: impl FnOnce(&Snapshot<'_>, &Checked, f64) -> Option<f64>,
     ) -> Step {
         let (problem, s) = (snapshot.problem, snapshot.clock);
-        let Some(checked) = snapshot.ask(oracle, &mut self.cache, meter) else {
+        let Some(checked) = snapshot.query_oracle(oracle, &mut self.cache, meter) else {
             return Step::GaveUp;
         };
         let ids = [self.a, self.b];
@@ -116,26 +116,32 @@ impl<C: Default + Clone> Pair<C> {
                     Intersection::None => {}
                 }
             }
-            let level = || snapshot.level(ids, checked.witness_a).map(Goal::Level);
+            let level = || {
+                snapshot
+                    .choose_plane(ids, checked.witness_a)
+                    .map(Goal::PlaneContact)
+            };
             let goal = match self.goal {
-                Goal::Apart => self.goal_of_start(problem, oracle, meter).or_else(level),
-                Goal::Parted => level(),
-                Goal::Resting { .. } | Goal::Level(_) => Some(self.goal),
+                Goal::Apart => self
+                    .goal_ignoring_start(problem, oracle, meter)
+                    .or_else(level),
+                Goal::Separated => level(),
+                Goal::Resting { .. } | Goal::PlaneContact(_) => Some(self.goal),
             };
             match goal {
                 Some(goal) => self.goal = goal,
                 None => return in_contact(&checked),
             }
         } else if checked.lower > apart && self.goal != Goal::Apart {
-            self.goal = Goal::Parted;
+            self.goal = Goal::Separated;
         }
         let (kept, is_resting) = match self.goal {
-            Goal::Apart | Goal::Parted => (problem.gap(), false),
+            Goal::Apart | Goal::Separated => (problem.gap(), false),
             Goal::Resting { floor } => (floor, true),
-            Goal::Level(level) => {
-                let free = snapshot.level_time(&level, checked.witness_a);
-                meter.stats.point_looks += snapshot.looks();
-                return after(s, free).unwrap_or_else(|| in_contact(&checked));
+            Goal::PlaneContact(level) => {
+                let free = snapshot.plane_time(&level, checked.witness_a);
+                meter.stats.point_looks += snapshot.evaluations();
+                return step_after(s, free).unwrap_or_else(|| in_contact(&checked));
             }
         };
         // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
@@ -150,17 +156,17 @@ impl<C: Default + Clone> Pair<C> {
         } else {
             free_time(snapshot, &checked, kept)
         };
-        let step = after(s, free).or_else(|| {
+        let step = step_after(s, free).or_else(|| {
             let began = if is_resting {
                 &Snapshot::new(problem, self.a, self.b, 0.0)
             } else {
                 snapshot
             };
-            let level = began.level(ids, checked.witness_a)?;
-            self.goal = Goal::Level(level);
-            after(s, snapshot.level_time(&level, checked.witness_a))
+            let level = began.choose_plane(ids, checked.witness_a)?;
+            self.goal = Goal::PlaneContact(level);
+            step_after(s, snapshot.plane_time(&level, checked.witness_a))
         });
-        meter.stats.point_looks += snapshot.looks();
+        meter.stats.point_looks += snapshot.evaluations();
         match step {
             Some(step) => step,
             None if is_resting => in_contact(&checked),
@@ -170,7 +176,7 @@ impl<C: Default + Clone> Pair<C> {
 
     /// Returns the goal of a pair that is in contact at the start, if that contact is to be ignored; `None` if it
     /// counts.
-    fn goal_of_start<O: DistanceOracle<Cache = C>>(
+    fn goal_ignoring_start<O: DistanceOracle<Cache = C>>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -180,7 +186,7 @@ impl<C: Default + Clone> Pair<C> {
             return None;
         }
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
-        let start = snapshot.ask(oracle, &mut C::default(), meter)?;
+        let start = snapshot.query_oracle(oracle, &mut C::default(), meter)?;
         let start = sharpen(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting =
@@ -195,7 +201,7 @@ impl<C: Default + Clone> Pair<C> {
 }
 
 /// Converts a free time at clock `s` to a step; `None` if the time is too short for the clock to advance.
-fn after(s: f64, free: Option<f64>) -> Option<Step> {
+fn step_after(s: f64, free: Option<f64>) -> Option<Step> {
     match free {
         None => Some(Step::FreeUntil(f64::INFINITY)),
         Some(tau) => {
@@ -221,8 +227,8 @@ pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Check
         },
         feature_a: feature(&problem.a, a, &checked.claim.a),
         feature_b: feature(&problem.b, b, &checked.claim.b),
-        piece_a: problem.a.number(a),
-        piece_b: problem.b.number(b),
+        piece_a: problem.a.index_in_given_body(a),
+        piece_b: problem.b.index_in_given_body(b),
     }
 }
 

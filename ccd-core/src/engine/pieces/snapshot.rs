@@ -14,8 +14,10 @@ use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, RESTING};
 use crate::shortcuts::Shortcut;
-use crate::shortcuts::turning_pieces::{Member, TurningPiece};
-use crate::tuning::{A_WHILE, AXIS_ROUNDS, RESTED, TURNED_SHARE, USUAL_STEPS};
+use crate::shortcuts::turning_pieces::{MovingPiece, TurningPiece};
+use crate::tuning::{
+    ASSUMED_STEPS, FIRST_VISIT_FREE_TIME, MAX_NEWTON_STEPS, RESTED, ROTATION_GAP_SHARE,
+};
 use glam::DVec3;
 use std::cell::Cell;
 use std::iter;
@@ -34,11 +36,11 @@ pub(crate) struct Snapshot<'p> {
 impl<'p> Snapshot<'p> {
     /// Creates the snapshot of piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
-        Snapshot::of(problem, problem.pieces([a, b]), clock)
+        Snapshot::of_pieces(problem, problem.pieces([a, b]), clock)
     }
 
     /// Creates the snapshot of any two convex pieces, of A and of B, at a clock.
-    pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
+    pub(crate) fn of_pieces(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
         Snapshot {
@@ -51,7 +53,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Creates the snapshot of two other pieces at the same clock.
-    pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
+    pub(crate) fn with_pieces(&self, [a, b]: [Piece<'p>; 2]) -> Self {
         Snapshot {
             pieces: PiecePair {
                 a,
@@ -64,7 +66,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Calls the oracle, and checks its claim; `None` if the oracle gave up.
-    pub(crate) fn ask<O: DistanceOracle>(
+    pub(crate) fn query_oracle<O: DistanceOracle>(
         &self,
         oracle: &mut O,
         cache: &mut O::Cache,
@@ -75,8 +77,8 @@ impl<'p> Snapshot<'p> {
         let before = oracle.effort().steps;
         let claim = oracle.separation(&self.pieces, cache);
         stats.point_looks += match oracle.effort().steps.saturating_sub(before) {
-            0 => USUAL_STEPS * self.pieces.points(),
-            steps => USUAL_STEPS * steps,
+            0 => ASSUMED_STEPS * self.pieces.points(),
+            steps => ASSUMED_STEPS * steps,
         };
         match claim {
             Ok(claim) => Some(separation::check(
@@ -94,10 +96,10 @@ impl<'p> Snapshot<'p> {
     /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
     /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
     pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
-        let direct = self.direct(checked, kept);
-        match self.free_along(direct.normal, direct.slack)? {
-            free if free >= A_WHILE => Some(free),
-            free => self.longest_time(checked, kept, &direct, free),
+        let direct = self.plane_of_claim(checked, kept);
+        match self.fixed_axis_time(direct.normal, direct.slack)? {
+            free if free >= FIRST_VISIT_FREE_TIME => Some(free),
+            free => self.longest_free_time(checked, kept, &direct, free),
         }
     }
 
@@ -105,26 +107,26 @@ impl<'p> Snapshot<'p> {
     /// function tries two normals, the claim's axis and the direction in which the nearest points pass each other. The
     /// planes are fixed, or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
-        let direct = self.direct(checked, kept);
-        let free = self.free_along(direct.normal, direct.slack)?;
-        self.longest_time(checked, kept, &direct, free)
+        let direct = self.plane_of_claim(checked, kept);
+        let free = self.fixed_axis_time(direct.normal, direct.slack)?;
+        self.longest_free_time(checked, kept, &direct, free)
     }
 
     /// Returns the longest free time of any plane; `free` is that of the fixed plane perpendicular to the claim's axis.
-    fn longest_time(
+    fn longest_free_time(
         &self,
         checked: &Checked,
         kept: f64,
         direct: &Plane,
         mut free: f64,
     ) -> Option<f64> {
-        let passing = self.passing(checked, kept);
+        let passing = self.plane_of_closest_approach(checked, kept);
         if let Some(passing) = &passing {
-            free = greater(free, self.free_along(passing.normal, passing.slack)?);
+            free = greater(free, self.fixed_axis_time(passing.normal, passing.slack)?);
         }
-        let members = self.members();
+        let members = self.moving_pieces();
         for plane in iter::once(direct).chain(&passing) {
-            free = greater(self.free_attached(&members, plane, free)?, free);
+            free = greater(self.turning_plane_time(&members, plane, free)?, free);
         }
         Some(free)
     }
@@ -162,11 +164,11 @@ impl<'p> Snapshot<'p> {
         let gap = Gap {
             gap: checked.lower - kept,
             rate: rate + RATE_F64 * speed,
-            bend: 0.0,
+            second_derivative: 0.0,
         };
         let free = gap.free_time();
         // Written so that NaN gives no time.
-        (!(free >= self.horizon())).then_some(free)
+        (!(free >= self.time_left())).then_some(free)
     }
 
     /// Returns how deeply two pieces of many points overlap along the axis between their middles, in units of the
@@ -174,7 +176,7 @@ impl<'p> Snapshot<'p> {
     #[cfg(feature = "hull-tree")]
     pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
-        let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
+        let ((a, radius_a), (b, radius_b)) = (pair.a.bounding_ball()?, pair.b.bounding_ball()?);
         let axis = unit(pair.b_to_a.point(b) - a)?;
         let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
         Some(-gap / lesser(radius_a, radius_b))
@@ -208,7 +210,7 @@ impl<'p> Snapshot<'p> {
         }
         let turn = self.pieces.b_to_a.rotation;
         let along = |axis: DVec3| match slack(axis) {
-            slack if is_left(slack) => self.free_along(self.frames[0].rotation * axis, slack),
+            slack if is_left(slack) => self.fixed_axis_time(self.frames[0].rotation * axis, slack),
             _ => Some(0.0),
         };
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
@@ -216,7 +218,7 @@ impl<'p> Snapshot<'p> {
             (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
             (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
                 // The solids are on the same side of the plane: their faces slide, and cannot meet.
-                into_b if n.dot(into_b) < 0.0 => longer(along(n), along(into_b)),
+                into_b if n.dot(into_b) < 0.0 => longer_time(along(n), along(into_b)),
                 _ => along(n),
             },
             (Facing::Out(n), Facing::Neither) => along(n),
@@ -227,10 +229,10 @@ impl<'p> Snapshot<'p> {
 
     /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is fixed,
     /// or turns with one of the bodies.
-    pub(crate) fn free_beside(&self, plane: &Plane) -> Option<f64> {
-        let free = self.free_along(plane.normal, plane.slack)?;
+    pub(crate) fn plane_free_time(&self, plane: &Plane) -> Option<f64> {
+        let free = self.fixed_axis_time(plane.normal, plane.slack)?;
         Some(greater(
-            self.free_attached(&self.members(), plane, free)?,
+            self.turning_plane_time(&self.moving_pieces(), plane, free)?,
             free,
         ))
     }
@@ -243,7 +245,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns the plane perpendicular to the claim's axis.
-    fn direct(&self, checked: &Checked, kept: f64) -> Plane {
+    fn plane_of_claim(&self, checked: &Checked, kept: f64) -> Plane {
         Plane {
             normal: self.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
@@ -252,37 +254,38 @@ impl<'p> Snapshot<'p> {
 
     /// Returns the plane perpendicular to the vector between the nearest points at their time of closest approach, for
     /// constant velocities; `None` if it does not keep the pieces apart now.
-    fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
+    fn plane_of_closest_approach(&self, checked: &Checked, kept: f64) -> Option<Plane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
             - self.problem.b.path.velocity_at(b, self.clock);
         let nearest = (b - a).dot(velocity) / velocity.length_squared();
-        let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
+        let way = b - a - velocity * nearest.clamp(0.0, self.time_left());
         let normal = unit(way)?;
         let axis = self.frames[0].inverse_vector(normal);
         let slack = self.gap_along(axis, checked.witness_a) - kept;
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
-    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies. Returns 0 if such a plane is not
-    /// worth trying: the rotation of that body does not use up the slack within `free`.
-    pub(crate) fn free_attached(
+    /// Like [`Snapshot::fixed_axis_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
+    /// not worth trying: the rotation of that body does not use up the slack within `free`.
+    pub(crate) fn turning_plane_time(
         &self,
-        members: &[Member<'_>; 2],
+        members: &[MovingPiece<'_>; 2],
         plane: &Plane,
         free: f64,
     ) -> Option<f64> {
-        if !self.problem.takes(Shortcut::TurningPieces) {
+        if !self.problem.uses(Shortcut::TurningPieces) {
             return Some(0.0);
         }
         let [a, b] = members;
-        let uses_up = |swing: f64| swing * free > TURNED_SHARE * plane.slack;
+        let uses_up =
+            |relative_speed: f64| relative_speed * free > ROTATION_GAP_SHARE * plane.slack;
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
-            if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
+            if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
                 let sweep = TurningPiece::new(holder, other, normal, self.problem.rounding);
-                let free = sweep.free_time(plane.slack, self.horizon());
-                self.look(sweep.looks.get());
+                let free = sweep.free_time(plane.slack, self.time_left());
+                self.count_evaluations(sweep.looks.get());
                 longest = greater(longest, free?);
             }
         }
@@ -290,25 +293,25 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns the pieces of A and of B with their motions.
-    pub(crate) fn members(&self) -> [Member<'_>; 2] {
+    pub(crate) fn moving_pieces(&self) -> [MovingPiece<'_>; 2] {
         let Problem { a, b, .. } = self.problem;
         let [frame_a, frame_b] = &self.frames;
         [
-            Member::new(a, frame_a, self.pieces.a, self.clock),
-            Member::new(b, frame_b, self.pieces.b, self.clock),
+            MovingPiece::new(a, frame_a, self.pieces.a, self.clock),
+            MovingPiece::new(b, frame_b, self.pieces.b, self.clock),
         ]
     }
 
     /// Returns the number of evaluations of points' heights so far.
-    pub(crate) fn looks(&self) -> u64 {
+    pub(crate) fn evaluations(&self) -> u64 {
         self.looks.get()
     }
 
-    fn look(&self, points: u64) {
+    fn count_evaluations(&self, points: u64) {
         self.looks.set(self.looks.get() + points);
     }
 
-    fn horizon(&self) -> f64 {
+    fn time_left(&self) -> f64 {
         1.0 - self.clock
     }
 
@@ -318,45 +321,47 @@ impl<'p> Snapshot<'p> {
     /// Every point's height along the axis is known exactly
     /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
     /// two points, with a bound on its curvature.
-    pub(crate) fn free_along(&self, normal: DVec3, slack: f64) -> Option<f64> {
+    pub(crate) fn fixed_axis_time(&self, normal: DVec3, slack: f64) -> Option<f64> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
         // The highest point along an axis is the lowest along its opposite.
         let clock = self.clock;
         let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
         let rounding = RATE_F64 * (a.speed() + b.speed());
-        let pull = a.least_pull() + b.least_pull();
-        let rounds = if a.straight() && b.straight() {
+        let linear_acceleration = a.least_linear_acceleration() + b.least_linear_acceleration();
+        let rounds = if a.is_nonrotating() && b.is_nonrotating() {
             1
         } else {
-            AXIS_ROUNDS
+            MAX_NEWTON_STEPS
         };
         // The offset of the heights makes the nearest two points `slack` apart.
         let free = |above: &Point, below: &Point| {
             let gap = Gap {
-                gap: slack + (above.height - b.least()) + (below.height - a.least()),
+                gap: slack + (above.height - b.least_height()) + (below.height - a.least_height()),
                 rate: -below.rate - above.rate + rounding,
-                bend: (above.bend + below.bend) * (1.0 + RATE_F64) - pull,
+                second_derivative: (above.second_derivative + below.second_derivative)
+                    * (1.0 + RATE_F64)
+                    - linear_acceleration,
             };
             gap.free_time()
         };
         let points = self.pieces.points();
-        self.look(points);
-        let crossing = match (a.few(), b.few()) {
-            (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
-                self.look(points);
+        self.count_evaluations(points);
+        let crossing = match (a.few_tracks(), b.few_tracks()) {
+            (Some(below), Some(above)) => first_crossing(self.time_left(), rounds, |tau| {
+                self.count_evaluations(points);
                 least_free(
                     &above.at(b.angle(tau), tau),
                     &below.at(a.angle(tau), tau),
                     free,
                 )
             }),
-            _ => first_crossing(self.horizon(), rounds, |tau| {
-                self.look(points);
+            _ => first_crossing(self.time_left(), rounds, |tau| {
+                self.count_evaluations(points);
                 least_free_of_many(&b, &a, tau, free)
             }),
         }?;
-        if self.turn_past(&a, &b, slack) {
+        if self.rotation_keeps_slack(&a, &b, slack) {
             None
         } else {
             Some(crossing)
@@ -365,12 +370,16 @@ impl<'p> Snapshot<'p> {
 
     /// Returns whether the pieces pass each other: the points' descent by rotation up to the end certainly leaves some
     /// slack. Without this test, the steps towards the time of closest approach become ever shorter.
-    fn turn_past(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
-        let horizon = self.horizon();
-        let drift = least_drift(a.drift() + b.drift(), a.pull() + b.pull(), horizon);
-        let left = slack + drift - RATE_F64 * (a.speed() + b.speed()) * horizon;
+    fn rotation_keeps_slack(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
+        let horizon = self.time_left();
+        let displacement = least_linear_displacement(
+            a.linear_rate() + b.linear_rate(),
+            a.linear_acceleration() + b.linear_acceleration(),
+            horizon,
+        );
+        let left = slack + displacement - RATE_F64 * (a.speed() + b.speed()) * horizon;
         // Written so that NaN is not past.
-        if (a.straight() && b.straight()) || !(left > 0.0) {
+        if (a.is_nonrotating() && b.is_nonrotating()) || !(left > 0.0) {
             return false;
         }
         let descents = || Some(a.descent_until(horizon)? + b.descent_until(horizon)?);
@@ -386,19 +395,19 @@ pub(crate) struct Plane {
     pub(crate) slack: f64,
 }
 
-/// Returns the least value of `rate τ + pull τ²/2` for τ up to a horizon.
-fn least_drift(rate: f64, pull: f64, horizon: f64) -> f64 {
-    let nearest = -rate / pull;
+/// Returns the least value of `rate τ + linear_acceleration τ²/2` for τ up to a horizon.
+fn least_linear_displacement(rate: f64, linear_acceleration: f64, horizon: f64) -> f64 {
+    let nearest = -rate / linear_acceleration;
     // Written so that NaN is none.
-    if pull > 0.0 && nearest > 0.0 && nearest < horizon {
+    if linear_acceleration > 0.0 && nearest > 0.0 && nearest < horizon {
         0.5 * rate * nearest
     } else {
-        lesser(0.0, (rate + 0.5 * pull * horizon) * horizon)
+        lesser(0.0, (rate + 0.5 * linear_acceleration * horizon) * horizon)
     }
 }
 
 /// Returns the longer of two free times; `None` is unbounded.
-fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+fn longer_time(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }
 

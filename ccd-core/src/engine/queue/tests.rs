@@ -111,7 +111,7 @@ proptest! {
                 }
                 (1, Some(first)) => {
                     *first = (clock, rank as u8, -step, first.3);
-                    queue.renew(clock, rank);
+                    queue.postpone_as_newest(clock, rank);
                 }
                 (2, Some(first)) => {
                     *first = new;

@@ -61,16 +61,16 @@ pub(crate) fn at_start(
         };
         if outer.body.may_be_hollow() {
             let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
-            search.answer(pairs, pieces)
+            search.test_body(pairs, pieces)
         } else {
-            Found::Nothing
+            TestResult::Nothing
         }
     };
-    let found = [look(&b, &a, 0), look(&a, &b, 1)];
-    match found {
-        [Found::Inside(p), _] => Containment::Inside(Overlap::AInsideB(problem.world(p))),
-        [_, Found::Inside(p)] => Containment::Inside(Overlap::BInsideA(problem.world(p))),
-        [Found::Nothing, Found::Nothing] => Containment::Outside,
+    let result = [look(&b, &a, 0), look(&a, &b, 1)];
+    match result {
+        [TestResult::Inside(p), _] => Containment::Inside(Overlap::AInsideB(problem.world(p))),
+        [_, TestResult::Inside(p)] => Containment::Inside(Overlap::BInsideA(problem.world(p))),
+        [TestResult::Nothing, TestResult::Nothing] => Containment::Outside,
         _ => Containment::Undecided,
     }
 }
@@ -100,96 +100,98 @@ struct Search<'a> {
 
 /// The result of a test; the point is in the problem's coordinates.
 #[derive(Clone, Copy)]
-enum Found {
+enum TestResult {
     Inside(DVec3),
     Nothing,
     Undecided,
 }
 
-impl Found {
+impl TestResult {
     fn is_inside(&self) -> bool {
-        matches!(self, Found::Inside(_))
+        matches!(self, TestResult::Inside(_))
     }
 }
 
 impl Search<'_> {
     /// Tests the inner body's parts; `touching` are pairs of a piece of the inner and a piece of the outer body.
-    fn answer(
+    fn test_body(
         &self,
         touching: impl Iterator<Item = [u32; 2]> + Clone,
         pieces: &mut Vec<u32>,
-    ) -> Found {
+    ) -> TestResult {
         pieces.clear();
         pieces.extend(touching.clone().map(|[inner, _]| inner));
         pieces.sort_unstable();
         pieces.dedup();
-        let mut found = Found::Nothing;
+        let mut result = TestResult::Nothing;
         let parts = self.inner.body.shells().iter();
-        let of_parts = parts.map(|shell| self.part(shell, pieces));
-        let of_pieces = pieces.iter().map(|&piece| self.piece(piece));
+        let of_parts = parts.map(|shell| self.test_part(shell, pieces));
+        let of_pieces = pieces.iter().map(|&piece| self.test_piece(piece));
         for one in of_parts.chain(of_pieces) {
             match one {
-                Found::Inside(_) => return one,
-                Found::Undecided => found = one,
-                Found::Nothing => {}
+                TestResult::Inside(_) => return one,
+                TestResult::Undecided => result = one,
+                TestResult::Nothing => {}
             }
         }
         // Each piece is tested once: a hull of many facets may touch many pieces.
         pieces.retain(|&piece| self.has_sides(piece) && !self.is_thick(piece));
         let thin = touching.filter(|[inner, _]| pieces.binary_search(inner).is_ok());
-        let inside = thin.map(|pair| self.edges(pair)).find(Found::is_inside);
-        inside.unwrap_or(found)
+        let inside = thin
+            .map(|pair| self.test_edges(pair))
+            .find(TestResult::is_inside);
+        inside.unwrap_or(result)
     }
 
     /// Tests a point in the inner body's frame.
-    fn point(&self, point: DVec3) -> Found {
+    fn test_point(&self, point: DVec3) -> TestResult {
         let placed = self.inner.frame.point(point);
         let there = self.outer.frame.inverse_point(placed);
         match contains(self.outer.body, there, self.reach) {
-            Some(true) => Found::Inside(placed),
-            Some(false) => Found::Nothing,
-            None => Found::Undecided,
+            Some(true) => TestResult::Inside(placed),
+            Some(false) => TestResult::Nothing,
+            None => TestResult::Undecided,
         }
     }
 
     /// Tests points one by one, until one is inside or undecided.
-    fn any_of(&self, points: impl IntoIterator<Item = DVec3>) -> Found {
-        let mut answers = points.into_iter().map(|p| self.point(p));
-        let told = answers.find(|found| !matches!(found, Found::Undecided));
-        told.unwrap_or(Found::Undecided)
+    fn test_points(&self, points: impl IntoIterator<Item = DVec3>) -> TestResult {
+        let mut answers = points.into_iter().map(|p| self.test_point(p));
+        let told = answers.find(|result| !matches!(result, TestResult::Undecided));
+        told.unwrap_or(TestResult::Undecided)
     }
 
     /// Tests the extreme points of a connected part. If all of them are on the outer surface, the touching pieces
     /// decide about the part.
-    fn part(&self, shell: &Shell, touching: &[u32]) -> Found {
-        let found = self.any_of(*shell);
+    fn test_part(&self, shell: &Shell, touching: &[u32]) -> TestResult {
+        let result = self.test_points(*shell);
         let pieces = self.inner.body.pieces();
         let touches = |&piece: &u32| pieces.get(piece as usize).points.contains(&shell[0]);
-        match found {
-            Found::Undecided if touching.iter().any(touches) => Found::Nothing,
-            _ => found,
+        match result {
+            TestResult::Undecided if touching.iter().any(touches) => TestResult::Nothing,
+            _ => result,
         }
     }
 
     /// Tests a touching piece: its corners, which it shares with pieces that do not touch, and a point of the solid
     /// below or in it.
-    fn piece(&self, piece: u32) -> Found {
+    fn test_piece(&self, piece: u32) -> TestResult {
         let body = self.inner.body;
         let corners = match body.pieces().get(piece as usize) {
             // A single piece shares no corner: the middle decides if it is thick.
             _ if body.pieces().len() == 1 && self.is_thick(piece) => &[],
             piece => piece.points,
         };
-        let mut inside = corners.iter().map(|&p| self.point(p));
-        if let Some(found) = inside.find(Found::is_inside) {
-            return found;
+        let mut inside = corners.iter().map(|&p| self.test_point(p));
+        if let Some(result) = inside.find(TestResult::is_inside) {
+            return result;
         }
         match body.point_inside(piece) {
-            Some(point) => self.any_of([point]),
+            Some(point) => self.test_points([point]),
             // A point of a surface that is on the other's surface is not inside.
-            None => match self.point(body.middle(piece)) {
-                Found::Undecided => Found::Nothing,
-                found => found,
+            None => match self.test_point(body.centroid(piece)) {
+                TestResult::Undecided => TestResult::Nothing,
+                result => result,
             },
         }
     }
@@ -203,7 +205,7 @@ impl Search<'_> {
     /// Returns whether a piece is thick: its middle is inside it by more than rounding. A face through the middle would
     /// intersect the piece by more than that.
     fn is_thick(&self, piece: u32) -> bool {
-        let middle = self.inner.body.middle(piece);
+        let middle = self.inner.body.centroid(piece);
         let piece = self.inner.body.pieces().get(piece as usize);
         let is_above = |corners: &[u32]| {
             let [a, b, c] = [0, 1, 2].map(|k| piece.points[corners[k] as usize]);
@@ -214,13 +216,15 @@ impl Search<'_> {
 
     /// Tests points of a thin piece next to edges of the other body that lie on it. Some of the points are next to
     /// faces.
-    fn edges(&self, [inner, outer]: [u32; 2]) -> Found {
+    fn test_edges(&self, [inner, outer]: [u32; 2]) -> TestResult {
         let piece = self.inner.body.pieces().get(inner as usize);
         let other = self.outer.body.pieces().get(outer as usize);
         let place = |p: DVec3| self.inner.frame.inverse_point(self.outer.frame.point(p));
         let points = beside_edges(&piece, &other, place, self.reach);
-        let mut found = points.map(|p| self.point(p));
-        found.find(Found::is_inside).unwrap_or(Found::Nothing)
+        let mut result = points.map(|p| self.test_point(p));
+        result
+            .find(TestResult::is_inside)
+            .unwrap_or(TestResult::Nothing)
     }
 }
 
@@ -233,8 +237,8 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !is_clear(body.tree(), body.pieces(), point, reach) {
         return None;
     }
-    let found = crossings(body.tree(), body.pieces(), point, 0.0)?;
-    (found.triangles_at_start == 0).then_some(found.beyond != 0)
+    let result = crossings(body.tree(), body.pieces(), point, 0.0)?;
+    (result.triangles_at_start == 0).then_some(result.beyond != 0)
 }
 
 #[cfg(test)]

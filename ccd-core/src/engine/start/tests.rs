@@ -21,7 +21,7 @@ use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude,
 use glam::DVec3;
 use std::time::Duration;
 
-/// Returns all schedules.
+/// Returns one solver for each schedule.
 fn schedules() -> Vec<Box<dyn Solve<Exhaustive>>> {
     vec![
         Box::new(BestFirst::default()),

@@ -11,15 +11,16 @@ fn worst_free_time() {
         let gap = Gap {
             gap: tape.size(-200..=30),
             rate: tape.any(-60..=60),
-            bend: tape.size(-60..=60),
+            second_derivative: tape.size(-60..=60),
         };
-        let [apart, rate, bend] = [gap.gap, gap.rate, gap.bend].map(Double::from);
+        let [apart, rate, second_derivative] =
+            [gap.gap, gap.rate, gap.second_derivative].map(Double::from);
         let two = Double::from(2.0);
-        let root = (rate * rate + two * bend * apart).sqrt();
+        let root = (rate * rate + two * second_derivative * apart).sqrt();
         let exact = if gap.rate > 0.0 {
             two * apart / (rate + root)
         } else {
-            (root - rate) / bend
+            (root - rate) / second_derivative
         };
         let free = Double::from(gap.free_time()) / Double::from(1.0 - RATE_F64);
         Some(share((free / exact - Double::from(1.0)).get(), RATE_F64))
@@ -36,7 +37,7 @@ fn a_free_time_of_parting_is_never_late_and_near() {
         let [gap, rate] = [0; 2].map(|_| magnitude(&mut rng, -12.0, 6.0));
         // The second derivative is that at which the gap just closes, or any other.
         let just = rate * rate / (2.0 * gap);
-        let bend = if rng.random_bool(0.5) {
+        let second_derivative = if rng.random_bool(0.5) {
             just * (1.0 + magnitude(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0))
         } else {
             magnitude(&mut rng, -12.0, 6.0)
@@ -44,12 +45,12 @@ fn a_free_time_of_parting_is_never_late_and_near() {
         let found = Gap {
             gap,
             rate,
-            bend: -bend,
+            second_derivative: -second_derivative,
         };
         let free = found.free_time();
-        let [gap, rate, bend] = [gap, rate, -bend].map(Double::from);
+        let [gap, rate, second_derivative] = [gap, rate, -second_derivative].map(Double::from);
         let two = Double::from(2.0);
-        let left = rate * rate + two * bend * gap;
+        let left = rate * rate + two * second_derivative * gap;
         if left.get() < 0.0 {
             stays += u32::from(free == f64::INFINITY);
             continue;
@@ -67,7 +68,14 @@ fn a_free_time_of_parting_is_never_late_and_near() {
 
 #[test]
 fn a_gap_that_never_closes_is_free_for_good() {
-    let time = |gap: f64, rate: f64, bend: f64| Gap { gap, rate, bend }.free_time();
+    let time = |gap: f64, rate: f64, second_derivative: f64| {
+        Gap {
+            gap,
+            rate,
+            second_derivative,
+        }
+        .free_time()
+    };
     let forever = f64::INFINITY;
     assert_eq!(time(1.0, -1.0, -1.0), forever);
     assert_eq!(time(1.0, 0.0, -1.0), forever);

@@ -55,7 +55,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
         let place = |x| path.frame(0.4).point(x);
         let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
         let expected = greater(fastest[0], fastest[1]);
-        let found = path.rate * path.reach(&points);
+        let found = path.rate * path.max_distance_from_axis(&points);
         assert!(
             (found - expected).abs() <= 1e-13 * (1.0 + turn),
             "{found} {expected}"
@@ -103,7 +103,7 @@ fn worst_part() {
         let (from, time, share_of_time) = (tape.fraction(), tape.fraction(), tape.fraction());
         let to = from + (1.0 - from) * time;
         let arm = DVec3::from(tape.vector(-20..=4));
-        let part = path.part([from, to]);
+        let part = path.subpath([from, to]);
         let [begins, ends, share_of_time] = [from, to, share_of_time].map(Double::from);
         let s = begins + share_of_time * (ends - begins);
         let x = path.centre + arm;

@@ -38,7 +38,7 @@ fn distances_change_by_no_more_than_said() {
             let [a, b] = [0, 1].map(|k| paths[k].frame(s).point(points[k]));
             a.distance(b)
         };
-        let bodies = [0, 1].map(|k| Reaching {
+        let bodies = [0, 1].map(|k| PathWithReach {
             path: &paths[k],
             reach,
         });

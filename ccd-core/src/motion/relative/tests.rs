@@ -1,6 +1,6 @@
 //! Compares the relative motion with the frames of both bodies.
 
-use super::{Seen, View};
+use super::{RelativeState, View};
 use crate::math::packed::{Packed, PackedMatrix, rows};
 use crate::motion::Motion;
 use crate::motion::path::Path;
@@ -32,7 +32,7 @@ fn path(rng: &mut Pcg64) -> Path {
 /// the seeing body's frame.
 #[inline(always)]
 fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
-    let Seen {
+    let RelativeState {
         rotation,
         offset,
         velocity,

@@ -86,7 +86,7 @@ fn crossing(track: &Track, limit: f64) -> Option<f64> {
         Gap {
             gap: limit - track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
-            bend: track.bend(),
+            second_derivative: track.second_derivative(),
         }
         .free_time()
     })
@@ -133,11 +133,22 @@ fn the_first_crossing_is_never_late_and_near() {
 
 #[test]
 fn a_zero_gap_or_nan_gets_no_free_time() {
-    let free = |gap: f64, rate: f64, bend: f64| Gap { gap, rate, bend }.free_time();
+    let free = |gap: f64, rate: f64, second_derivative: f64| {
+        Gap {
+            gap,
+            rate,
+            second_derivative,
+        }
+        .free_time()
+    };
     for rate in [-1.0, 0.0, 1.0, f64::NAN] {
-        for bend in [0.0, 1.0, f64::NAN] {
+        for second_derivative in [0.0, 1.0, f64::NAN] {
             for gap in [0.0, -0.0, -1.0, f64::NEG_INFINITY, f64::NAN] {
-                assert_eq!(free(gap, rate, bend), 0.0, "{gap} {rate} {bend}");
+                assert_eq!(
+                    free(gap, rate, second_derivative),
+                    0.0,
+                    "{gap} {rate} {second_derivative}"
+                );
             }
         }
     }
@@ -154,11 +165,11 @@ fn free_times_use_up_the_gap_and_no_more() {
         let gap = Gap {
             gap: magnitude(&mut rng, -9.0, 3.0),
             rate: sign * magnitude(&mut rng, -6.0, 6.0),
-            bend: magnitude(&mut rng, -6.0, 6.0),
+            second_derivative: magnitude(&mut rng, -6.0, 6.0),
         };
         let tau = gap.free_time();
-        let rest = gap.gap - gap.rate * tau - 0.5 * gap.bend * tau * tau;
-        let scale = gap.gap + (gap.rate * tau).abs() + gap.bend * tau * tau;
+        let rest = gap.gap - gap.rate * tau - 0.5 * gap.second_derivative * tau * tau;
+        let scale = gap.gap + (gap.rate * tau).abs() + gap.second_derivative * tau * tau;
         assert!(rest >= -1e-15 * scale, "{gap:?}: {rest:e}");
         assert!(rest <= 1e-14 * scale, "{gap:?}: {rest:e}");
     }
@@ -253,7 +264,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         assert!(least <= seen + rounding, "{least} {seen} {track:?}");
         // Between two samples the track deviates by this much from a straight line.
         let step = horizon / 400.0;
-        let missed = track.bend() * step * step + 1e-13 * (1.0 + track.omega);
+        let missed = track.second_derivative() * step * step + 1e-13 * (1.0 + track.omega);
         assert!(seen - least <= missed, "{seen} {least} {track:?}");
         if least < track.at(horizon) - missed && least < track.at(0.0) - missed {
             past_trough += 1;
@@ -274,8 +285,8 @@ fn worst_least_until() {
     let found = Worst::of("RATE_F64, least heights of points", 40_000).search(|tape| {
         let track = Track {
             height: 0.0,
-            drift: 0.0,
-            pull: 0.0,
+            linear_rate: 0.0,
+            linear_acceleration: 0.0,
             p: tape.any(-60..=10),
             q: tape.any(-60..=10),
             omega: tape.size(-40..=4),
@@ -314,15 +325,15 @@ fn worst_bend() {
     let found = Worst::of("RATE_F64, bends of points", 40_000).search(|tape| {
         let track = Track {
             height: 0.0,
-            drift: 0.0,
-            pull: 0.0,
+            linear_rate: 0.0,
+            linear_acceleration: 0.0,
             p: tape.any(-100..=20),
             q: tape.any(-100..=20),
             omega: tape.size(-100..=20),
         };
         let [p, q, omega] = [track.p, track.q, track.omega].map(Double::from);
         let exact = omega * omega * (p * p + q * q).sqrt();
-        let lost = exact - Double::from(track.bend());
+        let lost = exact - Double::from(track.second_derivative());
         (exact.get() > 0.0).then(|| share(lost.get(), RATE_F64 * exact.get()))
     });
     found.is_within(16.0);

@@ -1,7 +1,7 @@
 //! Computes the distance of two bodies at one clock by a descent from the last front `[FAST06 Alg. 3]`.
 
 use super::front::{Front, Item, Node};
-use super::hull_pair::{HullPair, Near};
+use super::hull_pair::{FeatureOwners, HullPair};
 use super::reach::Reaches;
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -13,7 +13,7 @@ use crate::math::order::lesser;
 use crate::motion::bound::Bound;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::tuning::{JOIN_BEYOND, OVERLAPPING};
+use crate::tuning::{JOIN_DISTANCE_RATIO, SPLIT_OVERLAP};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
@@ -30,17 +30,17 @@ pub(super) struct Descent<'s, 'p, C> {
 }
 
 /// The results at a clock so far, and the pairs that may improve them.
-struct Found {
+struct DescentState {
     /// An upper bound of the distance of the two bodies.
     distance: f64,
     /// The nearest pair of pieces in contact.
     contact: Option<Contact>,
     /// The pairs that may have to be split, as a heap with the nearest first.
-    open: BinaryHeap<Open>,
+    open: BinaryHeap<OpenPair>,
 }
 
 /// A pair of the front with its distance.
-struct Open {
+struct OpenPair {
     lower: f64,
     at: u32,
 }
@@ -53,8 +53,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        let snapshot = Snapshot::of(self.problem, self.hulls.hulls([0, 0]), s);
-        let mut found = Found {
+        let snapshot = Snapshot::of_pieces(self.problem, self.hulls.hulls([0, 0]), s);
+        let mut found = DescentState {
             distance: f64::INFINITY,
             contact: None,
             open: BinaryHeap::new(),
@@ -63,18 +63,18 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             if self.front.node(at).stays_apart() {
                 continue;
             }
-            self.look(oracle, &snapshot, at, &mut found)?;
+            self.measure(oracle, &snapshot, at, &mut found)?;
         }
-        while let Some(Open { lower, at }) = found.open.pop() {
+        while let Some(OpenPair { lower, at }) = found.open.pop() {
             // Written so that a pair with NaN is split.
             if lower >= found.distance {
                 break;
             }
-            let Some(first) = self.front.drop_below(self.hulls, at) else {
+            let Some(first) = self.front.split(self.hulls, at) else {
                 continue;
             };
-            self.look(oracle, &snapshot, first, &mut found)?;
-            self.look(oracle, &snapshot, first + 1, &mut found)?;
+            self.measure(oracle, &snapshot, first, &mut found)?;
+            self.measure(oracle, &snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
             return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
@@ -85,12 +85,12 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     }
 
     /// Computes the distance of a pair in the front.
-    fn look<O>(
+    fn measure<O>(
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
-        found: &mut Found,
+        found: &mut DescentState,
     ) -> ControlFlow<Outcome>
     where
         O: DistanceOracle<Cache = C>,
@@ -103,19 +103,19 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
-                self.look_at_nodes(oracle, snapshot, at, found);
+                self.measure_nodes(oracle, snapshot, at, found);
                 ControlFlow::Continue(())
             }
-            Item::Pieces(_) => self.look_at_pieces(oracle, snapshot, at, found),
+            Item::Pieces(_) => self.measure_pieces(oracle, snapshot, at, found),
         }
     }
 
-    fn look_at_nodes<O>(
+    fn measure_nodes<O>(
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
-        found: &mut Found,
+        found: &mut DescentState,
     ) where
         O: DistanceOracle<Cache = C>,
     {
@@ -124,31 +124,31 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let Item::Nodes(cache) = &mut node.item else {
             return;
         };
-        let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let snapshot = snapshot.with_pieces(self.hulls.hulls(node.pair));
         let depth = snapshot.depth_between_middles();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
-        if depth.is_some_and(|depth| depth > OVERLAPPING) {
+        if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
             self.meter.stats.point_looks += snapshot.pieces.points();
-            found.open.push(node.unmeasured(at, s));
+            found.open.push(node.open_unmeasured(at, s));
             return;
         }
-        let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
+        let Some(checked) = snapshot.query_oracle(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            found.open.push(node.unmeasured(at, s));
+            found.open.push(node.open_unmeasured(at, s));
             return;
         };
-        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
         let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
-        node.near = self.hulls.near(node.pair, &checked.claim);
+        node.near = self.hulls.feature_owners(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         let apart = checked.lower > reach && node.clock > s;
         // The distance bound is that of the pieces below the nodes, which are not in contact.
-        let settled = node.near == Near::Pieces && checked.upper > contact;
+        let settled = node.near == FeatureOwners::Pieces && checked.upper > contact;
         if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
         }
@@ -156,16 +156,16 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let done = apart && (settled || node.stays_apart());
         if !(done || checked.lower >= found.distance) {
             let lower = checked.lower;
-            found.open.push(Open { lower, at });
+            found.open.push(OpenPair { lower, at });
         }
     }
 
-    fn look_at_pieces<O>(
+    fn measure_pieces<O>(
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
-        found: &mut Found,
+        found: &mut DescentState,
     ) -> ControlFlow<Outcome>
     where
         O: DistanceOracle<Cache = C>,
@@ -175,11 +175,11 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let Item::Pieces(pair) = &mut node.item else {
             return ControlFlow::Continue(());
         };
-        let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
-        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
+        let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
-        let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
+        let step = pair.advance_with(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
             node.lower = checked.lower;
             found.distance = lesser(found.distance, checked.upper);
             snapshot.directed_time(checked, kept, bound, reaches)
@@ -187,10 +187,12 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         if let Step::Contact(contact) = step
             && s > 0.0
         {
-            found.touch(contact);
+            found.in_contact(contact);
             return ControlFlow::Continue(());
         }
-        node.clock = self.proven.conclude(problem, oracle, self.meter, step, s)?;
+        node.clock = self
+            .proven
+            .on_advance(problem, oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 
@@ -200,7 +202,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         &mut self,
         oracle: &mut O,
         snapshot: &Snapshot<'p>,
-        found: &mut Found,
+        found: &mut DescentState,
         next: f64,
     ) -> ControlFlow<Outcome>
     where
@@ -211,19 +213,19 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return ControlFlow::Continue(());
         }
         let distance = found.distance;
-        for (at, first) in self.front.above_leaves() {
+        for (at, first) in self.front.parents_of_leaves() {
             let far = [first, first + 1]
                 .into_iter()
-                .all(|child| self.front.node(child).lower >= JOIN_BEYOND * distance);
+                .all(|child| self.front.node(child).lower >= JOIN_DISTANCE_RATIO * distance);
             if !far || self.front.node(at).join_below <= distance {
                 continue;
             }
-            self.look(oracle, snapshot, at, found)?;
+            self.measure(oracle, snapshot, at, found)?;
             let node = self.front.node(at);
             if node.lower >= distance && node.clock >= next {
-                self.front.raise(at);
+                self.front.join_children(at);
             } else {
-                node.join_below = distance / JOIN_BEYOND;
+                node.join_below = distance / JOIN_DISTANCE_RATIO;
             }
         }
         ControlFlow::Continue(())
@@ -232,15 +234,15 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
 
 impl<C> Node<C> {
     /// Marks a pair to be split, whatever its distance.
-    fn unmeasured(&mut self, at: u32, s: f64) -> Open {
-        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
+    fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
+        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, FeatureOwners::Bridges, s);
         let lower = self.lower;
-        Open { lower, at }
+        OpenPair { lower, at }
     }
 }
 
-impl Found {
-    fn touch(&mut self, contact: Contact) {
+impl DescentState {
+    fn in_contact(&mut self, contact: Contact) {
         let separation = &contact.separation;
         self.distance = lesser(self.distance, separation.upper);
         let nearest = self.contact.get_or_insert(contact);
@@ -251,23 +253,23 @@ impl Found {
 }
 
 /// The order of the heap: the nearest pair is the greatest; among equals, the one that came first.
-impl Ord for Open {
+impl Ord for OpenPair {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);
         nearer.then(other.at.cmp(&self.at))
     }
 }
 
-impl PartialOrd for Open {
+impl PartialOrd for OpenPair {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Open {
+impl PartialEq for OpenPair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Open {}
+impl Eq for OpenPair {}

@@ -1,6 +1,6 @@
 //! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
-use super::hull_pair::{Below, HullPair, Near};
+use super::hull_pair::{Below, FeatureOwners, HullPair};
 use crate::engine::capacity::empty;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
@@ -31,7 +31,7 @@ pub(super) struct Node<C> {
     /// the end.
     pub(super) clock: f64,
     /// Whether pieces or bridges own the pair's nearest features.
-    pub(super) near: Near,
+    pub(super) near: FeatureOwners,
     /// The distance of the bodies below which joining the pair's children is tried again.
     pub(super) join_below: f64,
 }
@@ -57,7 +57,7 @@ impl<C> Default for Front<C> {
 
 impl<C: Clone + Default> Front<C> {
     /// Resets the tree to the pair of roots.
-    pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
+    pub(super) fn reset(&mut self, hulls: HullPair<'_>) {
         empty(&mut self.nodes);
         empty(&mut self.vacant);
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
@@ -96,7 +96,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Returns the pairs whose children are both leaves and do not stay apart to the end, each with its first child.
-    pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
+    pub(super) fn parents_of_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
             if let Some(first) = node.children
@@ -112,9 +112,9 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Splits a leaf into two pairs that cover it, and returns the first of them; `None` for a pair of pieces.
-    pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
+    pub(super) fn split(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
-        let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
+        let Below::Pairs(pairs) = hulls.children_of_pair(node.pair, node.near) else {
             return None;
         };
         // Nearest points of a covering pair are a good start for the pair. This does not hold for
@@ -143,7 +143,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Removes the two leaves below a pair, so that the pair becomes a leaf.
-    pub(super) fn raise(&mut self, at: u32) {
+    pub(super) fn join_children(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
             self.vacant.push(first);
             self.leaves -= 1;
@@ -173,14 +173,14 @@ impl<C: Default + Clone> Node<C> {
     fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
-            item: match hulls.below(pair, Near::Bridges) {
+            item: match hulls.children_of_pair(pair, FeatureOwners::Bridges) {
                 Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
                 Below::Pairs(_) => Item::Nodes(cache),
             },
             children: None,
             lower: f64::NEG_INFINITY,
             clock: 0.0,
-            near: Near::Bridges,
+            near: FeatureOwners::Bridges,
             join_below: f64::INFINITY,
         }
     }

@@ -18,7 +18,7 @@ pub(super) struct HullPair<'a> {
 
 /// Which of the nearest features of two nodes belong to bridges: facets outside of all pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Near {
+pub(super) enum FeatureOwners {
     /// Both features belong to pieces.
     Pieces,
     /// The feature of this body belongs to a bridge.
@@ -38,10 +38,10 @@ pub(super) enum Below {
 
 impl<'a> HullPair<'a> {
     /// Creates the pair of trees; `None` if a body has more than one piece and no hull tree.
-    pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
+    pub(super) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
         Some(HullPair {
-            a: Hulls::of(problem.a.body)?,
-            b: Hulls::of(problem.b.body)?,
+            a: Hulls::for_body(problem.a.body)?,
+            b: Hulls::for_body(problem.b.body)?,
         })
     }
 
@@ -50,24 +50,24 @@ impl<'a> HullPair<'a> {
     }
 
     /// Returns which nearest features belong to bridges; `claim` has the nearest points.
-    pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
+    pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> FeatureOwners {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
-            (false, false) => Near::Pieces,
-            (true, false) => Near::Bridge(Which::A),
-            (false, true) => Near::Bridge(Which::B),
-            (true, true) => Near::Bridges,
+            (false, false) => FeatureOwners::Pieces,
+            (true, false) => FeatureOwners::Bridge(Which::A),
+            (false, true) => FeatureOwners::Bridge(Which::B),
+            (true, true) => FeatureOwners::Bridges,
         }
     }
 
     /// Returns the pairs that replace a pair. One node is replaced by its children: if only one body has a bridge, that
     /// body's node, else the larger node, or the one with children if the other has none.
-    pub(super) fn below(&self, [a, b]: [u32; 2], near: Near) -> Below {
+    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
-            Near::Bridge(body) => body,
-            Near::Pieces | Near::Bridges => self.larger([a, b]),
+            FeatureOwners::Bridge(body) => body,
+            FeatureOwners::Pieces | FeatureOwners::Bridges => self.larger([a, b]),
         };
-        match (self.a.below(a), self.b.below(b), body) {
+        match (self.a.children_of_pair(a), self.b.children_of_pair(b), body) {
             (Leaf(a), Leaf(b), _) => Below::Pieces([a, b]),
             (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, Which::A) => {
                 Below::Pairs([[left, b], [right, b]])
@@ -77,7 +77,7 @@ impl<'a> HullPair<'a> {
     }
 
     fn larger(&self, [a, b]: [u32; 2]) -> Which {
-        if self.b.size(b) > self.a.size(a) {
+        if self.b.half_diagonal(b) > self.a.half_diagonal(a) {
             Which::B
         } else {
             Which::A
@@ -94,7 +94,7 @@ pub(super) enum Hulls<'a> {
 }
 
 impl<'a> Hulls<'a> {
-    fn of(body: &'a Body) -> Option<Self> {
+    fn for_body(body: &'a Body) -> Option<Self> {
         match body.hull_tree() {
             Some(tree) => Some(Hulls::Tree(tree)),
             None if body.pieces().len() == 1 => Some(Hulls::Single(body)),
@@ -109,7 +109,7 @@ impl<'a> Hulls<'a> {
         }
     }
 
-    fn below(self, node: u32) -> HierarchyNode {
+    fn children_of_pair(self, node: u32) -> HierarchyNode {
         match self {
             Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
             Hulls::Single(_) => HierarchyNode::Leaf(0),
@@ -123,9 +123,9 @@ impl<'a> Hulls<'a> {
         }
     }
 
-    fn size(self, node: u32) -> f64 {
+    fn half_diagonal(self, node: u32) -> f64 {
         match self {
-            Hulls::Tree(tree) => tree.size(node),
+            Hulls::Tree(tree) => tree.half_diagonal(node),
             Hulls::Single(_) => 0.0,
         }
     }

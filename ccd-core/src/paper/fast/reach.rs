@@ -12,13 +12,13 @@ pub(super) struct Reaches {
 
 impl Reaches {
     /// Invalidates all cached distances.
-    pub(super) fn forget(&mut self) {
+    pub(super) fn invalidate(&mut self) {
         self.query += 1;
     }
 
     /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `snapshot` has
     /// their hulls.
-    pub(super) fn each(
+    pub(super) fn of_both(
         &mut self,
         problem: &Problem<'_>,
         pair: [u32; 2],
@@ -33,7 +33,7 @@ impl Reaches {
             }
             let (query, reach) = &mut known[at];
             if *query != self.query {
-                (*query, *reach) = (self.query, paths[k].reach(points[k]));
+                (*query, *reach) = (self.query, paths[k].max_distance_from_axis(points[k]));
             }
             *reach
         })

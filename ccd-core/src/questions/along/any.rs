@@ -1,6 +1,6 @@
 //! Decides whether two bodies on trajectories touch at all.
 
-use super::contacts::{Seen, SoFar};
+use super::contacts::{ProvenContacts, StretchResult};
 use super::drive::{Question, drive};
 use super::lengths::{cut_at_once, length};
 use super::motions::{Motions, Span};
@@ -12,7 +12,7 @@ use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::questions::any::any;
+use crate::questions::any::start_contact_as_any;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -22,30 +22,35 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let mut any = Any {
+        let mut any = AnyContactSearch {
             schedule: self,
-            kept: SoFar::new(query),
+            proven: ProvenContacts::new(query),
             undecided: f64::INFINITY,
         };
         drive(&mut any, query, oracle)
     }
 }
 
-struct Any<'s, O: DistanceOracle> {
+struct AnyContactSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
-    kept: SoFar,
+    proven: ProvenContacts,
     /// The first time at which it is undecided whether one body is inside the other.
     undecided: f64,
 }
 
-impl<O: DistanceOracle> Any<'_, O> {
-    fn unresolved(&self, stretches: &Stretches<'_, '_>, until: f64, limit: Limit) -> Answer {
-        let until = lesser(lesser(until, self.undecided), stretches.first());
-        self.kept.unresolved(stretches, until, limit)
+impl<O: DistanceOracle> AnyContactSearch<'_, O> {
+    fn unresolved_outcome(
+        &self,
+        stretches: &Stretches<'_, '_>,
+        until: f64,
+        limit: Limit,
+    ) -> Answer {
+        let until = lesser(lesser(until, self.undecided), stretches.earliest_time());
+        self.proven.unresolved(stretches, until, limit)
     }
 }
 
-impl<O: DistanceOracle> Question<O> for Any<'_, O> {
+impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
@@ -63,41 +68,49 @@ impl<O: DistanceOracle> Question<O> for Any<'_, O> {
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
         let answer = self.schedule.any_contact_of(problem, oracle);
-        let seen = match self.kept.see(stretches, motions, &answer)? {
-            Seen::Done => return Ok(ControlFlow::Continue(())),
-            Seen::Stopped(until, limit) => {
-                return Ok(ControlFlow::Break(self.unresolved(stretches, until, limit)));
+        let seen = match self.proven.record(stretches, motions, &answer)? {
+            StretchResult::Done => return Ok(ControlFlow::Continue(())),
+            StretchResult::Stopped(until, limit) => {
+                return Ok(ControlFlow::Break(
+                    self.unresolved_outcome(stretches, until, limit),
+                ));
             }
-            Seen::Near(s, contact) => (s, contact),
+            StretchResult::Near(s, contact) => (s, contact),
         };
-        if stretches.is_fine(motions)? {
-            let found = self.kept.found(stretches, motions, answer.outcome)?;
+        if stretches.accepts_contact(motions)? {
+            let found = self
+                .proven
+                .contact_answer(stretches, motions, answer.outcome)?;
             // One body is inside the other: they have met before, or overlap at the start.
             if let Outcome::Unresolved(known) = found.outcome {
                 self.undecided = lesser(self.undecided, known.safe_until);
                 return Ok(ControlFlow::Continue(()));
             }
-            return Ok(ControlFlow::Break(any(found)));
+            return Ok(ControlFlow::Break(start_contact_as_any(found)));
         }
         let scratch = &mut self.schedule.scratch;
         let length = 2.0 * length(stretches, motions, seen, oracle, scratch)?;
         if stretches.cut_about(motions.span, motions.time(seen.0), length) {
             return Ok(ControlFlow::Continue(()));
         }
-        let stalled = self.unresolved(stretches, motions.span.from, Limit::Stalled);
+        let stalled = self.unresolved_outcome(stretches, motions.span.from, Limit::Stalled);
         Ok(ControlFlow::Break(stalled))
     }
 
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
-        self.unresolved(stretches, span.from, limit)
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+        self.unresolved_outcome(stretches, span.from, limit)
     }
 
-    fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
+    fn on_end(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        _: &mut O,
+    ) -> Result<Answer, InputError> {
         Ok(if self.undecided.is_finite() {
             let limit = Limit::Undecided;
-            self.kept.unresolved(stretches, self.undecided, limit)
+            self.proven.unresolved(stretches, self.undecided, limit)
         } else {
-            self.kept.free(stretches)
+            self.proven.free(stretches)
         })
     }
 }

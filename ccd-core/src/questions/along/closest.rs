@@ -14,8 +14,8 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::closest::required::Required;
 use crate::questions::closest::{Beyond, meets_later};
-use crate::tuning::{COARSE, STRAY_SHARE};
-use found::{Found, Seen};
+use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
+use found::{BestSoFar, StretchResult};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -28,8 +28,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let answer = match query.terms.clearance {
-            Some(distance) => self.keeps_along(query, distance, oracle)?,
-            None => self.approach_of_bodies_along(&query.measuring(), oracle)?,
+            Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
+            None => self.approach_of_bodies_along(&query.for_distances(), oracle)?,
         };
         Ok(answer.to_shapes(query.excess()))
     }
@@ -40,16 +40,16 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let mut closest = Closest {
+        let mut closest = ClosestApproachSearch {
             schedule: self,
             query,
-            found: Found::new(query),
+            found: BestSoFar::new(query),
         };
         drive(&mut closest, query, oracle)
     }
 
     /// Decides whether the bodies keep a distance, or their shapes come nearer.
-    fn keeps_along(
+    fn decide_clearance_along(
         &mut self,
         query: &Query<'_>,
         distance: f64,
@@ -73,13 +73,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-struct Closest<'s, 'q, 'a, O: DistanceOracle> {
+struct ClosestApproachSearch<'s, 'q, 'a, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     query: &'q Query<'a>,
-    found: Found,
+    found: BestSoFar,
 }
 
-impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
+impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     /// Tries to prove a lower bound of the whole query's least distance, if it is time for that.
     fn prepare(
         &mut self,
@@ -88,15 +88,17 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
     ) -> Result<(), InputError> {
         let found = &mut self.found;
         let work = stretches.stats.work();
-        let (Some(rung), Ok(left)) = (found.ladder.due(work, found.upper()), stretches.terms())
-        else {
+        let (Some(rung), Ok(left)) = (
+            found.ladder.next_if_due(work, found.upper()),
+            stretches.remaining_terms(),
+        ) else {
             return Ok(());
         };
         let mut query = self.query.asking(rung);
         query.terms.budget = rung.budget;
         query.terms.deadline = left.deadline;
         let answer = self.schedule.any_contact_along(&query, oracle)?;
-        stretches.add_for_no_part(&answer.stats);
+        stretches.add_uncharged(&answer.stats);
         let proven = match answer.outcome {
             Outcome::Free { proven_gap } => Some(proven_gap),
             Outcome::Contact { time, contact } => {
@@ -115,14 +117,16 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
         motions: &Motions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
-        let Some(time) = stretches.looks_too_long(motions) else {
+        let Some(time) = stretches.end_if_too_long(motions) else {
             return Ok(false);
         };
-        let doubt = self.doubt(stretches, oracle, time)?;
-        let Some(doubt) = doubt.filter(|doubt| doubt.rises_into(motions, time)) else {
+        let distance_at_time = self.distance_at_time(stretches, oracle, time)?;
+        let Some(distance_at_time) = distance_at_time
+            .filter(|distance_at_time| distance_at_time.increases_into(motions, time))
+        else {
             return Ok(false);
         };
-        let length = doubt.length(motions);
+        let length = distance_at_time.length(motions);
         Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
     }
 
@@ -137,17 +141,17 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
         // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
         // the upper bound.
         let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance();
-        let answer = self.schedule.approach_below(problem, beyond, oracle);
+        let answer = self.schedule.least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.found {
-            Err(Beyond { lower }) => Seen::beyond(lower),
+            Err(Beyond { lower }) => StretchResult::beyond(lower),
             Ok(Outcome::Overlapping { .. }) if stretches.look_at_start(motions)? => {
                 return Ok(ControlFlow::Continue(()));
             }
             Ok(outcome @ Outcome::Overlapping { .. }) if stretches.begins_at_start(motions)? => {
                 return Ok(ControlFlow::Break(found.answer(query, stretches, outcome)));
             }
-            Ok(outcome) => match found.see(motions, &outcome) {
+            Ok(outcome) => match found.record(motions, &outcome) {
                 Ok(seen) => seen,
                 Err(limit) => {
                     let stopped = found.unresolved(query, stretches, motions.span, limit);
@@ -155,12 +159,13 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
                 }
             },
         };
-        let lower = greater(0.0, motions.at_least(seen.lower));
+        let lower = greater(0.0, motions.lower_bound_for_bodies(seen.lower));
         let tolerance = query.terms.tolerance;
-        let is_near_enough = lower >= found.upper() - tolerance || seen.is_loose(tolerance);
-        if is_near_enough || stretches.is_fine(motions)? {
+        let is_near_enough =
+            lower >= found.upper() - tolerance || seen.is_limited_by_rounding(tolerance);
+        if is_near_enough || stretches.accepts_contact(motions)? {
             found.lower = lesser(found.lower, lower);
-            stretches.prove(motions);
+            stretches.record_proven(motions);
         } else if !self.cut_where_nearest(stretches, oracle, motions, &seen)? {
             let stalled = self
                 .found
@@ -171,14 +176,14 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
             return Ok(ControlFlow::Continue(()));
         }
         self.found.lower = 0.0;
-        self.done(stretches, oracle).map(ControlFlow::Break)
+        self.on_end(stretches, oracle).map(ControlFlow::Break)
     }
 
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
         self.found.unresolved(self.query, stretches, span, limit)
     }
 
-    fn done(
+    fn on_end(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
@@ -192,7 +197,7 @@ impl<O: DistanceOracle> Question<O> for Closest<'_, '_, '_, O> {
     }
 }
 
-impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
+impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
     fn or_overlap(
         &mut self,
@@ -200,7 +205,7 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         oracle: &mut O,
         nearest: Answer,
     ) -> Result<Answer, InputError> {
-        let Ok((pose, terms)) = stretches.pose(0.0)? else {
+        let Ok((pose, terms)) = stretches.pose_at(0.0)? else {
             return Ok(nearest);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -223,43 +228,43 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
         motions: &Motions,
-        seen: &Seen,
+        seen: &StretchResult,
     ) -> Result<bool, InputError> {
         let time = motions.time(seen.time);
         let Query {
             terms, duration, ..
         } = self.query;
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > COARSE * duration {
+        if motions.span.length() > MEASURED_SHARE * duration {
             return Ok(stretches.cut_about(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
-        if let Some(end) = seen.falls_beyond(motions)
-            && let Some(beyond) = stretches.take_beside(end)
+        if let Some(end) = seen.end_with_decrease_beyond(motions)
+            && let Some(beyond) = stretches.take_adjacent(end)
         {
             let is_cut = stretches.cut_about(motions.span, time, f64::INFINITY);
             stretches.push(beyond);
             return Ok(is_cut);
         }
-        let length = match self.doubt(stretches, oracle, time)? {
-            Some(doubt) => greater(
-                doubt.length(motions),
-                motions.length_for_rate(doubt.rate.abs()),
+        let length = match self.distance_at_time(stretches, oracle, time)? {
+            Some(distance_at_time) => greater(
+                distance_at_time.length(motions),
+                motions.length_for_rate(distance_at_time.rate.abs()),
             ),
-            None => motions.length_for(STRAY_SHARE * terms.tolerance),
+            None => motions.length_for(DEVIATION_SHARE * terms.tolerance),
         };
         Ok(stretches.cut_about(motions.span, time, length))
     }
 
     /// Measures the bodies at a time; `None` if they overlap, or a limit is reached. Returns `None` if they overlap, or
     /// a limit is reached.
-    fn doubt(
+    fn distance_at_time(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
         time: f64,
-    ) -> Result<Option<Doubt>, InputError> {
-        let Ok((pose, terms)) = stretches.pose(time)? else {
+    ) -> Result<Option<DistanceAtTime>, InputError> {
+        let Ok((pose, terms)) = stretches.pose_at(time)? else {
             return Ok(None);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -276,7 +281,7 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
         found.take(time, pose.contact(contact));
         let rounding = 2.0 * pose.stray;
         let least = greater(terms.tolerance, rounding);
-        Ok(Some(Doubt {
+        Ok(Some(DistanceAtTime {
             stray: greater(least, contact.separation.upper - found.upper()),
             rate: -pose.approach(0.0, &contact),
         }))
@@ -284,20 +289,20 @@ impl<O: DistanceOracle> Closest<'_, '_, '_, O> {
 }
 
 /// The distance of the bodies at a time, as far as it limits the length of stretches near that time.
-struct Doubt {
+struct DistanceAtTime {
     /// The deviation below which a stretch cannot contain a distance less than the least one found.
     stray: f64,
     /// The rate at which the distance increases at that time.
     rate: f64,
 }
 
-impl Doubt {
+impl DistanceAtTime {
     fn length(&self, motions: &Motions) -> f64 {
-        motions.length_for(STRAY_SHARE * self.stray)
+        motions.length_for(DEVIATION_SHARE * self.stray)
     }
 
     /// Returns whether the distance increases from an end of the stretch inward.
-    fn rises_into(&self, motions: &Motions, end: f64) -> bool {
+    fn increases_into(&self, motions: &Motions, end: f64) -> bool {
         if end > motions.span.from {
             self.rate <= 0.0
         } else {

@@ -8,14 +8,14 @@ use crate::math::order::{greater, lesser};
 use crate::query::Query;
 
 /// The gap and the tolerance that are proven for the stretches searched so far.
-pub(super) struct SoFar {
+pub(super) struct ProvenContacts {
     gap: f64,
     margin: f64,
     tolerance: f64,
 }
 
 /// What the search of a stretch found out.
-pub(super) enum Seen {
+pub(super) enum StretchResult {
     /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined.
     Done,
     /// A limit was reached, and the bodies are apart until the given time of the query. The bodies are apart until the
@@ -25,9 +25,9 @@ pub(super) enum Seen {
     Near(f64, Option<Contact>),
 }
 
-impl SoFar {
+impl ProvenContacts {
     pub(super) fn new(query: &Query<'_>) -> Self {
-        SoFar {
+        ProvenContacts {
             gap: f64::INFINITY,
             margin: query.terms.margin,
             tolerance: query.terms.tolerance,
@@ -35,31 +35,31 @@ impl SoFar {
     }
 
     /// Records the gap that the motions of a stretch keep.
-    pub(super) fn keep(&mut self, motions: &Motions, proven_gap: f64) {
-        self.gap = lesser(self.gap, motions.at_least(proven_gap));
+    pub(super) fn record_gap(&mut self, motions: &Motions, proven_gap: f64) {
+        self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }
 
     /// Records the answer for the motions of a stretch.
-    pub(super) fn see(
+    pub(super) fn record(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         motions: &Motions,
         answer: &Answer,
-    ) -> Result<Seen, InputError> {
+    ) -> Result<StretchResult, InputError> {
         stretches.add(&answer.stats);
         Ok(match answer.outcome {
             Outcome::Free { proven_gap } => {
-                self.keep(motions, proven_gap);
-                stretches.prove(motions);
-                Seen::Done
+                self.record_gap(motions, proven_gap);
+                stretches.record_proven(motions);
+                StretchResult::Done
             }
             Outcome::Unresolved(known) => {
-                Seen::Stopped(motions.time(known.safe_until), known.limit)
+                StretchResult::Stopped(motions.time(known.safe_until), known.limit)
             }
-            Outcome::Contact { time, contact } => Seen::Near(time, Some(contact)),
-            Outcome::Touching { contact } => Seen::Near(0.0, Some(contact)),
-            Outcome::Overlapping { .. } if stretches.look_at_start(motions)? => Seen::Done,
-            Outcome::Overlapping { overlap, .. } => Seen::Near(0.0, overlap.contact()),
+            Outcome::Contact { time, contact } => StretchResult::Near(time, Some(contact)),
+            Outcome::Touching { contact } => StretchResult::Near(0.0, Some(contact)),
+            Outcome::Overlapping { .. } if stretches.look_at_start(motions)? => StretchResult::Done,
+            Outcome::Overlapping { overlap, .. } => StretchResult::Near(0.0, overlap.contact()),
             Outcome::Interval { .. } | Outcome::Measured { .. } => {
                 unreachable!("no outcome of a search for contacts")
             }
@@ -89,7 +89,7 @@ impl SoFar {
     }
 
     /// Converts a contact of a stretch's motions to the answer of the query.
-    pub(super) fn found(
+    pub(super) fn contact_answer(
         &mut self,
         stretches: &Stretches<'_, '_>,
         motions: &Motions,

@@ -16,7 +16,7 @@ pub(super) trait Question<O: DistanceOracle> {
         true
     }
 
-    /// Called before each stretch, for work on the whole query.
+    /// Does work on the whole query before each stretch is searched.
     fn prepare(
         &mut self,
         _stretches: &mut Stretches<'_, '_>,
@@ -43,10 +43,10 @@ pub(super) trait Question<O: DistanceOracle> {
     ) -> Result<ControlFlow<Answer>, InputError>;
 
     /// Returns the answer if a limit is reached before a stretch is searched.
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer;
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer;
 
     /// Returns the answer if all stretches are done.
-    fn done(
+    fn on_end(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
@@ -64,11 +64,11 @@ pub(super) fn drive<O: DistanceOracle, Q: Question<O>>(
     loop {
         question.prepare(stretches, oracle)?;
         let Some(span) = stretches.next() else {
-            return question.done(stretches, oracle);
+            return question.on_end(stretches, oracle);
         };
         let (motions, terms) = match stretches.motions(span, question.takes_accelerations())? {
             Ok(motions) => motions,
-            Err(limit) => return Ok(question.stopped(stretches, span, limit)),
+            Err(limit) => return Ok(question.on_limit(stretches, span, limit)),
         };
         if question.cut_at_once(stretches, &motions, oracle)? {
             continue;

@@ -21,7 +21,7 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::closest::guess::nearest_at;
 use crate::rounding::FARTHEST_F64;
-use crate::tuning::SETTLED;
+use crate::tuning::SETTLED_GROWTH;
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -42,8 +42,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let query = &query.measuring();
-        let mut search = Search {
+        let query = &query.for_distances();
+        let mut search = GreatestDistanceSearch {
             stretches: Stretches::new(query),
             schedule: self,
             oracle,
@@ -79,7 +79,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     }
 }
 
-struct Search<'s, 'j, 'a, O: DistanceOracle> {
+struct GreatestDistanceSearch<'s, 'j, 'a, O: DistanceOracle> {
     stretches: Stretches<'j, 'a>,
     schedule: &'s mut DepthFirst<O>,
     oracle: &'s mut O,
@@ -90,33 +90,33 @@ struct Search<'s, 'j, 'a, O: DistanceOracle> {
 }
 
 /// A waiting stretch of time with an upper bound of the distance in it; the order is that of the bounds.
-struct Part {
+struct BoundedStretch {
     span: Span,
     upper: f64,
 }
 
-impl Ord for Part {
+impl Ord for BoundedStretch {
     fn cmp(&self, other: &Self) -> Ordering {
         self.upper.total_cmp(&other.upper)
     }
 }
 
-impl PartialOrd for Part {
+impl PartialOrd for BoundedStretch {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Part {
+impl PartialEq for BoundedStretch {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Part {}
+impl Eq for BoundedStretch {}
 
 /// The nearest points of both bodies at a time, with bounds of their distance.
-struct Seen {
+struct MeasuredPoints {
     points: [DVec3; 2],
     lower: f64,
     upper: f64,
@@ -124,14 +124,14 @@ struct Seen {
     blur: f64,
 }
 
-impl Seen {
+impl MeasuredPoints {
     /// Creates the value from the contact of the bodies in a pose.
-    fn of(pose: &Motions, contact: Contact) -> Self {
+    fn from_contact(pose: &Motions, contact: Contact) -> Self {
         let separation = contact.separation;
         let points = [separation.witness_a, separation.witness_b];
-        Seen {
+        MeasuredPoints {
             points,
-            blur: pose.drift(points, 0.0),
+            blur: pose.distance_growth(points, 0.0),
             lower: greater(0.0, separation.lower),
             upper: separation.upper,
         }
@@ -141,7 +141,7 @@ impl Seen {
 /// An upper bound for all times; or, if a limit was reached, the best known bound and the limit.
 type Bounded = Result<f64, (f64, Limit)>;
 
-impl<O: DistanceOracle> Search<'_, '_, '_, O> {
+impl<O: DistanceOracle> GreatestDistanceSearch<'_, '_, '_, O> {
     /// Cuts the stretch with the greatest upper bound until the tolerance is met.
     fn run(&mut self) -> Result<Bounded, InputError> {
         let Query {
@@ -157,22 +157,22 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
                 return Ok(Err((f64::INFINITY, reason)));
             }
         }
-        let mut waiting = match self.part(whole, f64::INFINITY)? {
+        let mut waiting = match self.bound_stretch(whole, f64::INFINITY)? {
             Ok(part) => BinaryHeap::from_iter(part),
             Err(reason) => return Ok(Err((f64::INFINITY, reason))),
         };
-        while let Some(Part { span, upper }) = waiting.pop() {
+        while let Some(BoundedStretch { span, upper }) = waiting.pop() {
             let all = greater(upper, self.settled);
             // Written so that NaN is not the end.
-            if upper <= self.lower() + terms.tolerance || upper <= self.settled {
+            if upper <= self.lower_bound() + terms.tolerance || upper <= self.settled {
                 return Ok(Ok(all));
             }
-            let Some(halves) = self.stretches.parts(span, 0.5 * span.length()) else {
+            let Some(halves) = self.stretches.cut_parts(span, 0.5 * span.length()) else {
                 self.settled = all;
                 continue;
             };
             for half in halves {
-                match self.part(half, upper)? {
+                match self.bound_stretch(half, upper)? {
                     Ok(part) => waiting.extend(part),
                     Err(reason) => return Ok(Err((all, reason))),
                 }
@@ -181,71 +181,75 @@ impl<O: DistanceOracle> Search<'_, '_, '_, O> {
         Ok(Ok(self.settled))
     }
 
-    fn lower(&self) -> f64 {
+    fn lower_bound(&self) -> f64 {
         self.best
             .map_or(0.0, |(_, contact)| contact.separation.lower)
     }
 
     /// Measures the bodies in the middle of a stretch, and bounds their distance in the whole stretch. Returns `None`
     /// if the stretch needs no further cut.
-    fn part(&mut self, span: Span, above: f64) -> Result<Result<Option<Part>, Limit>, InputError> {
-        self.stretches.turn_to(span);
-        let seen = match self.measure(span.middle())? {
+    fn bound_stretch(
+        &mut self,
+        span: Span,
+        above: f64,
+    ) -> Result<Result<Option<BoundedStretch>, Limit>, InputError> {
+        self.stretches.charge_to(span);
+        let seen = match self.measure(span.middle_time())? {
             Ok(seen) => seen,
             Err(reason) => return Ok(Err(reason)),
         };
         let motions = Motions::new(self.stretches.query(), span)?;
-        let moved = motions.drift(seen.points, 0.5 * span.length());
+        let moved = motions.distance_growth(seen.points, 0.5 * span.length());
         // Written so that NaN is no bound.
         let upper = match seen.upper + moved {
             upper if upper >= 0.0 => lesser(upper, above),
             _ => above,
         };
         // Deviations and rounding would blur shorter stretches as much.
-        if moved <= greater(SETTLED * (seen.upper - seen.lower), 2.0 * seen.blur) {
+        if moved <= greater(SETTLED_GROWTH * (seen.upper - seen.lower), 2.0 * seen.blur) {
             self.settled = greater(self.settled, upper);
             return Ok(Ok(None));
         }
-        Ok(Ok(Some(Part { span, upper })))
+        Ok(Ok(Some(BoundedStretch { span, upper })))
     }
 
     /// Measures the distance of the bodies at a time.
-    fn measure(&mut self, time: f64) -> Result<Result<Seen, Limit>, InputError> {
-        let (pose, terms) = match self.stretches.pose(time)? {
+    fn measure(&mut self, time: f64) -> Result<Result<MeasuredPoints, Limit>, InputError> {
+        let (pose, terms) = match self.stretches.pose_at(time)? {
             Ok(pose) => pose,
             Err(reason) => return Ok(Err(reason)),
         };
         let query = self.stretches.query();
-        let problem = pose.problem(query, &terms)?.measuring();
+        let problem = pose.problem(query, &terms)?.for_distances();
         let kept = &mut self.schedule.scratch;
         let answer = run_metered(&problem, self.oracle, kept, |oracle, meter| {
-            (measured(&problem, oracle, meter), 0.0)
+            (distance_at_rest(&problem, oracle, meter), 0.0)
         });
         self.stretches.add(&answer.stats);
         Ok(answer.found.map(|place| match place {
-            Place::Apart(contact) => {
+            Placement::Apart(contact) => {
                 let contact = pose.contact(contact);
-                if contact.separation.lower > self.lower() {
+                if contact.separation.lower > self.lower_bound() {
                     self.best = Some((time, contact));
                 }
-                Seen::of(&pose, contact)
+                MeasuredPoints::from_contact(&pose, contact)
             }
-            Place::Meeting(contact) => Seen {
+            Placement::Meeting(contact) => MeasuredPoints {
                 lower: 0.0,
-                ..Seen::of(&pose, pose.contact(contact))
+                ..MeasuredPoints::from_contact(&pose, pose.contact(contact))
             },
-            Place::Inside(point) => Seen {
+            Placement::Inside(point) => MeasuredPoints {
                 points: [point; 2],
                 lower: 0.0,
                 upper: pose.stray,
-                blur: pose.drift([point; 2], 0.0),
+                blur: pose.distance_growth([point; 2], 0.0),
             },
         }))
     }
 }
 
 /// How the bodies are placed at a time: apart, meeting, or one inside the other.
-enum Place {
+enum Placement {
     Apart(Contact),
     /// The surfaces meet, or nearly so, and one of the bodies may be inside the other. One of the bodies may be inside
     /// the other.
@@ -255,22 +259,22 @@ enum Place {
 }
 
 /// Measures the distance of bodies at rest.
-fn measured<O: DistanceOracle>(
+fn distance_at_rest<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
-) -> Result<Place, Limit> {
+) -> Result<Placement, Limit> {
     match at_start(problem, f64::INFINITY, oracle, meter) {
-        Some(Outcome::Touching { contact }) => Ok(Place::Apart(contact)),
+        Some(Outcome::Touching { contact }) => Ok(Placement::Apart(contact)),
         Some(Outcome::Overlapping { overlap, .. }) => Ok(match overlap {
-            Overlap::Pieces(contact) => Place::Meeting(contact),
-            Overlap::AInsideB(point) | Overlap::BInsideA(point) => Place::Inside(point),
+            Overlap::Pieces(contact) => Placement::Meeting(contact),
+            Overlap::AInsideB(point) | Overlap::BInsideA(point) => Placement::Inside(point),
         }),
         Some(Outcome::Unresolved(known)) if known.limit != Limit::Undecided => Err(known.limit),
         // Any two points bound the distance from above.
         _ => match nearest_at(problem, 0.0, f64::INFINITY, oracle, meter) {
-            ControlFlow::Continue(Some(nearest)) => Ok(Place::Meeting(nearest.contact)),
-            ControlFlow::Break(SearchEnd::Overlap(_, contact)) => Ok(Place::Meeting(contact)),
+            ControlFlow::Continue(Some(nearest)) => Ok(Placement::Meeting(nearest.contact)),
+            ControlFlow::Break(SearchEnd::Overlap(_, contact)) => Ok(Placement::Meeting(contact)),
             ControlFlow::Break(SearchEnd::Limit(reason)) => Err(reason),
             ControlFlow::Continue(None) => Err(Limit::OracleGaveUp),
         },
@@ -280,19 +284,20 @@ fn measured<O: DistanceOracle>(
 impl Motions {
     /// Returns an upper bound of the growth of the distance between a point of A and a point of B, within `time` before
     /// or after the middle of the stretch. The points are given at that middle.
-    fn drift(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
+    fn distance_growth(&self, [on_a, on_b]: [DVec3; 2], time: f64) -> f64 {
         let middle = 0.5 * self.span.length();
         let [a, b] = &self.stretches;
         let way = on_b - on_a;
         let velocity = b.velocity_at(on_b, middle) - a.velocity_at(on_a, middle);
         let ends = greater(length(way + time * velocity), length(way - time * velocity));
-        let (mut bend, mut turn, mut scale) = (length(b.acceleration - a.acceleration), 0.0, 0.0);
+        let (mut second_derivative, mut turn, mut scale) =
+            (length(b.acceleration - a.acceleration), 0.0, 0.0);
         for (stretch, point) in [(a, on_a), (b, on_b)] {
             let motion = &stretch.motion;
             let spin = length(motion.spin());
             let centre = stretch.pose(middle).transform_point(motion.centre());
             let arm = length(point - centre);
-            bend += spin * spin * arm;
+            second_derivative += spin * spin * arm;
             turn += spin;
             let speed =
                 length(motion.velocity()) + spin * arm + middle * length(stretch.acceleration);
@@ -300,7 +305,7 @@ impl Motions {
         }
         // The points of the bodies deviate from those of the motions, which turn.
         let strays = self.stray * (2.0 + turn * time);
-        let grown = (ends - length(way)) + 0.5 * bend * time * time + strays;
+        let grown = (ends - length(way)) + 0.5 * second_derivative * time * time + strays;
         greater(0.0, grown) * (1.0 + FARTHEST_F64) + FARTHEST_F64 * scale
     }
 }

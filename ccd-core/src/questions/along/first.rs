@@ -1,6 +1,6 @@
 //! Computes the first contact along trajectories, by stretches in order of time.
 
-use super::contacts::{Seen, SoFar};
+use super::contacts::{ProvenContacts, StretchResult};
 use super::drive::{Question, drive};
 use super::lengths::{cut_at_once, length};
 use super::motions::{Motions, Span};
@@ -20,19 +20,19 @@ pub(crate) fn first_contact<O: DistanceOracle, S: Solve<O>>(
     query: &Query<'_>,
     oracle: &mut O,
 ) -> Result<Answer, InputError> {
-    let mut first = First {
+    let mut first = FirstContactSearch {
         schedule,
-        kept: SoFar::new(query),
+        proven: ProvenContacts::new(query),
     };
     drive(&mut first, query, oracle)
 }
 
-struct First<'s, S> {
+struct FirstContactSearch<'s, S> {
     schedule: &'s mut S,
-    kept: SoFar,
+    proven: ProvenContacts,
 }
 
-impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
+impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
     fn takes_accelerations(&self) -> bool {
         self.schedule.takes_accelerations()
     }
@@ -53,19 +53,21 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
-        let kept = &mut self.kept;
+        let proven = &mut self.proven;
         // The stretches before a contact may not be examined again.
-        kept.keep(motions, problem.proven_gap());
+        proven.record_gap(motions, problem.proven_gap());
         let answer = self.schedule.solve(problem, oracle);
-        let (s, contact) = match kept.see(stretches, motions, &answer)? {
-            Seen::Done => return Ok(ControlFlow::Continue(())),
-            Seen::Stopped(until, limit) => {
-                return Ok(ControlFlow::Break(kept.unresolved(stretches, until, limit)));
+        let (s, contact) = match proven.record(stretches, motions, &answer)? {
+            StretchResult::Done => return Ok(ControlFlow::Continue(())),
+            StretchResult::Stopped(until, limit) => {
+                return Ok(ControlFlow::Break(
+                    proven.unresolved(stretches, until, limit),
+                ));
             }
-            Seen::Near(s, contact) => (s, contact),
+            StretchResult::Near(s, contact) => (s, contact),
         };
-        if stretches.is_fine(motions)? {
-            let found = kept.found(stretches, motions, answer.outcome)?;
+        if stretches.accepts_contact(motions)? {
+            let found = proven.contact_answer(stretches, motions, answer.outcome)?;
             return Ok(ControlFlow::Break(found));
         }
         let rest = Span {
@@ -78,7 +80,7 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
         let is_short = rest.length() <= lesser(length, 0.5 * motions.span.length());
         if is_short || !stretches.cut(rest, length) {
             if !(rest.from > motions.span.from) {
-                let stalled = kept.unresolved(stretches, rest.from, Limit::Stalled);
+                let stalled = proven.unresolved(stretches, rest.from, Limit::Stalled);
                 return Ok(ControlFlow::Break(stalled));
             }
             stretches.push(rest);
@@ -86,11 +88,15 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for First<'_, S> {
         Ok(ControlFlow::Continue(()))
     }
 
-    fn stopped(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
-        self.kept.unresolved(stretches, span.from, limit)
+    fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
+        self.proven.unresolved(stretches, span.from, limit)
     }
 
-    fn done(&mut self, stretches: &mut Stretches<'_, '_>, _: &mut O) -> Result<Answer, InputError> {
-        Ok(self.kept.free(stretches))
+    fn on_end(
+        &mut self,
+        stretches: &mut Stretches<'_, '_>,
+        _: &mut O,
+    ) -> Result<Answer, InputError> {
+        Ok(self.proven.free(stretches))
     }
 }

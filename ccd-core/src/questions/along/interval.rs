@@ -99,16 +99,16 @@ struct Reversed<'t> {
 }
 
 impl Reversed<'_> {
-    fn time(&self, time: f64) -> f64 {
+    fn reversed_time(&self, time: f64) -> f64 {
         greater(0.0, self.duration - time)
     }
 }
 
 impl Trajectory for Reversed<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let (first, last) = (self.time(to), self.time(from));
+        let (first, last) = (self.reversed_time(to), self.reversed_time(from));
         let stretch = self.of.stretch(first, last)?;
-        let end = stretch.started(last - first)?;
+        let end = stretch.with_start_at(last - first)?;
         // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
         let off = 2.0 * U64 * self.duration;
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
@@ -128,7 +128,9 @@ impl Trajectory for Reversed<'_> {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let corner = self.of.corner(self.time(to), self.time(from))?;
+        let corner = self
+            .of
+            .corner(self.reversed_time(to), self.reversed_time(from))?;
         Some(self.duration - corner)
     }
 }

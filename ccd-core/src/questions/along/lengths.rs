@@ -10,7 +10,7 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::settings::Terms;
-use crate::tuning::{COARSE, STRAY_SHARE};
+use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
 
 /// Cuts a stretch that is probably too long before it is searched. The bodies are measured where it meets a proven
 /// stretch. Returns whether it was cut.
@@ -20,7 +20,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
-    let Some(time) = stretches.looks_too_long(motions) else {
+    let Some(time) = stretches.end_if_too_long(motions) else {
         return Ok(false);
     };
     let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
@@ -32,7 +32,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     } else {
         approach
     };
-    let length = worthwhile(stretches.query(), motions, (contact, approach));
+    let length = length_from_distance(stretches.query(), motions, (contact, approach));
     Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
 }
 
@@ -48,13 +48,15 @@ pub(super) fn length<O: DistanceOracle>(
     let seen = match time > 0.0 {
         true => seen.map(|contact| (contact, motions.approach(time, &contact))),
         // Halves mostly suffice, and cost less.
-        false if motions.span.length() > COARSE * query.duration => return Ok(f64::INFINITY),
+        false if motions.span.length() > MEASURED_SHARE * query.duration => {
+            return Ok(f64::INFINITY);
+        }
         // The motions begin beside the bodies. They do not show the distance of the bodies, which is measured.
         false => stretches.measure(motions.span.from, oracle, scratch)?,
     };
     Ok(match seen {
-        Some(seen) => worthwhile(query, motions, seen),
-        None => motions.length_for(STRAY_SHARE * query.terms.tolerance),
+        Some(seen) => length_from_distance(query, motions, seen),
+        None => motions.length_for(DEVIATION_SHARE * query.terms.tolerance),
     })
 }
 
@@ -64,7 +66,11 @@ pub(super) fn length<O: DistanceOracle>(
 ///
 /// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
 /// and pass each other closely, they are nearest after about `2 d/r`.
-fn worthwhile(query: &Query<'_>, motions: &Motions, (contact, approach): (Contact, f64)) -> f64 {
+fn length_from_distance(
+    query: &Query<'_>,
+    motions: &Motions,
+    (contact, approach): (Contact, f64),
+) -> f64 {
     let Terms {
         margin, tolerance, ..
     } = query.terms;
@@ -72,8 +78,8 @@ fn worthwhile(query: &Query<'_>, motions: &Motions, (contact, approach): (Contac
     let nearest = 2.0 * gap / approach;
     // Written so that NaN is no time.
     if nearest > 0.0 {
-        lesser(motions.length_for(STRAY_SHARE * gap), nearest)
+        lesser(motions.length_for(DEVIATION_SHARE * gap), nearest)
     } else {
-        motions.length_for((1.0 - STRAY_SHARE) * gap)
+        motions.length_for((1.0 - DEVIATION_SHARE) * gap)
     }
 }

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::query::{Moving, Query};
 use crate::rounding::STRETCH_F64;
 use crate::settings::{StartPolicy, Terms};
-use crate::tuning::{BLURRED, STRAY_SHARE, WORTH_A_CUT};
+use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
 
 /// A stretch of time within a query.
@@ -37,7 +37,7 @@ impl Span {
     }
 
     /// Returns the time in the middle of the stretch.
-    pub(super) fn middle(&self) -> f64 {
+    pub(super) fn middle_time(&self) -> f64 {
         self.from + 0.5 * self.length()
     }
 }
@@ -58,18 +58,18 @@ impl Motions {
         let stretches = [a?, b?];
         let stray = |k: usize| stretches[k].stray.at(reach(bodies[k], &stretches[k]));
         Ok(Motions {
-            stray: sum(stray(0), stray(1)),
+            stray: rounded_up_sum(stray(0), stray(1)),
             stretches,
             span,
         })
     }
 
     /// Removes the accelerations, and adds the displacements that they cause to the deviations.
-    pub(super) fn straight(mut self) -> Self {
+    pub(super) fn without_accelerations(mut self) -> Self {
         let time = self.span.length();
         for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
-            self.stray = sum(self.stray, far * (1.0 + STRETCH_F64));
+            self.stray = rounded_up_sum(self.stray, far * (1.0 + STRETCH_F64));
             stretch.acceleration = DVec3::ZERO;
         }
         self
@@ -87,17 +87,19 @@ impl Motions {
 
     /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
     pub(super) fn length_for(&self, stray: f64) -> f64 {
-        self.span.length() * (stray / self.stray).powf(1.0 / self.order())
+        self.span.length() * (stray / self.stray).powf(1.0 / self.deviation_exponent())
     }
 
     /// Estimates the length of a stretch in which the deviation is a fixed share of the change of a distance at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
-        whole * (STRAY_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
+        whole
+            * (DEVIATION_SHARE * rate * whole / self.stray)
+                .powf(1.0 / (self.deviation_exponent() - 1.0))
     }
 
     /// Returns the exponent with which deviations grow with time.
-    fn order(&self) -> f64 {
+    fn deviation_exponent(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
         if self.stretches.iter().any(accelerates) {
             3.0
@@ -108,7 +110,7 @@ impl Motions {
 
     /// Returns whether a part of this length is much shorter than the stretch.
     pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
-        length < WORTH_A_CUT * self.span.length()
+        length < MAX_CUT_SHARE * self.span.length()
     }
 
     /// Returns the rate at which the bodies approach each other at a contact of the motions.
@@ -153,16 +155,19 @@ impl Motions {
     fn tolerance(&self, whole: f64) -> f64 {
         // Written so that without deviations the result is the whole tolerance, to the last bit.
         let left = whole - 4.0 * self.stray;
-        if self.stray == 0.0 || left >= (1.0 - 4.0 * STRAY_SHARE) * whole {
+        if self.stray == 0.0 || left >= (1.0 - 4.0 * DEVIATION_SHARE) * whole {
             return left;
         }
         // Too little is left for a contact. Distances blurred by deviations need not be known better.
-        let least = greater((1.0 - 4.0 * STRAY_SHARE) * whole, BLURRED * self.stray);
+        let least = greater(
+            (1.0 - 4.0 * DEVIATION_SHARE) * whole,
+            TOLERANCE_PER_DEVIATION * self.stray,
+        );
         greater(least, LEAST_TOLERANCE)
     }
 
     /// Converts a distance of the motions to a lower bound of the bodies' distance.
-    pub(super) fn at_least(&self, distance: f64) -> f64 {
+    pub(super) fn lower_bound_for_bodies(&self, distance: f64) -> f64 {
         if self.stray > 0.0 {
             (distance - self.stray).next_down()
         } else {
@@ -185,8 +190,8 @@ impl Motions {
         let Separation { lower, upper, .. } = contact.separation;
         Contact {
             separation: Separation {
-                lower: self.at_least(lower),
-                upper: sum(upper, self.stray),
+                lower: self.lower_bound_for_bodies(lower),
+                upper: rounded_up_sum(upper, self.stray),
                 ..contact.separation
             },
             ..contact
@@ -196,12 +201,12 @@ impl Motions {
 
 /// Returns an upper bound of the distances of a body's points from the centre of a stretch's motion.
 fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
-    let (centre, radius) = moving.body.tree().ball();
+    let (centre, radius) = moving.body.tree().bounding_ball();
     centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
 }
 
 /// Returns a sum rounded up; exact if a term is zero.
-fn sum(a: f64, b: f64) -> f64 {
+fn rounded_up_sum(a: f64, b: f64) -> f64 {
     if b > 0.0 && a != 0.0 {
         (a + b).next_up()
     } else {

@@ -11,7 +11,7 @@ use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
 use crate::query::{Moving, Query};
 use crate::settings::Terms;
-use crate::tuning::{LEAST_CUT, MOST_PARTS, MUCH_LONGER, STRAY_SHARE};
+use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -25,7 +25,7 @@ pub(super) struct Stretches<'j, 'a> {
     /// The stretch that was proven last, with its deviation.
     proven: Option<(Span, f64)>,
     /// The time at which the query started; `None` if there is no deadline. No clock is read then.
-    begun: Option<Instant>,
+    charged_from: Option<Instant>,
 }
 
 impl<'j, 'a> Stretches<'j, 'a> {
@@ -42,7 +42,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             budgets: Budgets::default(),
             looked_at_start: false,
             proven: None,
-            begun: query.terms.deadline.map(|_| Instant::now()),
+            charged_from: query.terms.deadline.map(|_| Instant::now()),
         }
     }
 
@@ -60,20 +60,20 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the earliest time of all waiting stretches; infinite if there are none.
-    pub(super) fn first(&self) -> f64 {
+    pub(super) fn earliest_time(&self) -> f64 {
         let starts = self.waiting.iter().map(|span| span.from);
         starts.fold(f64::INFINITY, lesser)
     }
 
     /// Returns the settings with what is left of the budget and of the time to the deadline.
-    pub(super) fn terms(&self) -> Result<Terms<'a>, Limit> {
+    pub(super) fn remaining_terms(&self) -> Result<Terms<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
         }
-        let spent = self.budgets.spent(self.stats.work());
+        let spent = self.budgets.spent_on_part(self.stats.work());
         let budget = terms.budget.checked_sub(spent);
-        let deadline = match (terms.deadline, self.begun) {
+        let deadline = match (terms.deadline, self.charged_from) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
                 Some(left) => Some(left),
                 None => return Err(Limit::Deadline),
@@ -95,9 +95,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Adds work on the whole query, which no part's budget pays for.
-    pub(super) fn add_for_no_part(&mut self, stats: &Stats) {
+    pub(super) fn add_uncharged(&mut self, stats: &Stats) {
         self.stats.add(stats);
-        self.budgets.begun += stats.work();
+        self.budgets.charged_from += stats.work();
     }
 
     /// Returns the motions in a stretch, with the settings; or the limit that was reached. The stretch is cut until the
@@ -108,8 +108,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         accelerations: bool,
     ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
         loop {
-            self.turn_to(span);
-            let terms = match self.terms() {
+            self.charge_to(span);
+            let terms = match self.remaining_terms() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
             };
@@ -117,7 +117,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             let motions = if accelerations {
                 motions
             } else {
-                motions.straight()
+                motions.without_accelerations()
             };
             if motions.is_in_range(self.query) || !self.cut(span, 0.5 * span.length()) {
                 return Ok(Ok((motions, terms)));
@@ -129,20 +129,23 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns whether a contact of a stretch's motions counts as one of the bodies: the tolerance is met, or cutting
     /// does not improve it.
-    pub(super) fn is_fine(&self, motions: &Motions) -> Result<bool, InputError> {
-        Ok(motions.stray <= STRAY_SHARE * self.query.terms.tolerance
-            || self.is_shortest(motions)?)
+    pub(super) fn accepts_contact(&self, motions: &Motions) -> Result<bool, InputError> {
+        Ok(
+            motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
+                || self.is_limited_by_rounding(motions)?,
+        )
     }
 
     /// Returns whether the deviations are hardly larger than in a stretch of length 0: only rounding remains.
-    fn is_shortest(&self, motions: &Motions) -> Result<bool, InputError> {
+    fn is_limited_by_rounding(&self, motions: &Motions) -> Result<bool, InputError> {
         let least = Motions::new(self.query, motions.span.start())?;
         Ok(motions.stray <= 2.0 * least.stray)
     }
 
     /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
     pub(super) fn begins_at_start(&self, motions: &Motions) -> Result<bool, InputError> {
-        Ok(motions.span.from == 0.0 && (motions.stray == 0.0 || self.is_shortest(motions)?))
+        Ok(motions.span.from == 0.0
+            && (motions.stray == 0.0 || self.is_limited_by_rounding(motions)?))
     }
 
     /// Schedules an examination of the start, and then the stretch again. An overlap of the stretch's motions at time 0
@@ -158,31 +161,31 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Records that the bodies are proven apart in a stretch.
-    pub(super) fn prove(&mut self, motions: &Motions) {
+    pub(super) fn record_proven(&mut self, motions: &Motions) {
         self.proven = Some((motions.span, motions.stray));
     }
 
     /// Returns the common time of a stretch and the last proven one, if the stretch's deviations are much larger: then
     /// the stretch is probably too long.
-    pub(super) fn looks_too_long(&mut self, motions: &Motions) -> Option<f64> {
+    pub(super) fn end_if_too_long(&mut self, motions: &Motions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = motions.span;
         let beside = [(from, proven.to), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
-        (motions.stray > MUCH_LONGER * stray).then_some(time)
+        (motions.stray > CUT_DEVIATION_RATIO * stray).then_some(time)
     }
 
     /// Makes the budget of the part that contains a stretch pay for the work that follows.
-    pub(super) fn turn_to(&mut self, span: Span) {
-        self.budgets.turn_to(span.part, self.stats.work());
+    pub(super) fn charge_to(&mut self, span: Span) {
+        self.budgets.charge_to(span.part, self.stats.work());
     }
 
     /// Returns the poses of both bodies at a time, with the settings; or the limit that was reached.
-    pub(super) fn pose(
+    pub(super) fn pose_at(
         &self,
         time: f64,
     ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
-        let terms = match self.terms() {
+        let terms = match self.remaining_terms() {
             Ok(terms) => terms,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -202,10 +205,10 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok((motions, terms)) = self.pose(time)? else {
+        let Ok((motions, terms)) = self.pose_at(time)? else {
             return Ok(None);
         };
-        let problem = motions.problem(self.query, &terms)?.measuring();
+        let problem = motions.problem(self.query, &terms)?.for_distances();
         let answer = run_metered(&problem, oracle, scratch, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
         });
@@ -217,7 +220,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Removes and returns the waiting stretch that begins or ends at a time; `None` if there is none.
-    pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
+    pub(super) fn take_adjacent(&mut self, time: f64) -> Option<Span> {
         let is_beside = |span: &Span| span.from == time || span.to == time;
         let index = self.waiting.iter().rposition(is_beside)?;
         Some(self.waiting.remove(index))
@@ -231,7 +234,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Cuts a stretch in two, at a corner or after about `length`, and makes the earlier part the next one. Returns
     /// whether it could be cut.
     pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
-        let Some([early, late]) = self.parts(span, length) else {
+        let Some([early, late]) = self.cut_parts(span, length) else {
             return false;
         };
         self.waiting.extend([late, early]);
@@ -242,14 +245,14 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// the part that contains the time. Returns whether the stretch could be cut.
     pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
-        let Some([early, late]) = self.parts(span, 0.5 * whole) else {
+        let Some([early, late]) = self.cut_parts(span, 0.5 * whole) else {
             return false;
         };
-        let half = 0.5 * greater(length, LEAST_CUT * whole);
+        let half = 0.5 * greater(length, MIN_CUT_SHARE * whole);
         let [first, last] = [time - half, time + half];
         // Written so that NaN, or a length lost to rounding, gives a half of the stretch.
         let is_part = length < 0.5 * whole && first < time && last > time;
-        if !is_part || early.to != span.middle() {
+        if !is_part || early.to != span.middle_time() {
             if time < late.from {
                 self.waiting.extend([late, early]);
             } else {
@@ -271,7 +274,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         true
     }
 
-    pub(super) fn parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
+    pub(super) fn cut_parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span { from, to, part } = span;
         let Query { a, b, .. } = self.query;
         let corner = |body: &Moving<'_>| {
@@ -279,14 +282,14 @@ impl<'j, 'a> Stretches<'j, 'a> {
             (corner > from && corner < to).then_some(corner)
         };
         let whole = span.length();
-        let length = greater(LEAST_CUT * whole, lesser(length, 0.5 * whole));
+        let length = greater(MIN_CUT_SHARE * whole, lesser(length, 0.5 * whole));
         let corner = corner(a).or_else(|| corner(b));
         let at = corner.unwrap_or(from + length);
         if !(at > from && at < to) {
             return None;
         }
         let [before, after] = match corner {
-            Some(_) => [(); 2].map(|()| self.budgets.another(part)),
+            Some(_) => [(); 2].map(|()| self.budgets.new_part(part)),
             None => [part; 2],
         };
         Some([
@@ -310,7 +313,7 @@ struct Budgets {
     /// The index of the part that pays at present.
     part: usize,
     /// The total work when this part began to pay.
-    begun: u64,
+    charged_from: u64,
 }
 
 impl Default for Budgets {
@@ -318,26 +321,26 @@ impl Default for Budgets {
         Budgets {
             spent: vec![0],
             part: 0,
-            begun: 0,
+            charged_from: 0,
         }
     }
 }
 
 impl Budgets {
     /// Returns the work spent on the present part; `work` is the total of all parts.
-    fn spent(&self, work: u64) -> u64 {
-        self.spent[self.part] + (work - self.begun)
+    fn spent_on_part(&self, work: u64) -> u64 {
+        self.spent[self.part] + (work - self.charged_from)
     }
 
     /// Makes another part pay for the work that follows.
-    fn turn_to(&mut self, part: usize, work: u64) {
-        self.spent[self.part] = self.spent(work);
-        (self.part, self.begun) = (part, work);
+    fn charge_to(&mut self, part: usize, work: u64) {
+        self.spent[self.part] = self.spent_on_part(work);
+        (self.part, self.charged_from) = (part, work);
     }
 
     /// Adds a part with a budget of its own, and returns its index; or returns `part` if there are too many.
-    fn another(&mut self, part: usize) -> usize {
-        if self.spent.len() >= MOST_PARTS {
+    fn new_part(&mut self, part: usize) -> usize {
+        if self.spent.len() >= MAX_BUDGET_PARTS {
             return part;
         }
         self.spent.push(0);

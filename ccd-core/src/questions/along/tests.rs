@@ -17,7 +17,7 @@ use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
 use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{Kind, Look, Pcg64, RngExt, body, magnitude, rng, scene, soup};
+use crate::tests::scene::{Kind, Pcg64, RngExt, SoupKind, body, magnitude, rng, scene, soup};
 use crate::tests::trajectories::Swing;
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ impl Swings {
     fn draw(rng: &mut Pcg64) -> Self {
         let soups = [(); 2].map(|()| {
             let count = rng.random_range(1..6);
-            soup(rng, Look::Plump, count, 1.0)
+            soup(rng, SoupKind::Plump, count, 1.0)
         });
         let mut swings = [(); 2].map(|()| Swing::draw(rng, 0.7));
         swings[0].place += 1.2 * DVec3::X;
@@ -236,18 +236,18 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
 }
 
 /// A motion of constant velocities behind a user's implementation of a trajectory.
-struct Own(Motion);
+struct UserTrajectory(Motion);
 
-/// A motion behind a trajectory that does not return it as a motion, so that the query is answered stretch by stretch.
-struct Unknown(Motion);
+/// A motion that hides behind a trajectory, so that the query is answered stretch by stretch.
+struct HiddenMotion(Motion);
 
-impl Trajectory for Unknown {
+impl Trajectory for HiddenMotion {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         self.0.stretch(from, to)
     }
 }
 
-impl Smooth for Own {
+impl Smooth for UserTrajectory {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
         let (velocity, spin, centre) = (self.0.velocity(), self.0.spin(), self.0.centre());
         Motion::about(self.0.pose(time), velocity, spin, centre)
@@ -265,7 +265,7 @@ fn plain_motions_have_their_own_answers() {
     for number in 0..1_000 {
         let scene = scene(&mut rng, [Kind::Any, Kind::Rim][number % 2], 8);
         let problem = scene.problem();
-        let unknown = scene.motions.map(Unknown);
+        let unknown = scene.motions.map(HiddenMotion);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &unknown[k]));
         let query = Query::new(a, b, 1.0, &scene.config).unwrap();
         let answer = BestFirst::default().solve(&problem, &mut Exhaustive);
@@ -286,7 +286,7 @@ fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance
     for number in 0..1_000 {
         let scene = scene(&mut rng, [Kind::Any, Kind::Rim][number % 2], 8);
         let problem = scene.problem();
-        let own = scene.motions.map(Own);
+        let own = scene.motions.map(UserTrajectory);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &own[k]));
         let query = Query::new(a, b, 1.0, &scene.config).unwrap();
         let answer = BestFirst::default().solve(&problem, &mut Exhaustive);
@@ -357,7 +357,7 @@ fn durations_may_be_very_long() {
         1e-60 * DVec3::Y,
         DVec3::ZERO,
     );
-    let (slow, config) = (Unknown(slow.unwrap()), Settings::DEFAULT);
+    let (slow, config) = (HiddenMotion(slow.unwrap()), Settings::DEFAULT);
     let ask = |duration| Query::new((&ball, &slow), (&ball, &Motion::STILL), duration, &config);
     assert!(ask(1e51).is_err());
     let query = ask(1e50).unwrap();

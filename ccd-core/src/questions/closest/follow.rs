@@ -1,13 +1,13 @@
 //! Follows two pieces over time to a minimum of their distance.
 
-use super::Best;
+use super::BestPair;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::lesser;
 use crate::problem::Problem;
-use crate::tuning::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
+use crate::tuning::{FOLLOW_ACCURACY, MAX_FOLLOW_MEASUREMENTS, MAX_FOLLOW_ROTATION};
 
 /// Follows the pieces of a contact to a nearby local minimum of their distance over time. Returns the nearest
 /// measurement.
@@ -15,8 +15,8 @@ pub(crate) fn follow<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
-    seen: Best,
-) -> Best {
+    seen: BestPair,
+) -> BestPair {
     let mut descent = Descent {
         problem,
         oracle,
@@ -35,7 +35,7 @@ struct Descent<'d, O: DistanceOracle> {
     oracle: &'d mut O,
     meter: &'d mut Meter,
     cache: O::Cache,
-    best: Best,
+    best: BestPair,
 }
 
 /// The rate of change of the distance of two pieces at a clock.
@@ -49,15 +49,15 @@ struct Slope {
 impl<O: DistanceOracle> Descent<'_, O> {
     /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are so near that the
     /// search is done.
-    fn look(&mut self, clock: f64) -> Option<Slope> {
+    fn measure(&mut self, clock: f64) -> Option<Slope> {
         if self.best.contact.separation.upper <= self.problem.tolerance {
             return None;
         }
         let pieces @ [a, b] = self.best.pieces;
         let snapshot = Snapshot::new(self.problem, a, b, clock);
-        let checked = snapshot.ask(self.oracle, &mut self.cache, self.meter)?;
+        let checked = snapshot.query_oracle(self.oracle, &mut self.cache, self.meter)?;
         if checked.upper < self.best.contact.separation.upper {
-            self.best = Best {
+            self.best = BestPair {
                 clock,
                 pieces,
                 contact: pair::contact(&snapshot, pieces, &checked),
@@ -77,13 +77,16 @@ impl<O: DistanceOracle> Descent<'_, O> {
     /// Steps downhill from a clock until the distance grows again. Returns two clocks with a local minimum of the
     /// distance between them; the distance decreases from the first one on.
     fn bracket(&mut self, from: f64) -> Option<[Slope; 2]> {
-        let mut here = self.look(from)?;
+        let mut here = self.measure(from)?;
         let forward = here.rate < 0.0;
         let end = if forward { 1.0 } else { 0.0 };
         // The pieces would meet at this rate. A larger rotation may pass a valley of the distance.
         let turning = self.problem.a.path.rate + self.problem.b.path.rate;
-        let mut step = lesser((here.distance / here.rate).abs(), FOLLOWED_TURN / turning);
-        for _ in 0..FOLLOWING_LOOKS {
+        let mut step = lesser(
+            (here.distance / here.rate).abs(),
+            MAX_FOLLOW_ROTATION / turning,
+        );
+        for _ in 0..MAX_FOLLOW_MEASUREMENTS {
             let next = if forward {
                 here.clock + step
             } else {
@@ -98,23 +101,23 @@ impl<O: DistanceOracle> Descent<'_, O> {
             if next == here.clock {
                 return None;
             }
-            let there = self.look(next)?;
+            let there = self.measure(next)?;
             let falls = (there.rate < 0.0) == forward;
             if !(falls && there.distance < here.distance) {
                 return Some([here, there]);
             }
             here = there;
-            step = lesser(2.0 * step, FOLLOWED_TURN / turning);
+            step = lesser(2.0 * step, MAX_FOLLOW_ROTATION / turning);
         }
         None
     }
 
     /// Narrows the interval around a local minimum of the distance, which decreases from the clock of `falling` on.
     fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
-        for look in 0..FOLLOWING_LOOKS {
+        for look in 0..MAX_FOLLOW_MEASUREMENTS {
             let width = other.clock - falling.clock;
             // Written so that NaN is narrow enough.
-            if !((width * falling.rate).abs() > FOLLOWED * self.problem.tolerance) {
+            if !((width * falling.rate).abs() > FOLLOW_ACCURACY * self.problem.tolerance) {
                 return;
             }
             // The step goes to the zero of a straight line through both rates. Every other step halves the interval,
@@ -125,7 +128,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
             } else {
                 0.5
             };
-            let Some(middle) = self.look(falling.clock + share * width) else {
+            let Some(middle) = self.measure(falling.clock + share * width) else {
                 return;
             };
             let falls = (middle.rate < 0.0) == (falling.rate < 0.0);

@@ -1,7 +1,7 @@
 //! Estimates the least distance first, from measurements at a few times.
 
 use super::follow::follow;
-use super::{Best, unresolved};
+use super::{BestPair, unresolved_outcome};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
@@ -9,25 +9,25 @@ use crate::engine::nearest::{Nearest, SearchEnd};
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::shortcuts::balls::{least_distance, nearest_clock};
-use crate::tuning::{FOLLOWED, GUESSES};
+use crate::tuning::{FOLLOW_ACCURACY, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 
 /// Measures the bodies at the time when their bounding balls are nearest, and follows the nearest pieces from there.
 /// The search repeats this at the time found, as long as it finds nearer pieces.
 ///
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
-pub(crate) fn guess<O: DistanceOracle>(
+pub(crate) fn initial_estimate<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<Outcome, Option<Best>> {
-    let mut best: Option<Best> = None;
+) -> ControlFlow<Outcome, Option<BestPair>> {
+    let mut best: Option<BestPair> = None;
     let mut clock = nearest_clock(problem);
-    for _ in 0..GUESSES {
+    for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
         let found = nearest_at(problem, clock, upper, oracle, meter);
-        let Some(found) = found.map_break(|stop| stopped(problem, best, stop))? else {
+        let Some(found) = found.map_break(|stop| outcome_of_stop(problem, best, stop))? else {
             break;
         };
         let followed = follow(problem, oracle, meter, found);
@@ -35,13 +35,13 @@ pub(crate) fn guess<O: DistanceOracle>(
         best = Some(followed);
         clock = followed.clock;
         // Written so that NaN is no fall.
-        if !(fell > FOLLOWED * problem.tolerance) {
+        if !(fell > FOLLOW_ACCURACY * problem.tolerance) {
             break;
         }
     }
     // If `beyond` is infinite, every distance is of interest, and none was found.
     if best.is_none() && beyond == f64::INFINITY {
-        ControlFlow::Break(unresolved(0.0, Limit::OracleGaveUp))
+        ControlFlow::Break(unresolved_outcome(0.0, Limit::OracleGaveUp))
     } else {
         ControlFlow::Continue(best)
     }
@@ -54,14 +54,14 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<SearchEnd, Option<Best>> {
+) -> ControlFlow<SearchEnd, Option<BestPair>> {
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
     let mut nearest = Nearest::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
     let found = nearest.nearest_pieces();
     lists.clear();
     meter.scratch_memory().nearest = lists;
-    let best = |(pieces, contact)| Best {
+    let best = |(pieces, contact)| BestPair {
         clock,
         pieces,
         contact,
@@ -77,13 +77,14 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
 }
 
 /// Returns the outcome when the bodies overlap at the start, or a limit is reached.
-fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: SearchEnd) -> Outcome {
+fn outcome_of_stop(problem: &Problem<'_>, best: Option<BestPair>, stop: SearchEnd) -> Outcome {
     match stop {
         SearchEnd::Overlap(_, contact) => Outcome::overlapping(Overlap::Pieces(contact)),
         SearchEnd::Limit(limit) => {
-            let seen = |best: Best| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
+            let seen =
+                |best: BestPair| (problem.time(best.clock), best.contact.cap_lower_bound(0.0));
             let lower = greater(0.0, least_distance(problem));
-            Outcome::Unresolved(Unresolved::least(lower, best.map(seen), limit))
+            Outcome::Unresolved(Unresolved::for_least_distance(lower, best.map(seen), limit))
         }
     }
 }

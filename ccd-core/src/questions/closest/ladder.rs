@@ -33,7 +33,7 @@ pub(crate) struct Rung {
 impl Rung {
     /// Returns the problem of whether there is any contact within the rung's margin.
     pub(crate) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
-        let mut asking = problem.keeping(self.margin, self.tolerance);
+        let mut asking = problem.with_margin(self.margin, self.tolerance);
         asking.budget = self.budget;
         asking
     }
@@ -46,7 +46,7 @@ const FIRST: u64 = 1 << 17;
 const FIRST_TIMED: u64 = 1 << 14;
 
 /// The largest number of rungs that are tried after a search reached a limit.
-pub(crate) const LAST_RUNGS: usize = 8;
+pub(crate) const MAX_FINAL_RUNGS: usize = 8;
 
 impl Ladder {
     /// Creates the ladder with a known lower bound, for a search with a given budget.
@@ -62,7 +62,7 @@ impl Ladder {
     }
 
     /// Makes the first rung earlier, for a search that a deadline or another thread may end.
-    pub(crate) fn timed(self) -> Self {
+    pub(crate) fn with_early_start(self) -> Self {
         Ladder {
             next: self.next.min(FIRST_TIMED),
             ..self
@@ -71,7 +71,7 @@ impl Ladder {
 
     /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.
     #[inline]
-    pub(crate) fn due(&mut self, work: u64, upper: f64) -> Option<Rung> {
+    pub(crate) fn next_if_due(&mut self, work: u64, upper: f64) -> Option<Rung> {
         if work < self.next {
             return None;
         }
@@ -80,12 +80,12 @@ impl Ladder {
         } else {
             u64::MAX
         };
-        self.rung(upper, work / 2)
+        self.next_rung(upper, work / 2)
     }
 
     /// Returns the next rung for a measured distance `upper`; `None` if the distance is unknown, or the rung would
     /// improve nothing.
-    pub(crate) fn rung(&self, upper: f64, budget: u64) -> Option<Rung> {
+    pub(crate) fn next_rung(&self, upper: f64, budget: u64) -> Option<Rung> {
         let level = self.part * upper;
         // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);

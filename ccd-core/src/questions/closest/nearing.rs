@@ -1,12 +1,12 @@
 //! Searches for the least distance of two bodies.
 
 use super::follow::follow;
-use super::ladder::{LAST_RUNGS, Ladder, Rung};
-use super::{Best, Beyond};
+use super::ladder::{Ladder, MAX_FINAL_RUNGS, Rung};
+use super::{BestPair, Beyond};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::nodes::common::Common;
+use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::Step;
 use crate::engine::proven::Proven;
 use crate::engine::search::{Advance, Question, Search};
@@ -17,36 +17,44 @@ use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 
 /// A search for the least distance, in which each pair is proven to keep the least distance found so far.
-pub(crate) struct Nearing {
-    pub(crate) best: Option<Best>,
+pub(crate) struct LeastDistanceSearch {
+    pub(crate) best: Option<BestPair>,
     /// The distance above which pairs are ignored.
     pub(crate) beyond: f64,
     pub(crate) proven: Proven,
     /// The reason why some pair could not be proven to the end, if there is one.
-    pub(crate) stuck: Option<Limit>,
+    pub(crate) first_failure: Option<Limit>,
     /// The lower bound that is proven for all pairs.
     pub(crate) ladder: Ladder,
 }
 
-impl Nearing {
+impl LeastDistanceSearch {
     pub(crate) fn upper(&self) -> f64 {
-        let upper = |best: Best| best.contact.separation.upper;
+        let upper = |best: BestPair| best.contact.separation.upper;
         self.best.map_or(self.beyond, upper)
     }
 
     pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
         let best = self.best.ok_or(Beyond { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
-        Ok(Outcome::least(lower, problem.time(best.clock), contact))
+        Ok(Outcome::from_least_distance(
+            lower,
+            problem.time(best.clock),
+            contact,
+        ))
     }
 
-    pub(crate) fn unresolved(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
+    pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {
         let lower = lesser(self.ladder.lower, self.upper());
-        let seen = |best: Best| {
+        let seen = |best: BestPair| {
             let contact = best.contact.cap_lower_bound(lower);
             (problem.time(best.clock), contact)
         };
-        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+        Outcome::Unresolved(Unresolved::for_least_distance(
+            lower,
+            self.best.map(seen),
+            limit,
+        ))
     }
 
     /// Tries one rung of the ladder in a separate search, which proves it, or finds nearer pieces.
@@ -62,11 +70,11 @@ impl Nearing {
         let work = meter.stats.work();
         let budget = problem.budget.min(work.saturating_add(rung.budget));
         let lower = Rung { budget, ..rung }.problem(problem);
-        let mut below = Nearing {
+        let mut below = LeastDistanceSearch {
             best: None,
             beyond: lower.contact_distance(),
             proven: Proven::default(),
-            stuck: None,
+            first_failure: None,
             ladder: Ladder::new(0.0, 0),
         };
         let mut stack = Stack::default();
@@ -75,10 +83,10 @@ impl Nearing {
             oracle,
             meter,
         };
-        let common = Common::new(&lower);
+        let common = NodeContext::new(&lower);
         let mut look = CloserLook::new(&lower);
         let mut found = None;
-        if search.open(&lower).is_ok() {
+        if search.push_roots(&lower).is_ok() {
             while below.best.is_none() && found.is_none() {
                 found = search.visit(&common, &mut look, &mut below).break_value();
             }
@@ -101,34 +109,34 @@ impl Nearing {
 
     /// Returns the final outcome. If some pair could not be proven to the end, the best provable lower bound is proven
     /// first.
-    pub(crate) fn at_last<O: DistanceOracle>(
+    pub(crate) fn final_outcome<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
         found: Result<Outcome, Beyond>,
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Result<Outcome, Beyond> {
-        let limit = match (&found, self.stuck) {
+        let limit = match (&found, self.first_failure) {
             (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
             _ => return found,
         };
-        for _ in 0..LAST_RUNGS {
+        for _ in 0..MAX_FINAL_RUNGS {
             let left = problem.budget.saturating_sub(meter.stats.work());
-            let Some(rung) = self.ladder.rung(self.upper(), left / 2) else {
+            let Some(rung) = self.ladder.next_rung(self.upper(), left / 2) else {
                 break;
             };
             if let ControlFlow::Break(found) = self.climb(problem, rung, oracle, meter) {
                 return Ok(found);
             }
         }
-        Ok(self.unresolved(problem, limit))
+        Ok(self.unresolved_outcome(problem, limit))
     }
 }
 
-impl<O: DistanceOracle> Question<O> for Nearing {
+impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
     type Found = Result<Outcome, Beyond>;
 
-    fn conclude(
+    fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
@@ -143,7 +151,7 @@ impl<O: DistanceOracle> Question<O> for Nearing {
         match step {
             Step::FreeUntil(clock) => ControlFlow::Continue(clock),
             Step::Contact(contact) => {
-                let seen = Best {
+                let seen = BestPair {
                     clock,
                     pieces,
                     contact,
@@ -157,28 +165,28 @@ impl<O: DistanceOracle> Question<O> for Nearing {
                 ControlFlow::Break(Ok(Outcome::overlapping(overlap)))
             }
             Step::Stalled => {
-                self.stuck = Some(Limit::Stalled);
+                self.first_failure = Some(Limit::Stalled);
                 ControlFlow::Continue(f64::INFINITY)
             }
             Step::GaveUp => {
-                self.stuck = Some(Limit::OracleGaveUp);
+                self.first_failure = Some(Limit::OracleGaveUp);
                 ControlFlow::Continue(f64::INFINITY)
             }
         }
     }
 
-    fn stopped(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
-        Ok(self.unresolved(problem, limit))
+    fn on_limit(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
+        Ok(self.unresolved_outcome(problem, limit))
     }
 
-    fn done(&mut self, problem: &Problem<'_>) -> Self::Found {
-        if let Some(limit) = self.stuck {
-            return Ok(self.unresolved(problem, limit));
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Found {
+        if let Some(limit) = self.first_failure {
+            return Ok(self.unresolved_outcome(problem, limit));
         }
-        match self.proven.end(problem) {
+        match self.proven.finish(problem) {
             overlapping @ Outcome::Overlapping { .. } => Ok(overlapping),
             Outcome::Free { proven_gap } => self.found(problem, proven_gap),
-            Outcome::Unresolved(known) => Ok(self.unresolved(problem, known.limit)),
+            Outcome::Unresolved(known) => Ok(self.unresolved_outcome(problem, known.limit)),
             _ => unreachable!("pairs that waited are in no contact"),
         }
     }

@@ -1,6 +1,6 @@
 //! Decides whether bodies keep a required distance, by two queries for any contact.
 
-use super::ladder::{LAST_RUNGS, Ladder, Rung};
+use super::ladder::{Ladder, MAX_FINAL_RUNGS, Rung};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
 use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
@@ -27,27 +27,27 @@ impl Required {
         &self,
         any_contact: impl FnMut(Rung) -> Result<Answer, E>,
     ) -> Result<Answer, E> {
-        let mut asking = Asking {
+        let mut decision = Decision {
             required: *self,
             any_contact,
             stats: Stats::default(),
-            half: 0.5 * self.tolerance,
+            query_tolerance: 0.5 * self.tolerance,
         };
         // A part of the budget is left for the proof of a smaller distance.
         let most = self.budget - self.budget / 4;
-        let near = asking.ask(self.distance, asking.half, most)?;
+        let near = decision.run_query(self.distance, decision.query_tolerance, most)?;
         // A finer tolerance may not be certified in f64.
-        asking.half = greater(asking.half, near.tolerance);
-        let outcome = match self.of(near.outcome) {
+        decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
+        let outcome = match self.decision_for(near.outcome) {
             Outcome::Measured {
                 at: Some((time, contact)),
                 ..
-            } if self.certain() > 0.0 => asking.nearer(time, contact)?,
+            } if self.certainly_violating() > 0.0 => decision.decide_nearer(time, contact)?,
             found => found,
         };
         let outcome = match outcome {
             Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
-                lower: asking.lower(known.limit)?,
+                lower: decision.prove_lower_bound(known.limit)?,
                 ..known
             }),
             found => found,
@@ -55,18 +55,18 @@ impl Required {
         Ok(Answer {
             tolerance: greater(self.tolerance, outcome.width()),
             outcome,
-            stats: asking.stats,
+            stats: decision.stats,
         })
     }
 
     /// Returns the distance of bodies below which their shapes are certainly nearer than the required distance. It is 0
     /// or less if there is none.
-    fn certain(&self) -> f64 {
+    fn certainly_violating(&self) -> f64 {
         self.excess.certainly_nearer_below(self.distance)
     }
 
     /// Converts the outcome of a query with the distance as its margin to a decision.
-    fn of(&self, found: Outcome) -> Outcome {
+    fn decision_for(&self, found: Outcome) -> Outcome {
         match found {
             Outcome::Free { proven_gap } => Outcome::Free {
                 proven_gap: greater(proven_gap, self.distance),
@@ -78,7 +78,7 @@ impl Required {
                 bracket(0.0, time, contact)
             }
             Outcome::Unresolved(known) => {
-                Outcome::Unresolved(Unresolved::least(0.0, None, known.limit))
+                Outcome::Unresolved(Unresolved::for_least_distance(0.0, None, known.limit))
             }
             found => found,
         }
@@ -86,16 +86,16 @@ impl Required {
 }
 
 /// A decision in progress, with the work spent so far.
-struct Asking<F> {
+struct Decision<F> {
     required: Required,
     any_contact: F,
     stats: Stats,
     /// The tolerance of each query: half the tolerance of the answer.
-    half: f64,
+    query_tolerance: f64,
 }
 
-impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
-    fn ask(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
+impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
+    fn run_query(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
         let answer = (self.any_contact)(Rung {
             margin,
             tolerance: greater(LEAST_TOLERANCE, tolerance),
@@ -106,26 +106,29 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
     }
 
     /// Returns the work that is left of the budget.
-    fn left(&self) -> u64 {
+    fn remaining_work(&self) -> u64 {
         self.required.budget.saturating_sub(self.stats.work())
     }
 
     /// Asks the second query: whether the bodies come nearer than the distance by more than the excess. `contact` at
     /// `time` is the result of the first query, which found that they come near the distance.
-    fn nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
-        let (distance, half) = (self.required.certain(), self.half);
+    fn decide_nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
+        let (distance, query_tolerance) =
+            (self.required.certainly_violating(), self.query_tolerance);
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
         // and the excess.
-        let margin = greater(0.0, distance - 1.5 * half);
+        let margin = greater(0.0, distance - 1.5 * query_tolerance);
         let finer = if margin > 0.0 {
-            half
+            query_tolerance
         } else {
-            lesser(half, 0.5 * distance)
+            lesser(query_tolerance, 0.5 * distance)
         };
-        let found = self.ask(margin, finer, self.left())?.outcome;
-        Ok(match (found, self.required.of(found)) {
+        let found = self
+            .run_query(margin, finer, self.remaining_work())?
+            .outcome;
+        Ok(match (found, self.required.decision_for(found)) {
             (Outcome::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
-            (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::least(
+            (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,
                 Some((time, contact)),
                 known.limit,
@@ -135,16 +138,19 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
     }
 
     /// Proves the best lower bound that the rest of the budget allows.
-    fn lower(&mut self, reason: Limit) -> Result<f64, E> {
+    fn prove_lower_bound(&mut self, reason: Limit) -> Result<f64, E> {
         let mut ladder = Ladder::new(0.0, self.required.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
             return Ok(ladder.lower);
         }
-        for _ in 0..LAST_RUNGS {
-            let Some(rung) = ladder.rung(self.required.distance, self.left() / 2) else {
+        for _ in 0..MAX_FINAL_RUNGS {
+            let Some(rung) = ladder.next_rung(self.required.distance, self.remaining_work() / 2)
+            else {
                 break;
             };
-            let found = self.ask(rung.margin, rung.tolerance, rung.budget)?.outcome;
+            let found = self
+                .run_query(rung.margin, rung.tolerance, rung.budget)?
+                .outcome;
             ladder.climb(match found {
                 Outcome::Free { proven_gap } => Some(proven_gap),
                 _ => None,
@@ -156,5 +162,5 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Asking<F> {
 
 fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    Outcome::least(lower, time, contact.cap_lower_bound(lower))
+    Outcome::from_least_distance(lower, time, contact.cap_lower_bound(lower))
 }

@@ -3,7 +3,7 @@
 //! Coordinates are about a unit or far from the origins of the bodies and of the world, and turns are up to a million
 //! radians: each is a part of the bound.
 
-use super::{Shares, far_body, motion, shares_of_a_look};
+use super::{Shares, far_body, motion, shares_of_comparison};
 use crate::math::order::greater;
 use crate::motion::relative::View;
 use crate::problem::Problem;
@@ -41,7 +41,7 @@ impl Scene {
     }
 
     /// Removes the rotation of both bodies.
-    fn unturning(mut self) -> Self {
+    fn without_rotation(mut self) -> Self {
         self.motions = self.motions.map(|motion| {
             let spin = DVec3::ZERO;
             Motion::about(motion.start(), motion.velocity(), spin, motion.centre()).unwrap()
@@ -76,21 +76,21 @@ impl Scene {
 }
 
 /// Draws a scene, and returns its errors as shares of the bound.
-fn look(tape: &mut Tape) -> Option<Shares> {
+fn shares_of_scene(tape: &mut Tape) -> Option<Shares> {
     let scene = Scene::new(tape);
-    look_at(tape, &scene)
+    shares_of(tape, &scene)
 }
 
 /// Draws a scene without rotation, and returns its errors as shares of the bound.
-fn look_without_turns(tape: &mut Tape) -> Option<Shares> {
-    let scene = Scene::new(tape).unturning();
-    look_at(tape, &scene)
+fn shares_without_rotation(tape: &mut Tape) -> Option<Shares> {
+    let scene = Scene::new(tape).without_rotation();
+    shares_of(tape, &scene)
 }
 
-fn look_at(tape: &mut Tape, scene: &Scene) -> Option<Shares> {
+fn shares_of(tape: &mut Tape, scene: &Scene) -> Option<Shares> {
     let problem = scene.problem()?;
     let s = tape.random_range(0.0..1.0);
-    Some(shares_of_a_look(
+    Some(shares_of_comparison(
         tape,
         &problem,
         &scene.motions,
@@ -101,42 +101,43 @@ fn look_at(tape: &mut Tape, scene: &Scene) -> Option<Shares> {
 
 #[test]
 fn worst_places() {
-    let found =
-        Worst::of("distance_rounding, places", 8_000).search(|tape| Some(look(tape)?.place));
+    let found = Worst::of("distance_rounding, places", 8_000)
+        .search(|tape| Some(shares_of_scene(tape)?.place));
     found.is_within(100.0);
 }
 
 #[test]
 fn worst_gaps() {
-    let found = Worst::of("distance_rounding, gaps", 8_000).search(|tape| Some(look(tape)?.gap));
+    let found =
+        Worst::of("distance_rounding, gaps", 8_000).search(|tape| Some(shares_of_scene(tape)?.gap));
     found.is_within(100.0);
 }
 
 #[test]
 fn worst_distances() {
-    let found =
-        Worst::of("distance_rounding, distances", 8_000).search(|tape| Some(look(tape)?.distance));
+    let found = Worst::of("distance_rounding, distances", 8_000)
+        .search(|tape| Some(shares_of_scene(tape)?.distance));
     found.is_within(100.0);
 }
 
 #[test]
 fn worst_places_without_turns() {
     let found = Worst::of("distance_rounding, places, without turns", 8_000)
-        .search(|tape| Some(look_without_turns(tape)?.place));
+        .search(|tape| Some(shares_without_rotation(tape)?.place));
     found.is_within(100.0);
 }
 
 #[test]
 fn worst_gaps_without_turns() {
     let found = Worst::of("distance_rounding, gaps, without turns", 8_000)
-        .search(|tape| Some(look_without_turns(tape)?.gap));
+        .search(|tape| Some(shares_without_rotation(tape)?.gap));
     found.is_within(100.0);
 }
 
 #[test]
 fn worst_distances_without_turns() {
     let found = Worst::of("distance_rounding, distances, without turns", 8_000)
-        .search(|tape| Some(look_without_turns(tape)?.distance));
+        .search(|tape| Some(shares_without_rotation(tape)?.distance));
     found.is_within(100.0);
 }
 

@@ -24,7 +24,7 @@ fn motion(tape: &mut Tape) -> Option<Motion> {
 /// allowances.
 struct Sums {
     rate: Double,
-    bend: Double,
+    second_derivative: Double,
     speed: f64,
     size: f64,
     plain_bend: f64,
@@ -35,7 +35,7 @@ impl Sums {
         let zero = Double::ZERO;
         Sums {
             rate: zero,
-            bend: zero,
+            second_derivative: zero,
             speed: 0.0,
             size: 0.0,
             plain_bend: 0.0,
@@ -65,8 +65,9 @@ impl Sums {
             .into_iter()
             .reduce(Double::max)
             .expect("three corners");
-        self.bend = self.bend + axis.cross(spin).length() * farthest;
-        self.bend = self.bend + axis.dot(Double3::from(path.acceleration));
+        self.second_derivative = self.second_derivative + axis.cross(spin).length() * farthest;
+        self.second_derivative =
+            self.second_derivative + axis.dot(Double3::from(path.acceleration));
         let arm = node.centre - path.centre_at(s);
         self.speed += path.speed() + path.rate * (length(arm) + node.radius);
         self.size += path.rate * node.radius;
@@ -100,9 +101,12 @@ fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
     let allowed = RATE_F64 * (2.0 * sums.speed + sums.size);
     let rate = Double::from(found.rate) - Double::from(allowed);
     let rate = share((sums.rate - rate).get(), allowed);
-    let allowed = found.bend - sums.plain_bend;
-    let bend = share((sums.bend - Double::from(sums.plain_bend)).get(), allowed);
-    Some([rate, bend])
+    let allowed = found.second_derivative - sums.plain_bend;
+    let second_derivative = share(
+        (sums.second_derivative - Double::from(sums.plain_bend)).get(),
+        allowed,
+    );
+    Some([rate, second_derivative])
 }
 
 #[test]

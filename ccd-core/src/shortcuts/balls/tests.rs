@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::shortcuts::boxes;
 use crate::tests::scene::{
-    Look, Passage, RngExt, body, direction, distance, magnitude, rng, rotation, soup, within,
+    Passage, RngExt, SoupKind, body, direction, distance, magnitude, rng, rotation, soup, within,
 };
 use glam::DVec3;
 
@@ -27,7 +27,7 @@ fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
     let (mut told, mut near) = (0, 0);
     for _ in 0..2_000 {
         let (count, size) = (rng.random_range(1..6), magnitude(&mut rng, -2.0, 1.0));
-        let bodies = [0, 1].map(|_| body(&soup(&mut rng, Look::Plump, count, size)));
+        let bodies = [0, 1].map(|_| body(&soup(&mut rng, SoupKind::Plump, count, size)));
         let turn = magnitude(&mut rng, -3.0, 1.5);
         let motions = [0, 1].map(|_| {
             let passage = Passage {

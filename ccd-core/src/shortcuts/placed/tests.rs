@@ -34,7 +34,7 @@ fn worst_reach_of_a_box() {
         };
         let highest = points.iter().map(height).reduce(Double::max)?;
         let allowed = BOX_AXES_F32 * node.radius;
-        let reach = Double::from(node.reach(n)) - Double::from(allowed);
+        let reach = Double::from(node.extent_along(n)) - Double::from(allowed);
         Some(share((highest - reach).get(), allowed))
     });
     found.is_within(20.0);

@@ -12,7 +12,7 @@ use crate::schedule::{BestFirst, DepthFirst, FirstContact, Naive, Progress};
 use crate::settings::Settings;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{
-    Look, Pcg64, RngExt, body, direction, distance, magnitude, rng, rotation, soup, within,
+    Pcg64, RngExt, SoupKind, body, direction, distance, magnitude, rng, rotation, soup, within,
 };
 use glam::{DQuat, DVec3};
 
@@ -102,7 +102,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
 /// Draws two soups of triangles near each other, of which one or both turn many times.
 fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
-    let bodies = [0; 2].map(|_| body(&soup(rng, Look::Plump, count, 0.7)));
+    let bodies = [0; 2].map(|_| body(&soup(rng, SoupKind::Plump, count, 0.7)));
     let turns = magnitude(rng, 0.5, 2.0);
     let ratio = [0.0, 1.0, -0.5, 2.0 / 3.0, 0.61803, 0.5002][number % 6];
     let axis = direction(rng);
@@ -142,7 +142,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
         if distance(&problem, 0.0) < 2.0 * config.tolerance + config.margin {
             continue;
         }
-        repeated += usize::from(Rounds::of(&problem).is_some());
+        repeated += usize::from(Rounds::for_problem(&problem).is_some());
         let outcome = solve(&problem).outcome;
         let any = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
         let within = config.margin + config.tolerance + 1e-9;
@@ -295,7 +295,7 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
             DepthFirst::default().closest_approach_of(&problem, &mut Exhaustive)
         });
         let whole = problem(1_000.0);
-        sampled += usize::from(Sample::of(&whole.measuring()).is_some());
+        sampled += usize::from(Sample::for_problem(&whole.for_distances()).is_some());
         let (lower, upper) = (many.outcome.lower(), many.outcome.upper());
         if let Outcome::Measured {
             at: Some((time, _)),

@@ -26,13 +26,13 @@ pub(crate) struct Outline {
 }
 
 /// The linear approximation of `r` and `ζ` near a node, with bounds of the remainder.
-pub(crate) struct Linear {
+pub(crate) struct LinearApproximation {
     /// A point on the axis, and the direction of the axis.
     pub(crate) axis: [DVec3; 2],
     /// The value of `ζ` at the node's centre.
     pub(crate) zeta: f64,
     /// The gradient of `ζ` at the node's centre.
-    pub(crate) ahead: DVec3,
+    pub(crate) zeta_gradient: DVec3,
     pub(crate) twist: f64,
     pub(crate) scale: [f64; 2],
     pub(crate) tilt: f64,
@@ -40,7 +40,7 @@ pub(crate) struct Linear {
 
 impl Outline {
     /// Projects a triangle; `None` for other nodes.
-    pub(crate) fn new(node: &Placed, linear: &Linear) -> Option<Self> {
+    pub(crate) fn new(node: &Placed, linear: &LinearApproximation) -> Option<Self> {
         let corners = node.corners()?;
         let [origin, along] = linear.axis;
         let across = |x: DVec3| {
@@ -56,7 +56,7 @@ impl Outline {
             .into_iter()
             .min_by(|[a, b], [c, d]| a.dot(*b).total_cmp(&c.dot(*d)))?;
         let facing = unit(x + y)?;
-        let zeta = |w: DVec3| linear.zeta + w.dot(linear.ahead);
+        let zeta = |w: DVec3| linear.zeta + w.dot(linear.zeta_gradient);
         Some(Outline {
             outer: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
             inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),

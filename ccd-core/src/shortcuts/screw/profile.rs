@@ -7,12 +7,12 @@
 //! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
 
 use super::super::placed::Placed;
-use super::outline::{Linear, Outline};
+use super::outline::{LinearApproximation, Outline};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::trig::sin_cos;
 use crate::rounding::{RATE_F64, TURNS_F64, profile_rounding};
-use crate::tuning::LEAST_INNER;
+use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -43,9 +43,9 @@ pub(crate) struct Profile {
     azimuth: f64,
     width: f64,
     /// A length for which any path of at most this length from the node stays at least as far from the axis.
-    close: f64,
-    /// The greatest change of any `f` per unit of length on such paths.
-    steepest: f64,
+    safe_length: f64,
+    /// The greatest change of any `f` per unit of length, on paths of at most `safe_length`.
+    steepest_change: f64,
     /// The projection of a single triangle, which gives intervals for any surface.
     outline: Option<Outline>,
 }
@@ -70,30 +70,33 @@ impl ScrewAxis {
 impl Profile {
     /// Computes the profile of a node; `None` if it surrounds the axis, or nearly does.
     pub(crate) fn new(node: &Placed, axis: &ScrewAxis) -> Option<Self> {
-        Profile::beside(node, axis, None)
+        Profile::near_azimuth(node, axis, None)
     }
 
     /// Computes the union of the profiles of one or more parts; `None` if one of them surrounds the axis, or nearly
     /// does.
-    pub(crate) fn about(mut parts: impl Iterator<Item = Placed>, axis: &ScrewAxis) -> Option<Self> {
+    pub(crate) fn union_of(
+        mut parts: impl Iterator<Item = Placed>,
+        axis: &ScrewAxis,
+    ) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
             all.outline = None;
-            let part = Profile::beside(&part, axis, Some(all.azimuth))?;
+            let part = Profile::near_azimuth(&part, axis, Some(all.azimuth))?;
             for k in 0..SURFACES {
                 all.low[k] = lesser(all.low[k], part.low[k]);
                 all.high[k] = greater(all.high[k], part.high[k]);
             }
             let off = (part.azimuth - all.azimuth).abs();
             all.width = greater(all.width, off + part.width);
-            all.close = lesser(all.close, part.close);
-            all.steepest = greater(all.steepest, part.steepest);
+            all.safe_length = lesser(all.safe_length, part.safe_length);
+            all.steepest_change = greater(all.steepest_change, part.steepest_change);
         }
         Some(all)
     }
 
     /// Computes the profile of a node, with an azimuth within half a turn of `near`.
-    fn beside(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
+    fn near_azimuth(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
         let across = way - height * axis.unit;
@@ -102,9 +105,9 @@ impl Profile {
         let distance = length(across);
         let outward = across / distance;
         let onward = axis.unit.cross(outward);
-        let inner = distance - node.reach(-outward);
+        let inner = distance - node.extent_along(-outward);
         // Written so that NaN is not far.
-        if !(inner > LEAST_INNER * distance) {
+        if !(inner > MIN_PROFILE_RADIUS * distance) {
             return None;
         }
         let [x, y] = axis.azimuths;
@@ -113,14 +116,14 @@ impl Profile {
         let zeta = height - axis.advance * azimuth;
         let ahead = axis.unit - axis.advance / distance * onward;
         let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
-        let aside = greater(node.reach(onward), node.reach(-onward));
+        let aside = greater(node.extent_along(onward), node.extent_along(-onward));
         let mut profile = Profile {
             low: [0.0; SURFACES],
             high: [0.0; SURFACES],
             azimuth,
             width: aside / inner,
-            close: 0.5 * inner,
-            steepest: (1.0 + steep * steep).sqrt() * (1.0 + RATE_F64),
+            safe_length: 0.5 * inner,
+            steepest_change: (1.0 + steep * steep).sqrt() * (1.0 + RATE_F64),
             outline: None,
         };
         let bulge = 0.5 * aside * aside / inner;
@@ -131,16 +134,16 @@ impl Profile {
             let tilt = axis.advance / distance;
             let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
             let reach = |sign: f64| {
-                let bend = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
-                node.reach(sign * gradient) + bend + rounding
+                let nonlinear = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
+                node.extent_along(sign * gradient) + nonlinear + rounding
             };
             profile.low[k] = at - reach(-1.0);
             profile.high[k] = at + reach(1.0);
         }
-        let linear = Linear {
+        let linear = LinearApproximation {
             axis: [axis.origin, axis.unit],
             zeta,
-            ahead,
+            zeta_gradient: ahead,
             twist,
             scale: [arm, node.radius],
             tilt: axis.advance / distance,
@@ -158,7 +161,7 @@ impl Profile {
 
     /// Returns the interval of shifts of the other node's `ζ` for which no surface separates the nodes by more than the
     /// needed gap. The interval is empty if some surface separates them for any shift.
-    fn meeting(&self, other: &Profile, axis: &ScrewAxis, needed: f64) -> [f64; 2] {
+    fn unseparated_shifts(&self, other: &Profile, axis: &ScrewAxis, needed_gap: f64) -> [f64; 2] {
         let common = axis.surfaces.iter().enumerate();
         let common = common.map(|(k, &n)| {
             (
@@ -175,10 +178,10 @@ impl Profile {
         });
         let mut met = [f64::NEG_INFINITY, f64::INFINITY];
         for (n, [low, high], [other_low, other_high]) in common.chain(own) {
-            let least = (low - other_high) - needed;
-            let most = (high - other_low) + needed;
+            let least = (low - other_high) - needed_gap;
+            let most = (high - other_low) + needed_gap;
             met = match n.y > 0.0 {
-                true => both(met, [least / n.y, most / n.y]),
+                true => intersection(met, [least / n.y, most / n.y]),
                 // This surface separates the nodes for any shift. Written so that NaN is no gap.
                 false if least > 0.0 || most < 0.0 => return [f64::INFINITY, f64::NEG_INFINITY],
                 false => met,
@@ -192,33 +195,35 @@ impl Profile {
 
     /// Returns the range of whole turns by which the nodes' azimuths may differ while the turning node passes the still
     /// one: the least and the greatest number.
-    fn passes(&self, still: &Profile, way: &Way) -> [f64; 2] {
+    fn turn_range(&self, still: &Profile, way: &ScrewPath) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
-        let width = self.width + still.width + way.needed / greater(self.close, still.close);
+        let width = self.width
+            + still.width
+            + way.needed_gap / greater(self.safe_length, still.safe_length);
         let [from, to] = way.angles;
-        outward([from - width - ahead, to + width - ahead].map(|angle| angle / TAU))
+        whole_numbers_in([from - width - ahead, to + width - ahead].map(|angle| angle / TAU))
     }
 }
 
 /// Returns the intersection of two intervals.
-fn both([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+fn intersection([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [greater(a, c), lesser(b, d)]
 }
 
 /// Returns the least and the greatest whole number in an interval, which is widened first to allow for rounding.
-fn outward([least, most]: [f64; 2]) -> [f64; 2] {
+fn whole_numbers_in([least, most]: [f64; 2]) -> [f64; 2] {
     let width = TURNS_F64 * (1.0 + greater(least.abs(), most.abs()));
     [(least - width).ceil(), (most + width).floor()]
 }
 
 /// The part of the screw motion to examine, and the distance to keep on it.
 #[derive(Debug)]
-pub(crate) struct Way {
+pub(crate) struct ScrewPath {
     /// The advance along the axis per turn.
     pub(crate) pitch: f64,
     /// The angles of the turning body at the start and the end of the part, from the start of the query on.
     pub(crate) angles: [f64; 2],
-    pub(crate) needed: f64,
+    pub(crate) needed_gap: f64,
 }
 
 /// Returns whether a turning node and a still node certainly keep more than the needed distance.
@@ -226,29 +231,35 @@ pub(crate) struct Way {
 /// Each further turn lowers the still node's `ζ`, as seen from the turning node, by one pitch. The shifts for which
 /// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether
 /// a whole number of pitches lies in it. Without a pitch all turns are alike.
-pub(crate) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, way: &Way) -> bool {
-    let near = if still.close > turning.close {
+pub(crate) fn keep_apart(
+    turning: &Profile,
+    still: &Profile,
+    axis: &ScrewAxis,
+    way: &ScrewPath,
+) -> bool {
+    let near = if still.safe_length > turning.safe_length {
         still
     } else {
         turning
     };
     // Written so that NaN proves nothing.
-    if !(near.close > way.needed) {
+    if !(near.safe_length > way.needed_gap) {
         return false;
     }
-    let [least, most] = turning.meeting(still, axis, way.needed * near.steepest);
+    let [least, most] =
+        turning.unseparated_shifts(still, axis, way.needed_gap * near.steepest_change);
     if least > most {
         return true;
     }
     let met = match way.pitch.abs() > 0.0 {
         true => {
             let [one, other] = [least, most].map(|shift| -shift / way.pitch);
-            outward([lesser(one, other), greater(one, other)])
+            whole_numbers_in([lesser(one, other), greater(one, other)])
         }
         false if least > 0.0 || most < 0.0 => return true,
         false => [f64::NEG_INFINITY, f64::INFINITY],
     };
-    let [least, most] = both(turning.passes(still, way), met);
+    let [least, most] = intersection(turning.turn_range(still, way), met);
     least > most
 }
 

@@ -127,7 +127,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         let problem = Problem::accelerated(bodies, pulls, 1.0, &config.terms()).unwrap();
         // The axis may move too fast for small bodies.
         let mut profiles = Profiles::default();
-        let Some(screw) = Screw::of(&problem, &mut profiles) else {
+        let Some(screw) = Screw::for_problem(&problem, &mut profiles) else {
             continue;
         };
         let s = [0.0, 0.5 * passage.near][rng.random_range(0..2)];
@@ -168,7 +168,7 @@ fn later_turns_count() {
         let moving = (&moving, turn(turns));
         let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
         let mut profiles = Profiles::default();
-        let screw = Screw::of(&problem, &mut profiles).unwrap();
+        let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
             screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
             Some(apart),
@@ -210,7 +210,7 @@ fn any_number_of_turns_is_one_look() {
         let moving = (&moving, spin.unwrap());
         let problem = Problem::about(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
         let mut profiles = Profiles::default();
-        let screw = Screw::of(&problem, &mut profiles).unwrap();
+        let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
             screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
             Some(apart),
@@ -228,7 +228,7 @@ fn what_is_no_screw_has_no_profiles() {
     let config = Settings::DEFAULT;
     let is_screw = |a: Motion, b: Motion| {
         let problem = Problem::about((&cube, a), (&cube, b), 1.0, &config).unwrap();
-        Screw::of(&problem, &mut Profiles::default()).is_some()
+        Screw::for_problem(&problem, &mut Profiles::default()).is_some()
     };
     let still = Motion::STILL;
     assert!(is_screw(motion(DVec3::Z, DVec3::Z), still));
@@ -242,7 +242,7 @@ fn what_is_no_screw_has_no_profiles() {
     let falls = |pulls: [DVec3; 2]| {
         let bodies = [(&cube, motion(DVec3::Z, DVec3::Z)), (&cube, still)];
         let problem = Problem::accelerated(bodies, pulls, 1.0, &config.terms()).unwrap();
-        Screw::of(&problem, &mut Profiles::default()).is_some()
+        Screw::for_problem(&problem, &mut Profiles::default()).is_some()
     };
     assert!(falls([9.8 * DVec3::X; 2]));
     assert!(!falls([9.8 * DVec3::X, DVec3::ZERO]));
@@ -292,7 +292,7 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
         );
         let problem = problem.unwrap();
         let mut profiles = Profiles::default();
-        let screw = Screw::of(&problem, &mut profiles).unwrap();
+        let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         // Each of the tall nodes passes each of the others on its path.
         for pair in all_pairs(&problem) {
             assert_ne!(

@@ -83,7 +83,7 @@ fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
 
 fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen: &mut Seen) {
     let snapshot = Snapshot::new(problem, 0, 0, clock);
-    let members = snapshot.members();
+    let members = snapshot.moving_pieces();
     let (own, other) = (&members[holder], &members[1 - holder]);
     if !own.side.path.turns() {
         return;
@@ -145,7 +145,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         let [clock, tau] =
             [0.5, 0.5].map(|most| (rng.random_range(0.0..most) * grain).floor() / grain);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
-        let members = snapshot.members();
+        let members = snapshot.moving_pieces();
         for holder in [0, 1] {
             let (own, other) = (&members[holder], &members[1 - holder]);
             if !own.side.path.turns() {
@@ -228,16 +228,16 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
         let plane = Plane { normal, slack: 0.3 };
-        let still = snapshot.free_along(plane.normal, plane.slack).unwrap();
+        let still = snapshot.fixed_axis_time(plane.normal, plane.slack).unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
         assert_eq!(
-            snapshot.free_attached(&snapshot.members(), &plane, still),
+            snapshot.turning_plane_time(&snapshot.moving_pieces(), &plane, still),
             None
         );
         let closer = Plane { normal, slack: 0.1 };
         let free = snapshot
-            .free_attached(&snapshot.members(), &closer, still)
+            .turning_plane_time(&snapshot.moving_pieces(), &closer, still)
             .unwrap();
         let exact = 0.8f64.acos();
         assert!(free <= exact && free > 0.9 * exact, "{free} {exact}");
@@ -252,7 +252,7 @@ fn no_slack_is_no_time() {
         let scene = crowded(&mut rng, Kind::Rim);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
-        let [a, b] = snapshot.members();
+        let [a, b] = snapshot.moving_pieces();
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
             let free = TurningPiece::new(&a, &b, direction(&mut rng), problem.rounding)
                 .free_time(slack, 0.5);

@@ -1,6 +1,6 @@
 //! Compares the tree search with a scan of every point.
 
-use super::looks;
+use super::directions_with_ties;
 use crate::body::support::{Support, SupportTree};
 use crate::rounding::HEIGHT_F64;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
@@ -40,11 +40,11 @@ fn searching_agrees_with_a_scan() {
         let tree = SupportTree::new(&points);
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(0.0, crate::math::order::greater);
-        let (middle, radius) = tree.ball();
+        let (middle, radius) = tree.bounding_ball();
         for p in &points {
             assert!(p.distance(middle) <= radius * (1.0 + 16.0 * crate::rounding::U64));
         }
-        for look in looks(200) {
+        for look in directions_with_ties(200) {
             let height = |p: &DVec3| look.dot(*p);
             let highest = points.iter().map(height);
             let highest = highest.fold(f64::NEG_INFINITY, crate::math::order::greater);
@@ -62,8 +62,8 @@ fn few_points_of_a_curved_surface_are_visited() {
     let mut rng = rng(22);
     let points = cloud(&mut rng, 0, 32_768);
     let tree = SupportTree::new(&points);
-    let looks = (0..200).map(|_| direction(&mut rng));
-    let seen: usize = looks.map(|look| tree.visits(look)).sum();
+    let directions = (0..200).map(|_| direction(&mut rng));
+    let seen: usize = directions.map(|look| tree.visits(look)).sum();
     assert!(seen < 200 * 40, "{} nodes a search", seen / 200);
 }
 

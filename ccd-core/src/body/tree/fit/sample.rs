@@ -1,7 +1,7 @@
 //! A sample of a node's points, to compare the boxes of many frames quickly.
 
 use super::NodePoints;
-use crate::body::hierarchy::bounds;
+use crate::body::hierarchy::bounding_box;
 use crate::math::order::{greater, lesser};
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
@@ -69,7 +69,7 @@ impl Sample {
     }
 
     fn fill_unit(&mut self) {
-        let (low, high) = bounds(self.points().iter().copied());
+        let (low, high) = bounding_box(self.points().iter().copied());
         let middle = 0.5 * (low + high);
         // If the length is too short, it has no reciprocal.
         let scale = Some((high - low).max_element().recip()).filter(|s| s.is_finite());

@@ -30,7 +30,7 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
 
 /// Returns half the surface area of the bounding box along a frame.
 fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
-    let FittedBox { low, high, .. } = FittedBox::along(frame, points);
+    let FittedBox { low, high, .. } = FittedBox::fit_along(frame, points);
     let size = high - low;
     size.x * size.y + size.y * size.z + size.z * size.x
 }
@@ -185,7 +185,7 @@ fn samples_fill_a_unit_and_forget_earlier_ones() {
     for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
         let points = sheet(&mut rng, count, size);
         sample.take(&triangles(&points));
-        let (low, high) = crate::body::hierarchy::bounds(sample.points().iter().copied());
+        let (low, high) = crate::body::hierarchy::bounding_box(sample.points().iter().copied());
         assert!((low + high).length() < 1e-9, "{low} {high}");
         assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
         let mut fresh = Sample::EMPTY;

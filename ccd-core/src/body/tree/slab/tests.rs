@@ -14,7 +14,7 @@ fn worst_slab() {
             let at = centre + u * tape.any(-10..=0) + v * tape.any(-10..=0);
             DVec3::from(at.to_array().map(|x| x + x * tape.any(-54..=-45)))
         });
-        let slab = Slab::about(&corners, centre)?;
+        let slab = Slab::fit_to(&corners, centre)?;
         let normal = Double3::from(slab.normal);
         let height = |&p: &DVec3| {
             normal

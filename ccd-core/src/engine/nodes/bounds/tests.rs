@@ -13,7 +13,7 @@ use crate::math::lanes::{Vec3x8, load};
 use crate::math::order::{greater, lesser};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tuning::{ATTACHED_TIME, MUCH_LARGER};
+use crate::tuning::{MAX_TURNING_PLANE_TIME, MUCH_LARGER_RATIO};
 use crate::vectorize;
 use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
@@ -43,7 +43,7 @@ impl Solid {
     }
 
     /// Returns the largest second derivative of a height along `n`, at any time.
-    fn bend(&self, n: DVec3) -> f64 {
+    fn second_derivative(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
@@ -113,7 +113,7 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
 
 /// The values that the bounds compute along one axis, before they become eight free times: one number for each child.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct AxisValues {
     axis: [[f32; LANES]; 3],
     gap: [f32; LANES],
     rate: [f32; LANES],
@@ -123,7 +123,7 @@ struct Found {
     free: [[f32; LANES]; 3],
 }
 
-impl Found {
+impl AxisValues {
     fn normal(&self, lane: usize) -> DVec3 {
         DVec3::from_array(self.axis.map(|row| row[lane].into()))
     }
@@ -170,13 +170,13 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     level: L,
     sample: &Sample<C, P>,
     some: Vec3,
-) -> [Found; 3] {
+) -> [AxisValues; 3] {
     let pairs = sample.pairs(level);
-    let some = axis::towards(Vec3x8::splat(level, some), pairs.offset);
+    let some = axis::oriented_towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
         widest(&pairs),
         passing(&pairs),
-        axis::along(pairs.children, pairs.other, pairs.offset, some),
+        axis::axis_along(pairs.children, pairs.other, pairs.offset, some),
     ];
     axes.map(|axis| along(&pairs, axis))
 }
@@ -185,21 +185,28 @@ type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
 fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    axis::widest(pairs.children, pairs.other, pairs.offset)
+    axis::widest_axis(pairs.children, pairs.other, pairs.offset)
 }
 
 #[inline(never)]
 fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
     let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
-    axis::passing(pairs.children, pairs.other, pairs.offset, travel)
+    axis::closest_approach_axis(pairs.children, pairs.other, pairs.offset, travel)
 }
 
 #[inline(never)]
-fn along<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>, axis: Axis<L>) -> Found {
+fn along<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> AxisValues {
     let motion = pairs.motion;
-    let (m, o) = (motion.split.across(axis.n), motion.other.across(axis.n));
-    let rate = axis.n.dot(pairs.velocity) + pairs.children.reach(m) + pairs.other.reach(o);
-    Found {
+    let (m, o) = (
+        motion.split.cross_spin(axis.n),
+        motion.other.cross_spin(axis.n),
+    );
+    let rate =
+        axis.n.dot(pairs.velocity) + pairs.children.extent_along(m) + pairs.other.extent_along(o);
+    AxisValues {
         axis: [*axis.n.x, *axis.n.y, *axis.n.z],
         gap: *axis.gap,
         rate: *rate,
@@ -241,12 +248,12 @@ fn clocks(
     level: Level,
     aparts: &[f32; LANES],
     rates: &[f32; LANES],
-    bends: &[f32; LANES],
+    second_derivatives: &[f32; LANES],
     closed: f32,
 ) -> [f32; LANES] {
     vectorize!(level, level => {
-        let [apart, rate, bend] = [load(level, aparts), load(level, rates), load(level, bends)];
-        *clock::free_time(apart, closed, rate, bend)
+        let [apart, rate, second_derivative] = [load(level, aparts), load(level, rates), load(level, second_derivatives)];
+        *clock::free_time(apart, closed, rate, second_derivative)
     })
 }
 
@@ -267,16 +274,16 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         for found in &found {
             self.sample_allowances(found, worst);
             self.check_still(found, worst);
-            if reach > MUCH_LARGER * self.other.radius() {
+            if reach > MUCH_LARGER_RATIO * self.other.radius() {
                 self.check_attached(found, Larger::Split, worst);
-            } else if self.other.radius() > MUCH_LARGER * reach {
+            } else if self.other.radius() > MUCH_LARGER_RATIO * reach {
                 self.check_attached(found, Larger::Other, worst);
             }
         }
     }
 
     /// Computes the values with all sets of vector instructions, and checks that they are equal.
-    fn found_on_all_levels(&self, some: Vec3) -> [Found; 3] {
+    fn found_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
             .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
@@ -286,7 +293,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Compares each rounded value with the same in f64, and records the error.
-    fn sample_allowances(&self, found: &Found, worst: &mut Worst) {
+    fn sample_allowances(&self, found: &AxisValues, worst: &mut Worst) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
             let of = self.shares(found, &frees, lane);
@@ -302,7 +309,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Checks that a fixed plane keeps the pair apart for its whole free time.
-    fn check_still(&self, found: &Found, worst: &mut Worst) {
+    fn check_still(&self, found: &AxisValues, worst: &mut Worst) {
         let [free, ..] = found.free;
         for (lane, free) in free.into_iter().enumerate() {
             let n = found.normal(lane);
@@ -315,14 +322,14 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Checks that a plane that turns with a body keeps the pair apart for its whole free time.
-    fn check_attached(&self, found: &Found, with: Larger, worst: &mut Worst) {
+    fn check_attached(&self, found: &AxisValues, with: Larger, worst: &mut Worst) {
         let [_, with_split, with_other] = found.free;
         let free = match with {
             Larger::Split => with_split,
             Larger::Other => with_other,
         };
         for (lane, child) in self.children.iter().enumerate() {
-            assert!(free[lane] <= ATTACHED_TIME);
+            assert!(free[lane] <= MAX_TURNING_PLANE_TIME);
             let spin = match with {
                 Larger::Split => child.spin,
                 Larger::Other => self.far.spin,

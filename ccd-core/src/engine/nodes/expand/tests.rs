@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
-use crate::tuning::MUCH_LARGER;
+use crate::tuning::MUCH_LARGER_RATIO;
 
 /// The number of samples of a lane within its free time, ends included.
 const SAMPLES: usize = 17;
@@ -126,7 +126,7 @@ impl Audit<'_> {
             };
             let s = self.clock(rng);
             let expansion = expand(
-                &Common::new(self.problem),
+                &NodeContext::new(self.problem),
                 &Split::all(split, node, other),
                 s,
             );
@@ -351,7 +351,7 @@ fn planes_that_stand_still(
     let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
-    let common = Common::new(problem);
+    let common = NodeContext::new(problem);
     let split_all = Split::all(split, node, other);
     vectorize!(problem.level, level => {
         let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::OfMotion);
@@ -385,12 +385,12 @@ fn still<L: Simd, C: Children>(
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
             let mean = (a + b + c) / 3.0;
             [a, b, c]
-                .map(|p| up(p.distance(mean)))
+                .map(|p| round_up_to_f32(p.distance(mean)))
                 .into_iter()
                 .fold(0.0, greater)
         }
     };
-    let much = 0.99 * MUCH_LARGER;
+    let much = 0.99 * MUCH_LARGER_RATIO;
     let members = Members {
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members

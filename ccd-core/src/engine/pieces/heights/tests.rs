@@ -43,9 +43,9 @@ fn many_points_are_bounded_like_all_of_them() {
         let motion = Motion::about(start, velocity, spin, size * within(&mut rng, 2.0)).unwrap();
         let ball = Body::ball(0.1).unwrap();
         let (moving, still) = ((&body, motion), (&ball, Motion::STILL));
-        let pull =
+        let linear_acceleration =
             direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
-        let (bodies, pulls) = ([moving, still], [pull, DVec3::ZERO]);
+        let (bodies, pulls) = ([moving, still], [linear_acceleration, DVec3::ZERO]);
         let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
         let side = &problem.a;
         let clock = rng.random_range(0.0..1.0);
@@ -58,7 +58,7 @@ fn many_points_are_bounded_like_all_of_them() {
         };
         let heights = Heights::new(side, &piece, &frame, normal, clock);
         let twin = Heights::new(side, &bare, &frame, normal, clock);
-        many += usize::from(piece.ball().is_some());
+        many += usize::from(piece.bounding_ball().is_some());
         assert!(heights.speed() >= twin.speed() * (1.0 - 1e-15));
         // A ball about the points extends no farther than that, except by its own slack.
         assert!(
@@ -69,11 +69,13 @@ fn many_points_are_bounded_like_all_of_them() {
         );
         // The rounding is that of heights about the centre, and of the positions from which they are computed.
         let span = problem.a.body.tree().span() + side.path.centre.length();
-        let slack = 128.0 * crate::rounding::U64 * (span + velocity.length() + pull.length());
-        assert!((heights.least() - twin.least()).abs() <= slack);
+        let slack = 128.0
+            * crate::rounding::U64
+            * (span + velocity.length() + linear_acceleration.length());
+        assert!((heights.least_height() - twin.least_height()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
-            let (bound, all) = (heights.bound(tau), twin.bound(tau));
-            if piece.points.len() <= FEW {
+            let (bound, all) = (heights.bound_all(tau), twin.bound_all(tau));
+            if piece.points.len() <= MAX_FEW {
                 continue;
             }
             assert!(
@@ -84,7 +86,10 @@ fn many_points_are_bounded_like_all_of_them() {
                 bound.rate <= all.rate + 1e-15 * twin.speed(),
                 "{bound:?} {all:?}"
             );
-            assert!(bound.bend >= all.bend * (1.0 - 1e-14), "{bound:?} {all:?}");
+            assert!(
+                bound.second_derivative >= all.second_derivative * (1.0 - 1e-14),
+                "{bound:?} {all:?}"
+            );
             // Nothing is lost except rounding.
             assert!(
                 bound.height >= all.height - 4.0 * slack,
@@ -92,7 +97,8 @@ fn many_points_are_bounded_like_all_of_them() {
             );
             assert!(bound.rate >= all.rate - 4.0 * slack * (1.0 + side.path.rate));
             let turns = side.path.rate > 0.0;
-            tight[usize::from(turns)] += usize::from(bound.bend <= 2.0 * all.bend);
+            tight[usize::from(turns)] +=
+                usize::from(bound.second_derivative <= 2.0 * all.second_derivative);
         }
     }
     assert!(many > 200, "{many}");
@@ -127,7 +133,7 @@ fn points_rise_and_sink_as_their_body_turns() {
         let clock = rng.random_range(0.0..1.0);
         let frame = side.path.frame(clock);
         let (piece, normal) = (body.piece(0), direction(&mut rng));
-        let twin = Twin {
+        let twin = ReferenceHeights {
             arms: piece
                 .points
                 .iter()
@@ -139,13 +145,13 @@ fn points_rise_and_sink_as_their_body_turns() {
             spin,
         };
         twin.check(&Heights::new(side, &piece, &frame, normal, clock));
-        many += usize::from(piece.ball().is_some());
+        many += usize::from(piece.bounding_ball().is_some());
     }
     assert!(many > 50, "{many}");
 }
 
 /// The points relative to the centre of rotation, as a reference.
-struct Twin {
+struct ReferenceHeights {
     arms: Vec<DVec3>,
     normal: DVec3,
     velocity: DVec3,
@@ -153,27 +159,27 @@ struct Twin {
     spin: DVec3,
 }
 
-impl Twin {
+impl ReferenceHeights {
     /// Returns the height of a point, its rate, and the second derivative due to rotation.
     fn point(&self, k: usize, tau: f64) -> Point {
         let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];
         let turning = self.spin.cross(arm);
         Point {
-            height: self.normal.dot(arm) + self.drift(tau),
+            height: self.normal.dot(arm) + self.linear_rate(tau),
             rate: self
                 .normal
                 .dot(self.velocity + self.acceleration * tau + turning),
-            bend: self.normal.dot(self.spin.cross(turning)).abs(),
+            second_derivative: self.normal.dot(self.spin.cross(turning)).abs(),
         }
     }
 
     /// Returns the rise that all points share, without rotation.
-    fn drift(&self, tau: f64) -> f64 {
+    fn linear_rate(&self, tau: f64) -> f64 {
         self.normal
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
     }
 
-    fn least(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+    fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         let each = (0..self.arms.len()).map(|k| of(&self.point(k, tau)));
         each.fold(f64::INFINITY, lesser)
     }
@@ -181,25 +187,32 @@ impl Twin {
     fn check(&self, heights: &Heights<'_>) {
         let rate = self.spin.length();
         let is = |one: f64, other: f64| (one - other).abs() < 1e-11 * (1.0 + rate * rate);
-        assert_eq!(heights.straight(), rate == 0.0);
-        assert!(is(heights.drift(), self.normal.dot(self.velocity)));
-        let pull = self.normal.dot(self.acceleration);
-        assert!(is(heights.pull(), pull) && is(heights.least_pull(), pull));
-        assert!(heights.least_pull() <= heights.pull());
-        assert!(is(heights.least(), self.least(0.0, |p| p.height)));
+        assert_eq!(heights.is_nonrotating(), rate == 0.0);
+        assert!(is(heights.linear_rate(), self.normal.dot(self.velocity)));
+        let linear_acceleration = self.normal.dot(self.acceleration);
+        assert!(
+            is(heights.linear_acceleration(), linear_acceleration)
+                && is(heights.least_linear_acceleration(), linear_acceleration)
+        );
+        assert!(heights.least_linear_acceleration() <= heights.linear_acceleration());
+        assert!(is(heights.least_height(), self.least_of(0.0, |p| p.height)));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
-        assert_eq!(heights.few().is_some(), self.arms.len() <= FEW);
+        assert_eq!(heights.few_tracks().is_some(), self.arms.len() <= MAX_FEW);
         for tau in [0.0, 0.1, 0.5, 1.0] {
-            let bound = heights.bound(tau);
-            assert!(is(bound.height, self.least(tau, |p| p.height)));
-            assert!(is(bound.rate, self.least(tau, |p| p.rate)));
-            assert!(-bound.bend <= self.least(tau, |p| -p.bend) + 1e-12);
+            let bound = heights.bound_all(tau);
+            assert!(is(bound.height, self.least_of(tau, |p| p.height)));
+            assert!(is(bound.rate, self.least_of(tau, |p| p.rate)));
+            assert!(
+                -bound.second_derivative <= self.least_of(tau, |p| -p.second_derivative) + 1e-12
+            );
             let both = |p: &Point| p.height + p.rate;
             let least = heights.least_of(tau, both);
-            assert!(least <= self.least(tau, both) + 1e-11 * (1.0 + rate * rate));
-            let Some(few) = heights.few() else { continue };
-            assert!(is(least, self.least(tau, both)));
+            assert!(least <= self.least_of(tau, both) + 1e-11 * (1.0 + rate * rate));
+            let Some(few) = heights.few_tracks() else {
+                continue;
+            };
+            assert!(is(least, self.least_of(tau, both)));
             for (k, point) in few.at(heights.angle(tau), tau).into_iter().enumerate() {
                 // The last point is repeated.
                 let twin = self.point(lesser(k as u32, self.arms.len() as u32 - 1) as usize, tau);
@@ -211,7 +224,7 @@ impl Twin {
 
     /// Compares the largest descent by rotation with samples.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
-        let many = heights.piece.ball().is_some();
+        let many = heights.piece.bounding_ball().is_some();
         let Some(descent) = heights.descent_until(horizon) else {
             assert!(many);
             return;
@@ -219,9 +232,9 @@ impl Twin {
         assert!(!many);
         let samples = (0..=1_000).map(|k| horizon * f64::from(k) / 1e3);
         let lowest = samples
-            .map(|tau| self.least(tau, |p| p.height) - self.drift(tau))
+            .map(|tau| self.least_of(tau, |p| p.height) - self.linear_rate(tau))
             .fold(f64::INFINITY, lesser);
-        let sampled = self.least(0.0, |p| p.height) - lowest;
+        let sampled = self.least_of(0.0, |p| p.height) - lowest;
         assert!(
             (-1e-12..1e-3).contains(&(descent - sampled)),
             "{descent} {sampled}"

@@ -33,7 +33,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let gap = heights(clock, normal);
         // The slack is the part of the gap that may be used up.
         let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
-        let free = snapshot.free_along(normal, slack);
+        let free = snapshot.fixed_axis_time(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
         for k in 0..=SAMPLES {
@@ -69,7 +69,9 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         assert_eq!(meter.stats.oracle_calls, 1);
         let kept = problem.gap();
         if checked.lower <= kept {
@@ -115,10 +117,10 @@ fn no_slack_is_no_time() {
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = snapshot.free_along(direction(&mut rng), slack);
+            let free = snapshot.fixed_axis_time(direction(&mut rng), slack);
             assert_eq!(free, Some(0.0), "{slack}");
         }
-        let free = snapshot.free_along(DVec3::NAN, 1.0);
+        let free = snapshot.fixed_axis_time(DVec3::NAN, 1.0);
         assert_eq!(free, Some(0.0));
     }
 }

@@ -19,11 +19,11 @@ pub(crate) fn beside_edges(
     place: impl Fn(DVec3) -> DVec3 + Copy,
     reach: f64,
 ) -> impl Iterator<Item = DVec3> {
-    let flat = Flat::of(piece);
+    let flat = FlatOutline::of_piece(piece);
     let placed = move |k: u32| place(other.points[k as usize]);
-    let is_level = move |flat: &Flat<'_>, at: DVec3| flat.height(at).abs() <= reach;
+    let is_level = move |flat: &FlatOutline<'_>, at: DVec3| flat.height(at).abs() <= reach;
     // For a piece within the plane, the faces beyond the edges decide.
-    let passes = move |flat: &Flat<'_>| {
+    let passes = move |flat: &FlatOutline<'_>| {
         let mut all = 0..other.points.len() as u32;
         !all.all(|k| is_level(flat, placed(k)))
     };
@@ -31,7 +31,7 @@ pub(crate) fn beside_edges(
         let ends = edges(other).map(move |edge| edge.map(placed));
         let level = ends.filter(move |ends| ends.iter().all(|&at| is_level(&flat, at)));
         level
-            .filter_map(move |ends| flat.beside(ends))
+            .filter_map(move |ends| flat.points_beside(ends))
             .flatten()
             .filter(move |&point| flat.holds(point))
     })
@@ -39,16 +39,16 @@ pub(crate) fn beside_edges(
 
 /// The outline of a thin piece: its largest facet, or its points in order.
 #[derive(Clone, Copy)]
-struct Flat<'a> {
+struct FlatOutline<'a> {
     points: &'a [DVec3],
     /// The indices of the outline's corners; `None` if they are all points in order.
     corners: Option<&'a [u32]>,
     normal: DVec3,
 }
 
-impl<'a> Flat<'a> {
+impl<'a> FlatOutline<'a> {
     /// Creates the outline; `None` for a piece of fewer than three corners.
-    fn of(piece: &Piece<'a>) -> Option<Self> {
+    fn of_piece(piece: &Piece<'a>) -> Option<Self> {
         let spread = |corners: &[u32]| match *corners {
             [a, b, c, ..] => {
                 let [a, b, c] = [a, b, c].map(|k| piece.points[k as usize]);
@@ -60,7 +60,7 @@ impl<'a> Flat<'a> {
             let is_larger = spread(other) > spread(one);
             if is_larger { other } else { one }
         };
-        let mut flat = Flat {
+        let mut flat = FlatOutline {
             points: piece.points,
             corners: piece.facets.iter().reduce(larger),
             normal: DVec3::ZERO,
@@ -87,7 +87,7 @@ impl<'a> Flat<'a> {
     }
 
     /// Returns for each side of the outline a point on it, and the inward direction.
-    fn sides(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+    fn side_points(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let count = self.count();
         (0..count).map(move |k| {
             let (from, to) = (self.corner(k), self.corner((k + 1) % count));
@@ -96,15 +96,15 @@ impl<'a> Flat<'a> {
     }
 
     fn holds(&self, point: DVec3) -> bool {
-        self.sides()
+        self.side_points()
             .all(|(from, inward)| inward.dot(point - from) > 0.0)
     }
 
     /// Returns points on both sides of the middle of the part of an edge within the outline.
-    fn beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+    fn points_beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);
-        for (side, inward) in self.sides() {
+        for (side, inward) in self.side_points() {
             let (depth, speed) = (inward.dot(from - side), inward.dot(way));
             match () {
                 () if speed > 0.0 => enter = greater(enter, -depth / speed),

@@ -9,11 +9,11 @@ use crate::questions::along::stretches::Stretches;
 use crate::questions::closest::ladder::{Ladder, Rung};
 use crate::settings::Terms;
 use crate::shortcuts::balls::least_distance;
-use crate::tuning::LEAST_CUT;
+use crate::tuning::MIN_CUT_SHARE;
 
 impl Query<'_> {
     /// Returns the query for measuring distances, with a margin of 0.
-    pub(in crate::questions::along) fn measuring(&self) -> Self {
+    pub(in crate::questions::along) fn for_distances(&self) -> Self {
         Query {
             terms: Terms {
                 margin: 0.0,
@@ -32,7 +32,7 @@ impl Query<'_> {
             tolerance,
             budget,
         } = rung;
-        let mut asking = self.measuring();
+        let mut asking = self.for_distances();
         asking.terms = Terms {
             margin,
             tolerance,
@@ -44,7 +44,7 @@ impl Query<'_> {
 }
 
 /// The bounds of the distance of a stretch's motions, and where they are nearest.
-pub(super) struct Seen {
+pub(super) struct StretchResult {
     pub(super) lower: f64,
     pub(super) upper: f64,
     /// The amount by which the deviations widen the bounds for the bodies.
@@ -55,11 +55,11 @@ pub(super) struct Seen {
     pub(super) approach: f64,
 }
 
-impl Seen {
+impl StretchResult {
     /// Creates the result for motions that are farther apart than the least distance found so far. The bodies are so
     /// despite their deviations.
     pub(super) fn beyond(lower: f64) -> Self {
-        Seen {
+        StretchResult {
             lower,
             upper: lower,
             blur: 0.0,
@@ -70,17 +70,17 @@ impl Seen {
 
     /// Returns whether the bounds are wider than the tolerance only because of rounding. Cutting the stretch does not
     /// help then.
-    pub(super) fn is_loose(&self, tolerance: f64) -> bool {
+    pub(super) fn is_limited_by_rounding(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
         width > tolerance && self.blur <= width
     }
 
     /// Returns the end of the stretch at which the motions are nearest, if they would get nearer beyond it by more than
     /// the deviations; `None` otherwise.
-    pub(super) fn falls_beyond(&self, motions: &Motions) -> Option<f64> {
+    pub(super) fn end_with_decrease_beyond(&self, motions: &Motions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (
-            LEAST_CUT * motions.span.length(),
+            MIN_CUT_SHARE * motions.span.length(),
             self.approach * motions.span.length(),
         );
         let time = motions.time(self.time);
@@ -95,7 +95,7 @@ impl Seen {
 }
 
 /// The bounds of the least distance found so far.
-pub(super) struct Found {
+pub(super) struct BestSoFar {
     /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
@@ -103,14 +103,18 @@ pub(super) struct Found {
     pub(super) ladder: Ladder,
 }
 
-impl Found {
+impl BestSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
         let ladder = Ladder::new(0.0, query.terms.budget);
         let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
-        Found {
+        BestSoFar {
             lower: f64::INFINITY,
             best: None,
-            ladder: if is_timed { ladder.timed() } else { ladder },
+            ladder: if is_timed {
+                ladder.with_early_start()
+            } else {
+                ladder
+            },
         }
     }
 
@@ -123,8 +127,12 @@ impl Found {
     ///
     /// # Errors
     /// The limit that was reached.
-    pub(super) fn see(&mut self, motions: &Motions, outcome: &Outcome) -> Result<Seen, Limit> {
-        let mut seen = Seen {
+    pub(super) fn record(
+        &mut self,
+        motions: &Motions,
+        outcome: &Outcome,
+    ) -> Result<StretchResult, Limit> {
+        let mut seen = StretchResult {
             lower: 0.0,
             upper: 0.0,
             blur: motions.stray,
@@ -168,10 +176,10 @@ impl Found {
     pub(super) fn nearest(&self, query: &Query<'_>, stretches: &Stretches<'_, '_>) -> Answer {
         let Some((time, contact)) = self.best else {
             let reason = Limit::OracleGaveUp;
-            return self.answer(query, stretches, self.known(0.0, reason));
+            return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::least(lower, time, contact.cap_lower_bound(lower));
+        let nearest = Outcome::from_least_distance(lower, time, contact.cap_lower_bound(lower));
         self.answer(query, stretches, nearest)
     }
 
@@ -187,21 +195,25 @@ impl Found {
         let apart = |&span: &Span| {
             let motions = Motions::new(query, span)?;
             let problem = motions.problem(query, &query.terms)?;
-            Ok(motions.at_least(least_distance(&problem)))
+            Ok(motions.lower_bound_for_bodies(least_distance(&problem)))
         };
         let spans = stretches.waiting().iter().chain([&span]);
         // Written so that NaN is no bound.
         let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
         let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
         let lower = apart.fold(self.lower, lesser);
-        self.answer(query, stretches, self.known(lower, reason))
+        self.answer(query, stretches, self.unresolved_outcome(lower, reason))
     }
 
     /// Returns the outcome when a limit is reached; `lower` is a lower bound for all times.
-    fn known(&self, lower: f64, limit: Limit) -> Outcome {
+    fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
         let lower = lesser(greater(self.ladder.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
-        Outcome::Unresolved(Unresolved::least(lower, self.best.map(seen), limit))
+        Outcome::Unresolved(Unresolved::for_least_distance(
+            lower,
+            self.best.map(seen),
+            limit,
+        ))
     }
 
     pub(super) fn answer(

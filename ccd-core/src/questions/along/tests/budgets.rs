@@ -89,7 +89,7 @@ impl Trajectory for Shuttle {
 #[test]
 fn each_part_between_two_corners_has_a_budget() {
     let mut rng = rng(9);
-    let soup = soup(&mut rng, Look::Plump, 40, 1.0);
+    let soup = soup(&mut rng, SoupKind::Plump, 40, 1.0);
     let (body, ball) = (body(&soup), Body::ball(0.5).unwrap());
     let ask = |laps: u32, beside: f64, budget: u64| {
         let config = Settings {

@@ -29,7 +29,7 @@ fn worst_reach() {
         let truth = Double::from(node.half?) * Double::from(along)
             + Double::from(radius) * exact.cross(normal).length();
         let allowed = RATE_F64 * radius;
-        let lost = truth - (Double::from(node.reach(n)) - Double::from(allowed));
+        let lost = truth - (Double::from(node.extent_along(n)) - Double::from(allowed));
         Some(share(lost.get(), allowed))
     });
     found.is_within(20.0);

@@ -14,7 +14,7 @@ use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tuning::ATTACHED_TIME;
+use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
 
 /// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
@@ -68,10 +68,13 @@ impl Setting<'_> {
     }
 
     /// Returns the bound of the second derivative, exact and as computed without allowances.
-    fn bends(&self, tau: f64) -> [Double; 2] {
+    fn second_derivatives(&self, tau: f64) -> [Double; 2] {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
-        let (passing, time) = (velocity - away, Double::from(f64::from(ATTACHED_TIME)));
+        let (passing, time) = (
+            velocity - away,
+            Double::from(f64::from(MAX_TURNING_PLANE_TIME)),
+        );
         let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau));
         let arm = spin.unit().cross(way).length() + passing.length() * time;
         let across = spin.cross(Double3::from(self.normal)).length();
@@ -83,10 +86,10 @@ impl Setting<'_> {
             .unit
             .cross(sweep.offset + sweep.velocity * tau)
             .length()
-            + sweep.speed * f64::from(ATTACHED_TIME);
-        let across = sweep.omega * sweep.normal.slope();
-        let plain = across * (sweep.omega * arm + 2.0 * sweep.speed)
-            + sweep.relative.length() * (across + sweep.own_omega) * sweep.radius;
+            + sweep.speed * f64::from(MAX_TURNING_PLANE_TIME);
+        let across = sweep.angular_speed * sweep.normal.derivative_length();
+        let plain = across * (sweep.angular_speed * arm + 2.0 * sweep.speed)
+            + sweep.relative.length() * (across + sweep.own_angular_speed) * sweep.radius;
         [exact, Double::from(plain)]
     }
 }
@@ -99,7 +102,7 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
     let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).ok()?;
     let snapshot = Snapshot::new(&problem, 0, 0, tape.fraction());
-    let [own, other] = snapshot.members();
+    let [own, other] = snapshot.moving_pieces();
     let normal = unit(tape.vector(-40..=0).into())?;
     if !own.side.path.turns() {
         return None;
@@ -112,7 +115,7 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
         point: other.piece.points[tape.pick(3)],
     };
     let tau = tape.fraction();
-    let rounding = attached_rounding(sweep.omega + sweep.own_omega);
+    let rounding = attached_rounding(sweep.angular_speed + sweep.own_angular_speed);
     let [start, end, from, to] = [
         setting.found(0.0),
         setting.found(tau),
@@ -121,9 +124,10 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     ];
     let height = ((end[0] - start[0]) - (to[0] - from[0])).get().abs();
     let rate = (end[1] - to[1]).get().abs();
-    let fastest = sweep.omega * sweep.reach + sweep.speed + sweep.own_omega * sweep.radius;
-    let [exact, plain] = setting.bends(tau);
-    let allowed = (Double::from(sweep.bend(tau)) - plain).get();
+    let fastest =
+        sweep.angular_speed * sweep.reach + sweep.speed + sweep.own_angular_speed * sweep.radius;
+    let [exact, plain] = setting.second_derivatives(tau);
+    let allowed = (Double::from(sweep.second_derivative(tau)) - plain).get();
     Some([
         share(height, rounding * sweep.reach),
         share(rate, rounding * fastest),

@@ -2,11 +2,11 @@
 
 use super::{Sample, Solid};
 use crate::body::tree::{
-    Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, unit_normal, up,
+    Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
 };
 use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
-use crate::engine::nodes::turn::Turn;
+use crate::engine::nodes::turn::BodyRotation;
 use crate::math::order::greater;
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};
@@ -57,10 +57,12 @@ impl Shape {
         let points: Vec<DVec3> = (0..8).map(corner).collect();
         let axes = [frame.x_axis, frame.y_axis, frame.z_axis].map(DVec3::as_vec3);
         let farthest = |measure: &dyn Fn(DVec3) -> f64| {
-            up(points
-                .iter()
-                .map(|&p| measure(p - centre))
-                .fold(0.0, greater))
+            round_up_to_f32(
+                points
+                    .iter()
+                    .map(|&p| measure(p - centre))
+                    .fold(0.0, greater),
+            )
             .next_up()
         };
         let node = Node {
@@ -220,7 +222,8 @@ impl Setting {
             centre: centre.as_vec3(),
             corners: arms.map(DVec3::as_vec3),
             normal: unit_normal([a, b, c]),
-            radius: up(arms.map(DVec3::length).into_iter().fold(0.0, greater)).next_up(),
+            radius: round_up_to_f32(arms.map(DVec3::length).into_iter().fold(0.0, greater))
+                .next_up(),
         };
         let reach = group.members.reach;
         self.sample(group, triangle, reach, children, far)
@@ -235,22 +238,22 @@ impl Setting {
         children: Vec<Solid>,
         far: Solid,
     ) -> Sample<C, P> {
-        let turning = |k: usize| Turn {
-            turns: true,
+        let turning = |k: usize| BodyRotation {
+            is_turning: true,
             spin: self.spins[k].as_vec3(),
-            rate: up(self.spins[k].length()),
+            rate: round_up_to_f32(self.spins[k].length()),
             centre: self.centres[k].as_vec3(),
         };
         let (split, turning_far) = (turning(0), turning(1));
         let velocity = self.velocity.as_vec3();
         let [x, y, z] = other.centre().abs().to_array();
         let allowed = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
-        let places = other.centre().length() + turning_far.arm(Vec3::ZERO);
-        let far_arm = turning_far.arm(other.centre()) + PLACES as f32 * places;
+        let places = other.centre().length() + turning_far.distance_from_centre(Vec3::ZERO);
+        let far_arm = turning_far.distance_from_centre(other.centre()) + PLACES as f32 * places;
         let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
         let speed = velocity.length()
             + change.length()
-            + split.rate * (reach + split.arm(Vec3::ZERO))
+            + split.rate * (reach + split.distance_from_centre(Vec3::ZERO))
             + turning_far.rate * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
         Sample {

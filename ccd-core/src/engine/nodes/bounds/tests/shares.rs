@@ -1,6 +1,6 @@
 //! The errors of bounds, as shares of their allowances.
 
-use super::{Found, Sample, clocks};
+use super::{AxisValues, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -11,7 +11,7 @@ use crate::tests::worst::share;
 /// The gaps, second derivatives and free times of eight pairs along an axis.
 pub(super) struct Clocks {
     pub(super) apart: [f32; LANES],
-    pub(super) bend: [f32; LANES],
+    pub(super) second_derivative: [f32; LANES],
     pub(super) free: [f32; LANES],
 }
 
@@ -26,12 +26,12 @@ pub(super) struct Shares {
 
 /// Returns the error of a free time as a share of [`CLOCK_F32`].
 pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
-    let [free, apart, rate, bend] = numbers.map(f64::from);
-    let root = (rate * rate + 2.0 * bend * apart).sqrt();
+    let [free, apart, rate, second_derivative] = numbers.map(f64::from);
+    let root = (rate * rate + 2.0 * second_derivative * apart).sqrt();
     let exact = if rate > 0.0 {
         2.0 * apart / (rate + root)
     } else {
-        (root - rate) / bend
+        (root - rate) / second_derivative
     };
     let factor = f64::from(CLOCK_F32);
     share(free / factor / exact - 1.0, 1.0 - factor)
@@ -39,23 +39,24 @@ pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
     /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
-    pub(super) fn clocks(&self, found: &Found) -> Clocks {
+    pub(super) fn clocks(&self, found: &AxisValues) -> Clocks {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
-        let bend = std::array::from_fn(|lane| {
+        let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
-            (self.children[lane].bend(n) + self.far.bend(n)) as f32 + LEAST_BEND_F32
+            (self.children[lane].second_derivative(n) + self.far.second_derivative(n)) as f32
+                + LEAST_BEND_F32
         });
         let closed = self.motion.closed;
         let level = Instructions::Best.level();
         Clocks {
-            free: clocks(level, &apart, &found.rate, &bend, closed),
+            free: clocks(level, &apart, &found.rate, &second_derivative, closed),
             apart,
-            bend,
+            second_derivative,
         }
     }
 
     /// Returns the errors of a lane as shares of their allowances.
-    pub(super) fn shares(&self, found: &Found, clocks: &Clocks, lane: usize) -> Shares {
+    pub(super) fn shares(&self, found: &AxisValues, clocks: &Clocks, lane: usize) -> Shares {
         let (motion, child) = (&self.motion, &self.children[lane]);
         let (n, rate) = (found.normal(lane), found.rate[lane]);
         let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
@@ -79,7 +80,12 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
         let free = clocks.free[lane];
         if free > 0.0 && free < 1e30 {
-            shares.clock = share_of_clock([free, clocks.apart[lane], rate, clocks.bend[lane]]);
+            shares.clock = share_of_clock([
+                free,
+                clocks.apart[lane],
+                rate,
+                clocks.second_derivative[lane],
+            ]);
         }
         shares
     }

@@ -9,7 +9,7 @@ use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
-use crate::tuning::{LOOK_AGAIN, MUCH_LARGER, SWEPT, THICKNESS};
+use crate::tuning::{ADDED_THICKNESS, MIN_SWEEP, MUCH_LARGER_RATIO, REVISIT_DISTANCE};
 use crate::vectorize;
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
@@ -41,7 +41,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             let axis = widest(&self.pairs(level));
             Rows {
                 radius: *self.group.radius(level),
-                arms: *self.motion.other.arms(self.group.centre(level)),
+                arms: *self.motion.other.distances_from_centre(self.group.centre(level)),
                 split_reach: *axis.split_reach,
                 other_reach: *axis.other_reach,
                 gap: along.gap,
@@ -58,7 +58,10 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
         let other = self.other.radius();
-        self.motion.larger = match (reach > MUCH_LARGER * other, other > MUCH_LARGER * reach) {
+        self.motion.larger = match (
+            reach > MUCH_LARGER_RATIO * other,
+            other > MUCH_LARGER_RATIO * reach,
+        ) {
             (true, _) => Some(Larger::Split),
             (_, true) => Some(Larger::Other),
             _ => None,
@@ -110,20 +113,20 @@ impl Rows {
             f64::from(sample.other.radius()),
         );
         let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
-        let clear_of = |size: f64| exceeds(apart, size * f64::from(LOOK_AGAIN));
+        let clear_of = |size: f64| exceeds(apart, size * f64::from(REVISIT_DISTANCE));
         let far = clear_of(radius + other);
         let free = |row: usize| f64::from(self.free[row][lane]);
         let fixed = greater(free(0), free(1));
         let swept = |free: f64, rate: f32, arm: f32, large: f64| {
             exceeds(
                 free * f64::from(rate) * f64::from(arm),
-                large * f64::from(SWEPT),
+                large * f64::from(MIN_SWEEP),
             )
         };
         let (swept, past) = match motion.larger {
             None => (Some(false), Some(false)),
             Some(Larger::Split) => {
-                let arm = motion.split.arm(sample.other.centre());
+                let arm = motion.split.distance_from_centre(sample.other.centre());
                 let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
                     swept(greater(fixed, free(2)), motion.split.rate, arm, radius),
@@ -155,7 +158,8 @@ impl Rows {
     }
 
     fn split_child<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
-        let thick = |reach: f32, radius: f32| f64::from(reach) + f64::from(THICKNESS * radius);
+        let thick =
+            |reach: f32, radius: f32| f64::from(reach) + f64::from(ADDED_THICKNESS * radius);
         let split = thick(self.split_reach[lane], self.radius[lane]);
         let other = thick(self.other_reach[lane], sample.other.radius());
         match (self.pieces >> lane & 1 == 1, sample.other.is_piece()) {

@@ -4,7 +4,7 @@
 
 use super::setting::{Setting, Shape};
 use super::shares::{Shares, share_of_clock};
-use super::{Found, Sample, clocks};
+use super::{AxisValues, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::lanes::Vec3x8;
@@ -47,7 +47,7 @@ impl Search {
     /// Returns the largest share of the allowance among eight pairs and three axes.
     fn share_of<C: Children, P: OtherNode>(self, tape: &mut Tape, sample: &Sample<C, P>) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
-        let of = |found: &Found, lane: usize| {
+        let of = |found: &AxisValues, lane: usize| {
             (self.share)(&sample.shares(found, &sample.clocks(found), lane))
         };
         let found = sample.found_on_all_levels(some);
@@ -185,9 +185,11 @@ fn clock_f32() {
         let row = |tape: &mut Tape, of: fn(&mut Tape) -> f64| [(); LANES].map(|()| of(tape) as f32);
         let apart = row(tape, |tape| tape.size(-30..=30));
         let rate = row(tape, |tape| tape.any(-30..=30));
-        let bend = row(tape, |tape| tape.size(-30..=30));
-        let free = on_all_levels(|level| clocks(level, &apart, &rate, &bend, LEAST_GAP_F32));
-        let shares = (0..LANES).map(|k| share_of_clock([free[k], apart[k], rate[k], bend[k]]));
+        let second_derivative = row(tape, |tape| tape.size(-30..=30));
+        let free =
+            on_all_levels(|level| clocks(level, &apart, &rate, &second_derivative, LEAST_GAP_F32));
+        let shares =
+            (0..LANES).map(|k| share_of_clock([free[k], apart[k], rate[k], second_derivative[k]]));
         Some(shares.fold(f64::NEG_INFINITY, greater))
     });
     found.is_within(16.0);
@@ -203,14 +205,16 @@ fn least_gap_f32() {
             f64::from(LEAST_GAP_F32.next_up()) * tape.size(0..=40) + tape.size(-120..=-90)
         });
         let rate = row(tape, |tape| tape.any(-120..=-30));
-        let bend = row(tape, |tape| {
+        let second_derivative = row(tape, |tape| {
             tape.size(-120..=-30) + f64::from(LEAST_BEND_F32)
         });
-        let free = on_all_levels(|level| clocks(level, &apart, &rate, &bend, LEAST_GAP_F32));
+        let free =
+            on_all_levels(|level| clocks(level, &apart, &rate, &second_derivative, LEAST_GAP_F32));
         let share = |k: usize| {
             let until = if free[k] < 1.0 { free[k] } else { 1.0 };
-            let [until, apart, rate, bend] = [until, apart[k], rate[k], bend[k]].map(f64::from);
-            let used = (rate * until + 0.5 * bend * until * until) / apart;
+            let [until, apart, rate, second_derivative] =
+                [until, apart[k], rate[k], second_derivative[k]].map(f64::from);
+            let used = (rate * until + 0.5 * second_derivative * until * until) / apart;
             // The time at which no gap is left is later by the factor; a curved gap by twice the factor.
             share(
                 used - 1.0 + 2.0 * f64::from(1.0 - CLOCK_F32),

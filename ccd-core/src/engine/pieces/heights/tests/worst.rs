@@ -10,7 +10,7 @@ use crate::math::order::greater;
 use crate::math::vector::{distance, length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
-use crate::motion::track::{Angle, Spinning};
+use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use crate::settings::Settings;
@@ -68,7 +68,11 @@ fn share_of_rates(tape: &mut Tape) -> Option<f64> {
         let off = (Double::from(found.rate) - exact).get().abs();
         share(off, RATE_F64 * heights.speed())
     };
-    let shares = piece.points.iter().zip(heights.each(tau)).map(share_of);
+    let shares = piece
+        .points
+        .iter()
+        .zip(heights.points_at(tau))
+        .map(share_of);
     Some(shares.fold(f64::NEG_INFINITY, greater))
 }
 
@@ -103,10 +107,10 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
     let turn = path.rate * tau;
     let angle = (Angle::new(turn), turn);
-    let seen = Spinning::new(-path.axis, normal);
+    let seen = RotatingVector::new(-path.axis, normal);
     let along = match tape.pick(2) {
         0 => seen.at(angle.0),
-        _ => seen.slope_at(angle.0),
+        _ => seen.derivative_at(angle.0),
     };
     let level = unit(frame.inverse_vector(along))?;
     let (east, north) = level.any_orthonormal_pair();
@@ -139,7 +143,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
         centre: Double3::from(motion.centre()),
     };
     let heights = Heights::new(side, &piece, &frame, normal, clock);
-    let (middle, radius) = piece.ball()?;
+    let (middle, radius) = piece.bounding_ball()?;
     let farthest = length(frame.rotation * (middle - path.centre)) + radius;
     let allowed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     let n = Double3::from(normal);
@@ -154,10 +158,10 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
         Some((of(&arms[chosen as usize]) - least).get())
     };
     let height = miss(seen.at(angle.0), &|arm| n.dot(*arm))?;
-    let rate = miss(seen.slope_at(angle.0), &|arm| {
+    let rate = miss(seen.derivative_at(angle.0), &|arm| {
         n.dot(turning.spin.cross(*arm))
     })?;
-    assert!(heights.missed >= allowed);
+    assert!(heights.support_error >= allowed);
     Some([share(height, allowed), share(rate, path.rate * allowed)])
 }
 

@@ -51,13 +51,17 @@ fn a_directed_time_is_the_gap_over_both_advances() {
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         let kept = problem.gap();
         if checked.lower <= 2.0 * kept {
             continue;
         }
-        let reaches =
-            [&problem.a, &problem.b].map(|side| side.path.reach(side.body.pieces().points()));
+        let reaches = [&problem.a, &problem.b].map(|side| {
+            side.path
+                .max_distance_from_axis(side.body.pieces().points())
+        });
         let normal = snapshot.frames[0].rotation * checked.axis;
         let allowance = RATE_F64 * speed(&problem, reaches);
         for (k, bound) in [Bound::Sound, Bound::Published].into_iter().enumerate() {

@@ -15,11 +15,11 @@ use crate::tests::scene::{
 use glam::DQuat;
 
 /// An oracle that counts its steps.
-struct Telling {
+struct CountingOracle {
     steps: u64,
 }
 
-impl DistanceOracle for Telling {
+impl DistanceOracle for CountingOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut ()) -> Result<Claim, GiveUp> {
@@ -36,9 +36,9 @@ impl DistanceOracle for Telling {
 }
 
 /// An oracle that always gives up.
-struct Silent;
+struct FailingOracle;
 
-impl DistanceOracle for Silent {
+impl DistanceOracle for FailingOracle {
     type Cache = ();
 
     fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
@@ -52,17 +52,29 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     let problem = scene.problem();
     let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
     let mut meter = Meter::new(&problem);
-    assert!(snapshot.ask(&mut Exhaustive, &mut (), &mut meter).is_some());
+    assert!(
+        snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .is_some()
+    );
     assert_eq!(
         meter.stats.point_looks,
-        USUAL_STEPS * snapshot.pieces.points()
+        ASSUMED_STEPS * snapshot.pieces.points()
     );
     let mut meter = Meter::new(&problem);
-    let mut telling = Telling { steps: 7 };
-    assert!(snapshot.ask(&mut telling, &mut (), &mut meter).is_some());
-    assert_eq!(meter.stats.point_looks, USUAL_STEPS * 5);
+    let mut telling = CountingOracle { steps: 7 };
+    assert!(
+        snapshot
+            .query_oracle(&mut telling, &mut (), &mut meter)
+            .is_some()
+    );
+    assert_eq!(meter.stats.point_looks, ASSUMED_STEPS * 5);
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
-    assert!(snapshot.ask(&mut Silent, &mut (), &mut meter).is_none());
+    assert!(
+        snapshot
+            .query_oracle(&mut FailingOracle, &mut (), &mut meter)
+            .is_none()
+    );
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
 }
 
@@ -82,7 +94,9 @@ fn the_plane_of_the_longest_time_counts() {
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         let kept = problem.gap();
         if checked.lower <= kept {
             continue;
@@ -91,13 +105,13 @@ fn the_plane_of_the_longest_time_counts() {
             normal: snapshot.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
         };
-        let passing = snapshot.passing(&checked, kept);
+        let passing = snapshot.plane_of_closest_approach(&checked, kept);
         check_passing(&snapshot, &checked, kept, passing.as_ref());
         let planes: Vec<&Plane> = iter::once(&direct).chain(&passing).collect();
-        let along = |plane: &&Plane| time(snapshot.free_along(plane.normal, plane.slack));
-        let members = snapshot.members();
+        let along = |plane: &&Plane| time(snapshot.fixed_axis_time(plane.normal, plane.slack));
+        let members = snapshot.moving_pieces();
         let attached =
-            |plane: &&Plane| time(snapshot.free_attached(&members, plane, f64::INFINITY));
+            |plane: &&Plane| time(snapshot.turning_plane_time(&members, plane, f64::INFINITY));
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
         // A plane that turns is tried only if a body's turning uses up the slack.
@@ -109,7 +123,7 @@ fn the_plane_of_the_longest_time_counts() {
         turning += usize::from(time(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
         let expected = match along(&&direct) {
-            first if first >= A_WHILE => first,
+            first if first >= FIRST_VISIT_FREE_TIME => first,
             _ => time(free),
         };
         let first = time(snapshot.first_free_time(&checked, kept));
@@ -133,9 +147,11 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot
+            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .unwrap();
         let kept = problem.gap();
-        let plane = snapshot.passing(&checked, kept);
+        let plane = snapshot.plane_of_closest_approach(&checked, kept);
         check_passing(&snapshot, &checked, kept, plane.as_ref());
         planes += usize::from(plane.is_some());
     }
@@ -161,12 +177,12 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
-        let free = snapshot.free_along(-away, slack).unwrap();
+        let free = snapshot.fixed_axis_time(-away, slack).unwrap();
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
         let points = snapshot.pieces.points();
-        assert_eq!(snapshot.looks(), 2 * points);
+        assert_eq!(snapshot.evaluations(), 2 * points);
     }
 }
 
@@ -185,7 +201,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         }
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
-        let (horizon, normal) = (snapshot.horizon(), direction(&mut rng));
+        let (horizon, normal) = (snapshot.time_left(), direction(&mut rng));
         let a = Heights::new(
             &problem.a,
             &snapshot.pieces.a,
@@ -200,15 +216,16 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             normal,
             snapshot.clock,
         );
-        let passes = |slack: f64| snapshot.turn_past(&a, &b, slack);
+        let passes = |slack: f64| snapshot.rotation_keeps_slack(&a, &b, slack);
         let descents = a.descent_until(horizon).zip(b.descent_until(horizon));
-        let Some(descents) = descents.filter(|_| !(a.straight() && b.straight())) else {
+        let Some(descents) = descents.filter(|_| !(a.is_nonrotating() && b.is_nonrotating()))
+        else {
             assert!(!passes(f64::MAX));
             counts[0] += 1;
             continue;
         };
-        let drift = (a.drift() + b.drift()) * horizon;
-        let needed = descents.0 + descents.1 - lesser(0.0, drift);
+        let displacement = (a.linear_rate() + b.linear_rate()) * horizon;
+        let needed = descents.0 + descents.1 - lesser(0.0, displacement);
         let allowance = RATE_F64 * (a.speed() + b.speed()) * horizon;
         let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
         assert!(!passes(low) && passes(high));
@@ -225,7 +242,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             (0.5..1.5).contains(&allowed),
             "{allowed} {needed} {allowance}"
         );
-        counts[if drift < 0.0 { 1 } else { 2 }] += 1;
+        counts[if displacement < 0.0 { 1 } else { 2 }] += 1;
     }
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
@@ -237,15 +254,15 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
     let mut within = [0; 2];
     for _ in 0..4_000 {
         let any = |rng: &mut Pcg64| magnitude(rng, -3.0, 3.0) * rng.random_range(-1.0..1.0);
-        let (rate, pull) = (any(&mut rng), any(&mut rng));
+        let (rate, linear_acceleration) = (any(&mut rng), any(&mut rng));
         let horizon = magnitude(&mut rng, -2.0, 0.0);
-        let way = |tau: f64| (rate + 0.5 * pull * tau) * tau;
+        let way = |tau: f64| (rate + 0.5 * linear_acceleration * tau) * tau;
         let samples = (0..=2_000).map(|k| way(horizon * f64::from(k) / 2e3));
         let sampled = samples.fold(0.0, lesser);
-        let least = least_drift(rate, pull, horizon);
+        let least = least_linear_displacement(rate, linear_acceleration, horizon);
         // Next to the least value, a sample is off by half a step at most.
-        let missed = pull.abs() * (horizon / 2e3) * (horizon / 2e3);
-        let rounding = 1e-15 * (rate.abs() + pull.abs());
+        let missed = linear_acceleration.abs() * (horizon / 2e3) * (horizon / 2e3);
+        let rounding = 1e-15 * (rate.abs() + linear_acceleration.abs());
         assert!((-rounding..=missed + rounding).contains(&(sampled - least)));
         within[usize::from(least < lesser(0.0, way(horizon)))] += 1;
     }
@@ -333,7 +350,10 @@ fn depth_is_measured_between_the_middles_of_many_points() {
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let pair = &snapshot.pieces;
-        let [(from, large), (to, small)] = [pair.a.ball().unwrap(), pair.b.ball().unwrap()];
+        let [(from, large), (to, small)] = [
+            pair.a.bounding_ball().unwrap(),
+            pair.b.bounding_ball().unwrap(),
+        ];
         let placed = |p: DVec3| pair.b_to_a.point(p);
         let axis = (placed(to) - from).normalize();
         let heights = |p: DVec3| axis.dot(p);

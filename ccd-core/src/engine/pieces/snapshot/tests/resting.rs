@@ -86,7 +86,9 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
-    let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+    let checked = snapshot
+        .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+        .unwrap();
     let checked = sharpen(&snapshot.pieces, &checked, problem.rounding);
     let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
@@ -128,10 +130,10 @@ fn solids_keep_to_their_sides_of_the_plane() {
 
 #[test]
 fn of_two_planes_the_one_of_the_longer_time_counts() {
-    assert_eq!(longer(Some(1.0), Some(2.0)), Some(2.0));
-    assert_eq!(longer(Some(2.0), Some(1.0)), Some(2.0));
+    assert_eq!(longer_time(Some(1.0), Some(2.0)), Some(2.0));
+    assert_eq!(longer_time(Some(2.0), Some(1.0)), Some(2.0));
     assert_eq!(
-        (longer(None, Some(1.0)), longer(Some(1.0), None)),
+        (longer_time(None, Some(1.0)), longer_time(Some(1.0), None)),
         (None, None)
     );
 }
