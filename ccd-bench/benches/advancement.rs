@@ -8,11 +8,11 @@
 
 mod settings;
 
+use ccd_bench::method::USUAL_TOLERANCE;
 use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
 use ccd_bench::run::contest::{Allowance, Contest, Session, Truths};
-use ccd_bench::run::evaluation::USUAL_TOLERANCE;
 use ccd_bench::scene::{Models, Pieces, listings};
 use ccd_core::Settings;
 use criterion::{

@@ -11,6 +11,7 @@
 
 pub mod command;
 pub mod method;
+mod names;
 pub mod run;
 pub mod scene;
 pub mod show;

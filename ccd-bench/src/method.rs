@@ -11,6 +11,7 @@ use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, screw};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{Claim, Reply, Solver};
+use crate::names::name_of;
 use crate::scene::Pieces;
 use ccd_core::Answer;
 use ccd_core::{InputError, Instructions, Outcome, Settings};
@@ -59,11 +60,8 @@ pub enum MotionKind {
     Screw,
 }
 
-/// Returns the name of a value on the command line and in the tables.
-pub(crate) fn name_of(value: &impl ValueEnum) -> String {
-    let name = value.to_possible_value();
-    name.map_or_else(String::new, |name| name.get_name().to_owned())
-}
+/// The paper's tolerance `[FAST06 §6.2]`: that of charts of one tolerance, and of methods without one of their own.
+pub const USUAL_TOLERANCE: f64 = 1e-3;
 
 impl Method {
     /// Returns all methods that this program runs, the default kind first.

@@ -4,7 +4,7 @@
 //! [`Solver`](crate::Solver) instead.
 
 mod batch_size;
-mod question;
+pub(crate) mod question;
 #[cfg(feature = "command")]
 mod solver_kind;
 #[cfg(feature = "command")]

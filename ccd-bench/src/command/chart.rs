@@ -2,10 +2,11 @@
 
 use super::print_summary;
 use crate::method::Method;
+use crate::method::USUAL_TOLERANCE;
 use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
-use crate::run::evaluation::{Evaluated, Plan, USUAL_TOLERANCE};
+use crate::run::evaluation::{Evaluated, Plan};
 use crate::run::joined::{self, Foreign};
 use crate::scene::listings;
 use crate::show::presentation::Presentation;

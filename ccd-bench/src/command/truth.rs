@@ -1,7 +1,7 @@
 //! The command `ccd-bench truth`: reads two meshes and a table of motions, and writes a table of
 //! brackets of the exact first contacts.
 
-use crate::method::name_of;
+use crate::names::name_of;
 use crate::truth::{Referee, Status, Surface, TRUTH_COLUMNS, TruthRow};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;

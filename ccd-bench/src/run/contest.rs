@@ -5,7 +5,7 @@ mod session;
 #[cfg(test)]
 mod tests;
 mod truths;
-mod verdict;
+pub(crate) mod verdict;
 
 use ccd_core::order::greater;
 pub use journal::{Journal, program_stamp};

@@ -1,10 +1,9 @@
 //! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
 
 use crate::method::guarded::Programs;
-use crate::method::{Method, MotionKind};
+use crate::method::{Method, MotionKind, USUAL_TOLERANCE};
 use crate::run::contest::{Allowance, Contest, Journal, Session, Truths, program_stamp};
 use crate::scene::{Listing, Models, Pieces, Scene, SceneBody};
-use crate::show::chart::PAPER_TOLERANCE;
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, Total};
@@ -43,9 +42,6 @@ pub struct Evaluated {
 
 /// The file of the known truths, in the folder of the measurements.
 const TRUTHS: &str = "truth.csv";
-
-/// The tolerance of methods without a tolerance of their own.
-pub const USUAL_TOLERANCE: f64 = PAPER_TOLERANCE;
 
 impl Plan {
     /// Returns the measurements in the folder, whatever their settings, and measures nothing.

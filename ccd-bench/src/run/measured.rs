@@ -5,7 +5,7 @@ mod tests;
 
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::Claim;
-use crate::run::contest::Judged;
+use crate::run::contest::verdict::Judged;
 use anyhow::{Context, Result};
 use rigid_ccd::table::Lines;
 use rigid_ccd::table::Quotes;

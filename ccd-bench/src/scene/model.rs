@@ -16,7 +16,7 @@ pub use plate::Plate;
 pub use ring::Ring;
 pub use torus_knot::TorusKnot;
 
-use crate::method::name_of;
+use crate::names::name_of;
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 use clap::ValueEnum;

@@ -20,13 +20,10 @@ mod triangles;
 
 pub use heat_map::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 
-use crate::method::Method;
+use crate::method::{Method, USUAL_TOLERANCE};
 use crate::run::measured::Cell;
 use anyhow::{Result, ensure};
 use plane::Shown;
-
-/// The paper's tolerance `[FAST06 §6.2]`, used by charts of one tolerance.
-pub const PAPER_TOLERANCE: f64 = 1e-3;
 
 /// The remark on medians over different rows.
 const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on the \
@@ -178,5 +175,5 @@ impl Family {
 
 /// Returns true if a tolerance is the paper's, up to its rounding in a table.
 fn is_papers(tolerance: f64) -> bool {
-    (tolerance / PAPER_TOLERANCE - 1.0).abs() < 1e-9
+    (tolerance / USUAL_TOLERANCE - 1.0).abs() < 1e-9
 }

@@ -1,6 +1,7 @@
 //! Turns measurements into tables, charts and a page.
 
-use crate::run::evaluation::{Evaluated, USUAL_TOLERANCE};
+use crate::method::USUAL_TOLERANCE;
+use crate::run::evaluation::Evaluated;
 use crate::run::measured::Cell;
 use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;

@@ -2,9 +2,9 @@
 
 use super::PeerKind;
 use crate::method::Method;
-use crate::method::name_of;
 use crate::method::solver::{Claim, Reply, TimedReply};
 use crate::method::wire::{format_query, format_reply, parse_query, parse_reply};
+use crate::names::name_of;
 use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};

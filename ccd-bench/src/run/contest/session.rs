@@ -3,8 +3,7 @@
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::solver::{Solver, timed};
-use crate::method::{Method, Ours};
-use crate::run::evaluation::USUAL_TOLERANCE;
+use crate::method::{Method, Ours, USUAL_TOLERANCE};
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;

@@ -1,8 +1,8 @@
 //! Judges a claim against the truth.
 
 use crate::method::guarded::QueryOutcome;
-use crate::method::name_of;
 use crate::method::solver::{Claim, Reply};
+use crate::names::name_of;
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
 use clap::ValueEnum;

@@ -1,7 +1,7 @@
 //! The columns of rows of results: of `ccd query`, of its contacts, of scenes and of Python's tables.
 
 use super::ResultRow;
-use crate::batch::Question;
+use crate::batch::question::Question;
 use Cells::{Count, Number, Text};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 

@@ -1,6 +1,6 @@
 //! The status of a row.
 
-use crate::batch::Question;
+use crate::batch::question::Question;
 use ccd_core::{Clearance, HitKind, Outcome};
 use serde::Deserialize;
 
