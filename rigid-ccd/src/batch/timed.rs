@@ -41,21 +41,12 @@ pub(crate) struct Timed {
     pub(crate) micros: f64,
 }
 
-/// Answers a row. Without an answer, the row of results has the reason.
-pub(crate) fn answer(
-    bodies: Bodies<'_>,
-    course: &Course,
-    timing: &Timing,
-    solver: &mut dyn Solve,
-) -> (ResultRow, Option<Timed>) {
-    match time(bodies, course, timing, solver) {
-        Ok(timed) => {
-            let asked = (timing.question, &timed.answer);
-            let compared = Compared::of(bodies, timing.settings.clearance);
-            let row = ResultRow::new(course, asked, timed.micros, compared);
-            (row, Some(timed))
-        }
-        Err(problem) => (ResultRow::error(course.id(), &problem), None),
+impl Timed {
+    /// Returns the row of results.
+    pub(crate) fn row(&self, bodies: Bodies<'_>, course: &Course, timing: &Timing) -> ResultRow {
+        let asked = (timing.question, &self.answer);
+        let compared = Compared::of(bodies, timing.settings.clearance);
+        ResultRow::new(course, asked, self.micros, compared)
     }
 }
 
@@ -66,7 +57,7 @@ pub(crate) fn answer(
 ///
 /// # Errors
 /// The query is not valid, or the method does not answer the question.
-fn time(
+pub(crate) fn time(
     bodies: Bodies<'_>,
     course: &Course,
     timing: &Timing,

@@ -4,10 +4,10 @@ use super::bad_rows::BadRows;
 use super::files::{Rows, input_name};
 use super::progress::Progress;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, Timed, Timing, answer, on_threads};
+use crate::batch::{BatchSize, Bodies, Solve, Timed, Timing, on_threads, time};
 use crate::table::courses::{Course, CourseRow};
-use crate::table::motions::{RowPosition, TableError};
-use crate::table::results::{ResultRow, Status};
+use crate::table::motions::{RowError, RowPosition, RowProblem, TableError};
+use crate::table::results::ResultRow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -21,14 +21,20 @@ pub(super) struct Answering<'a> {
     pub(super) progress: Progress,
 }
 
-/// A row of a table and its row of results.
-pub(super) struct Answered {
+/// Some rows with their answers, and the error that ended the table after them, if any.
+pub(super) struct Batch {
+    pub(super) rows: Vec<(CourseRow, Result<Timed, RowProblem>)>,
+    pub(super) broken: Option<TableError>,
+}
+
+/// A row of a table with its row of results.
+pub(super) struct Answered<'b> {
     pub(super) position: RowPosition,
     /// The motions or paths; `None` for a row that cannot be read.
-    pub(super) course: Option<Course>,
+    pub(super) course: Option<&'b Course>,
     pub(super) row: ResultRow,
     /// The answer; `None` for an error.
-    pub(super) timed: Option<Timed>,
+    pub(super) timed: Option<&'b Timed>,
 }
 
 impl<'a> Answering<'a> {
@@ -53,42 +59,50 @@ impl<'a> Answering<'a> {
         }
     }
 
-    /// Reads some rows, but no more than `most`, and answers them. The error is the one that ended the table early.
-    pub(super) fn next(
-        &mut self,
-        rows: &mut Rows,
-        most: usize,
-    ) -> (Vec<Answered>, Option<TableError>) {
+    /// Reads some rows, but no more than `most`, and answers them; `None` at the end of the table.
+    pub(super) fn next(&mut self, rows: &mut Rows, most: usize) -> Option<Batch> {
         let (batch, broken) = read(rows, self.batch.items().min(most));
+        if batch.is_empty() && broken.is_none() {
+            return None;
+        }
         self.progress.answering(batch.len(), rows.bytes());
         let (bodies, timing, progress) = (self.bodies, &self.timing, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(&batch, |solver, row| {
-            let answered = match row {
-                Ok((_, course)) => answer(bodies, course, timing, solver.as_mut()),
-                Err(error) => (ResultRow::error(&error.id, &error.problem), None),
+            let answer = match row {
+                Ok((_, course)) => time(bodies, course, timing, solver.as_mut()),
+                Err(error) => Err(error.problem.clone()),
             };
             progress.step();
-            answered
+            answer
         });
         self.batch.adapt(start.elapsed());
-        let answered = batch.into_iter().zip(answers);
-        let answered = answered.map(|(asked, (row, timed))| {
-            let (position, course) = match asked {
-                Ok((position, course)) => (position, Some(course)),
-                Err(error) => (error.position, None),
-            };
-            if let (Status::Error, Some(reason)) = (row.status, &row.reason) {
-                self.bad_rows.report(position, reason, &self.progress);
+        let rows = batch.into_iter().zip(answers).collect();
+        Some(Batch { rows, broken })
+    }
+
+    /// Makes the row of results of a row, and reports a bad one.
+    pub(super) fn answered<'b>(
+        &mut self,
+        (asked, answer): &'b (CourseRow, Result<Timed, RowProblem>),
+    ) -> Answered<'b> {
+        let (position, id, course) = match asked {
+            Ok((position, course)) => (*position, course.id(), Some(course)),
+            Err(error) => (error.position, error.id.as_str(), None),
+        };
+        let row = match (asked, answer) {
+            (Ok((_, course)), Ok(timed)) => timed.row(self.bodies, course, &self.timing),
+            (_, Err(problem)) | (Err(RowError { problem, .. }), _) => {
+                self.bad_rows.report(position, problem, &self.progress);
+                ResultRow::error(id, problem)
             }
-            Answered {
-                position,
-                course,
-                row,
-                timed,
-            }
-        });
-        (answered.collect(), broken)
+        };
+        Answered {
+            position,
+            course,
+            row,
+            timed: answer.as_ref().ok(),
+        }
     }
 }
 

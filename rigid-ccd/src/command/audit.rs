@@ -160,22 +160,22 @@ struct Audit<'a> {
 impl Audit<'_> {
     fn all(&mut self, rows: &mut Rows) -> Result<()> {
         loop {
-            let (batch, broken) = self.answering.next(rows, usize::MAX);
-            if batch.is_empty() && broken.is_none() {
+            let Some(batch) = self.answering.next(rows, usize::MAX) else {
                 return Ok(());
-            }
-            for answered in &batch {
-                self.take(answered)?;
+            };
+            for row in &batch.rows {
+                let answered = self.answering.answered(row);
+                self.take(&answered)?;
             }
             self.out.flush()?;
-            if let Some(error) = broken {
+            if let Some(error) = batch.broken {
                 return Err(error).with_context(|| input_name(&self.args.motions));
             }
         }
     }
 
     /// Counts a row, and writes it unless it is free.
-    fn take(&mut self, Answered { course, row, .. }: &Answered) -> Result<()> {
+    fn take(&mut self, Answered { course, row, .. }: &Answered<'_>) -> Result<()> {
         self.counts.add(row.status);
         if row.status == Status::Free {
             return Ok(());

@@ -4,12 +4,14 @@ use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
-use crate::batch::Timing;
-use crate::command::answering::{Answered, Answering};
+use crate::batch::{Timed, Timing};
+use crate::command::answering::{Answered, Answering, Batch};
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
 use crate::command::view::Chosen;
 use crate::table::contacts;
+use crate::table::courses::Course;
+use crate::table::motions::RowPosition;
 use crate::table::results::Line;
 use anyhow::{Context, Result};
 
@@ -31,48 +33,57 @@ impl Run<'_> {
         loop {
             let end = self.args.rows.end;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
-            let (batch, broken) = self.answering.next(rows, remaining);
-            if batch.is_empty() && broken.is_none() {
+            let Some(batch) = self.answering.next(rows, remaining) else {
                 return Ok(done);
-            }
-            let count = batch.len();
-            self.write(batch)?;
+            };
+            self.write(&batch)?;
             done = Checkpoint {
-                rows: done.rows + count,
+                rows: done.rows + batch.rows.len(),
                 checksum: rows.checksum(),
                 bad: start.bad + self.answering.bad_rows.count(),
                 counts: self.summary.counts,
                 ..done
             };
             self.outputs.save(done)?;
-            if let Some(error) = broken {
+            if let Some(error) = batch.broken {
                 return Err(error).with_context(|| input_name(&self.args.motions));
             }
         }
     }
 
     /// Writes the results and contacts of a batch of rows.
-    fn write(&mut self, mut batch: Vec<Answered>) -> Result<(), CannotWrite> {
-        let columns = self.args.columns();
-        for Answered {
-            course, row, timed, ..
-        } in &mut batch
-        {
+    fn write(&mut self, batch: &Batch) -> Result<(), CannotWrite> {
+        let (columns, mut all) = (self.args.columns(), Vec::new());
+        for row in &batch.rows {
+            let Answered {
+                position,
+                course,
+                mut row,
+                timed,
+            } = self.answering.answered(row);
             match timed {
                 Some(timed) => self.summary.add(row.status, timed),
                 None => self.summary.add_error(),
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);
-            if let (Some(shown), Some(course)) = (&mut self.shown, &course) {
-                shown.offer(course, row);
+            if let (Some(shown), Some(course)) = (&mut self.shown, course) {
+                shown.offer(course, &row);
             }
-            self.outputs.results.row(&Line(&columns, row))?;
+            self.outputs.results.row(&Line(&columns, &row))?;
+            all.extend(
+                course
+                    .zip(timed)
+                    .map(|(course, timed)| (position, course, timed)),
+            );
         }
-        self.write_contacts(&batch)
+        self.write_contacts(&all)
     }
 
     /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
-    fn write_contacts(&mut self, batch: &[Answered]) -> Result<(), CannotWrite> {
+    fn write_contacts(
+        &mut self,
+        answered: &[(RowPosition, &Course, &Timed)],
+    ) -> Result<(), CannotWrite> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
         };
@@ -89,11 +100,6 @@ impl Run<'_> {
             question, settings, ..
         } = timing;
         let question = *question;
-        let answered = batch.iter().filter_map(|answered| {
-            let course = answered.course.as_ref()?;
-            Some((answered.position, course, answered.timed?))
-        });
-        let answered: Vec<_> = answered.collect();
         // A row may have very many contacts.
         for few in answered.chunks(ROWS_OF_CONTACTS) {
             let all = solver.map(few, |_, (_, course, timed)| {
