@@ -8,9 +8,10 @@
 
 mod settings;
 
+use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
-use ccd_bench::run::contest::{Allowance, Contest, Truths};
+use ccd_bench::run::contest::{Allowance, Contest, Session, Truths};
 use ccd_bench::run::evaluation::USUAL_TOLERANCE;
 use ccd_bench::scene::{Models, Pieces, listings};
 use ccd_core::Settings;
@@ -64,17 +65,14 @@ fn advancement(criterion: &mut Criterion) {
             if !is_right(&contest, method, &truths) {
                 continue;
             }
-            let config = Settings {
-                tolerance: USUAL_TOLERANCE,
-                ..Settings::DEFAULT
-            };
             let bodies = scene
                 .bodies_of(pieces)
                 .expect("it has just opened a session");
-            let mut solver = Ours::new(kind, bodies, config);
+            let mut solver = Ours::new(kind, bodies, Settings::DEFAULT.margin);
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
-                    let steps = |&row: &usize| solver.answer(&scene.queries[row]).steps;
+                    let steps =
+                        |&row: &usize| solver.answer(&scene.queries[row], USUAL_TOLERANCE).steps;
                     rows.iter().map(steps).sum::<u64>()
                 });
             });
@@ -92,11 +90,10 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
         least_rows: ROWS,
         preparation: Duration::MAX,
     };
-    let session = contest
-        .session(method, USUAL_TOLERANCE)
-        .expect("no peer is asked");
+    let session = Session::open(method, contest.scene(), &Programs::default());
+    let session = session.expect("no peer is asked");
     session.is_some_and(|mut session| {
-        let measured = contest.run(&mut session, &allowance, truths);
+        let measured = contest.run(&mut session, USUAL_TOLERANCE, &allowance, truths);
         let (cell, _) = measured
             .expect("no peer is asked")
             .expect("all queries can be asked");

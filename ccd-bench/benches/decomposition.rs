@@ -17,7 +17,7 @@ use std::hint::black_box;
 /// Torus knots that differ in size only.
 const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
 
-fn meshes() -> Vec<(&'static str, TriangleMesh)> {
+fn meshes() -> Vec<(String, TriangleMesh)> {
     KNOTS
         .iter()
         .map(|knot| {
@@ -33,15 +33,15 @@ fn meshes() -> Vec<(&'static str, TriangleMesh)> {
 fn decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for (name, mesh) in meshes() {
+    for (name, mesh) in &meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (order, id) in [
             (Order::Cresting, "cresting"),
             (Order::BreadthFirst, "breadth-first"),
             (Order::DepthFirst, "depth-first"),
         ] {
-            assert_covered(&mesh, order);
-            group.bench_with_input(BenchmarkId::new(id, name), &mesh, |bencher, mesh| {
+            assert_covered(mesh, order);
+            group.bench_with_input(BenchmarkId::new(id, name), mesh, |bencher, mesh| {
                 bencher.iter(|| decompose(black_box(mesh), order).expect("a knot bounds a solid"));
             });
         }
@@ -67,14 +67,14 @@ fn assert_covered(mesh: &TriangleMesh, order: Order) {
 fn bodies(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for (name, mesh) in meshes() {
+    for (name, mesh) in &meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (detail, id) in [
             (Detail::Triangles, "triangles"),
             (Detail::Patches(Order::Cresting), "patches"),
             (Detail::Auto, "auto"),
         ] {
-            group.bench_with_input(BenchmarkId::new(id, name), &mesh, |bencher, mesh| {
+            group.bench_with_input(BenchmarkId::new(id, name), mesh, |bencher, mesh| {
                 bencher.iter(|| body_from_mesh(black_box(mesh), detail).expect("a knot is a body"));
             });
         }

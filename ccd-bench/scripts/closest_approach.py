@@ -22,14 +22,8 @@ import tempfile
 from pathlib import Path
 
 import peers
+from cost import pairs
 
-PAIRS = """knot2880 knot2880 knots
-knot11520 knot11520 knots
-knot34560 knot34560 knots
-ring ring rings
-bunny70k bunny70k bunnies
-bunny26k bunny26k bunnies
-santa board santa"""
 TOLERANCE = 1e-3
 # The rounding of distances and poses at coordinates of some units.
 ROUNDING = 1e-9
@@ -50,8 +44,7 @@ def main():
     ccd = os.environ.get("CCD", str(default))
     print("pair,rows,apart,wrong,largest_width,least_slack,largest_slack", flush=True)
     wrong = 0
-    for line in PAIRS.splitlines():
-        a, b, motions = line.split()
+    for _, a, b, motions in pairs():
         wrong += check(ccd, options, out, a, b, motions)
     sys.exit(wrong > 0)
 

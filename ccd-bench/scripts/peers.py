@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Runs the queries of `ccd query` with Coal and FCL, through their Python packages.
+"""Answers queries with Coal and FCL, through their Python packages, as `ccd-bench answer` does.
 
-A scene is a folder in SCENES_DIR with `motions.csv` (the columns of `ccd query`) and the meshes `a.obj`
-and `b.obj` (without the second, A meets itself). Methods:
+    peers.py answer --method fcl-ca --a A.obj --b B.obj --tolerance 1e-3
 
-  coal-distance  one static distance at the start, the least cost of any method; its row has the status
-                 `static` and no time
+It is for `--peers` of `ccd-bench chart`, `stability` and `judge`, which stop it at a time limit. It writes `ready`,
+or `refused: ` and a reason; then it reads a line of 33 numbers for each query, and writes a line of
+time,status,steps,micros and two empty cells. Methods:
+
+  coal-distance  one static distance at the start, the least cost of any method; the status is `static`
   coal-steps     static collision tests at equal steps, such that no point moves farther than the tolerance
                  in a step. It reports the first test that collides, so contacts are late by up to a step,
-                 and grazing contacts are missed. There are at most --cap tests: longer motions have
+                 and grazing contacts are missed. There are at most CAP tests: longer motions have
                  longer steps
   fcl-ca         FCL's continuousCollide, conservative advancement
   fcl-naive      FCL's continuousCollide, tests at equal steps, as many as for coal-steps
@@ -24,94 +26,36 @@ Known faults of fcl-ca on meshes: boxes that fall flat onto each other are repor
 motions are added with their signs, so that they cancel), and contacts of turning boxes are early. `toc_err`
 does not change this. Apart from their steps, coal-steps and fcl-naive have no known faults.
 
-The columns of OUT are scene,method,tolerance,id,micros,steps,status,time. `micros` is the time of the calls
-alone, including Python's overhead (about a microsecond per call). `steps` counts tests, or stretches for
-fcl-ca. `status` is contact, free, static, `cut off` (--patience exceeded) or died. `time` is in the motion's unit of time.
+`micros` is the time of the calls alone, including Python's overhead (about a microsecond per call). `steps` counts
+tests, or stretches for fcl-ca. `time` is in the motion's unit of time.
 """
 import argparse
 import csv
 import math
-import multiprocessing
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
 
-ASKED = ["coal-steps", "fcl-ca", "fcl-naive"]
+METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
 # The count of numbers for a motion on a line of standard input.
 COLUMNS = "px py pz qx qy qz qw vx vy vz wx wy wz cx cy cz"
-METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
-EXAMPLE = """example:
-  scripts/peers.py scenes peers.csv --tolerance 1e-2 1e-3 --rows 20 --patience 10
-
-`scripts/peers.py answer --method fcl-ca --a A.obj --b B.obj --tolerance 1e-3` is for other programs: it reads
-queries from standard input and replies to each, as `ccd-bench answer` does."""
+# The largest number of tests of a query.
+CAP = 100_000
 # The largest rotation of a segment, because FCL rotates the shorter way.
 LONGEST_TURN = 0.9 * math.pi
-# The seconds that a worker may take to load its meshes.
-LOADING = 120
 
 
 def main():
-    if sys.argv[1:2] == ["answer"]:
-        return answer(sys.argv[2:])
-    parser = argparse.ArgumentParser(
-        description=__doc__, epilog=EXAMPLE, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("scenes", type=Path, metavar="SCENES_DIR")
-    parser.add_argument("out", type=Path, metavar="OUT.csv")
-    parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-3], metavar="LENGTH")
-    parser.add_argument("--methods", nargs="+", choices=METHODS, default=METHODS)
-    parser.add_argument("--rows", type=int, help="only the first ROWS rows of each scene")
-    parser.add_argument("--cap", type=int, default=100_000, help="the largest number of tests of a query [100000]")
-    parser.add_argument("--patience", type=float, default=30, help="seconds a query may take [30]")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("command", choices=["answer"])
+    parser.add_argument("--method", choices=METHODS, required=True)
+    parser.add_argument("--a", type=Path, required=True, metavar="MESH")
+    parser.add_argument("--b", type=Path, required=True, metavar="MESH")
+    parser.add_argument("--tolerance", type=float, required=True, metavar="LENGTH")
+    parser.add_argument("--margin", type=float, default=0, metavar="LENGTH")
     options = parser.parse_args()
-    if not all(t > 0 for t in options.tolerance) or options.cap < 1:
-        parser.error("tolerances and the cap are positive")
-    folders = sorted(path.parent for path in options.scenes.glob("*/motions.csv"))
-    if not folders:
-        parser.error(f"{options.scenes} holds no folder with a motions.csv")
-    with options.out.open("w", newline="") as file:
-        out = csv.writer(file)
-        out.writerow(["scene", "method", "tolerance", "id", "micros", "steps", "status", "time"])
-        for folder in folders:
-            for method in options.methods:
-                # The static query has no tolerance.
-                tolerances = options.tolerance[:1] if method == "coal-distance" else options.tolerance
-                for tolerance in tolerances:
-                    run(folder, method, tolerance, options, out)
-                    file.flush()
-
-
-def run(folder, method, tolerance, options, out):
-    """Runs all rows of a scene by one method. A query that hangs is cut off, and the worker is restarted."""
-    rows = read_motions(folder / "motions.csv")[: options.rows]
-    worker = None
-    for row in rows:
-        if worker is None:
-            worker = Worker(folder, method)
-        answer = worker.ask((row, tolerance, options.cap), options.patience)
-        if answer is None or isinstance(answer, str):
-            worker.stop()
-            worker = None
-            answer = (options.patience * 1e6, 0, answer or "cut off", "")
-        micros, steps, status, when = answer
-        out.writerow([folder.name, method, tolerance, row["id"], f"{micros:.3f}", steps, status, when])
-    if worker is not None:
-        worker.stop()
-
-
-def answer(arguments):
-    """Answers lines of 33 numbers each: the start, velocity, spin and centre of A and of B, and the duration."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--method", choices=ASKED)
-    parser.add_argument("--a", type=Path)
-    parser.add_argument("--b", type=Path)
-    parser.add_argument("--tolerance", type=float)
-    parser.add_argument("--margin", type=float, default=0)
-    parser.add_argument("--cap", type=int, default=100_000)
-    options = parser.parse_args(arguments)
     if options.margin:
         print("refused: the method keeps no margin", flush=True)
         return
@@ -120,49 +64,8 @@ def answer(arguments):
     columns = [f"{letter}_{name}" for letter in "ab" for name in COLUMNS.split()] + ["duration"]
     for line in sys.stdin:
         row = dict(zip(columns, line.split()))
-        micros, steps, status, when = ask(bodies, row, options.tolerance, options.cap)
+        micros, steps, status, when = ask(bodies, row, options.tolerance)
         print(f"{when or 0},{status},{steps},{micros},,", flush=True)
-
-
-class Worker:
-    """A process with one method and its meshes loaded."""
-
-    def __init__(self, folder, method):
-        self.pipe, theirs = multiprocessing.Pipe()
-        self.process = multiprocessing.Process(target=work, args=(theirs, folder, method), daemon=True)
-        self.process.start()
-        theirs.close()
-        if not self.pipe.poll(LOADING) or self.receive() != "ready":
-            self.stop()
-            sys.exit(f"{folder}: {method} does not start")
-
-    def ask(self, question, patience):
-        """Returns the answer, None if it exceeds the time limit, or `died`."""
-        try:
-            self.pipe.send(question)
-        except OSError:
-            return "died"
-        return self.receive() if self.pipe.poll(patience) else None
-
-    def receive(self):
-        try:
-            return self.pipe.recv()
-        except EOFError:
-            return "died"
-
-    def stop(self):
-        self.process.kill()
-        self.process.join()
-
-
-def work(pipe, folder, method):
-    a = folder / "a.obj"
-    b = folder / "b.obj"
-    bodies, ask = opened(method, a, b if b.exists() else a)
-    pipe.send("ready")
-    while True:
-        row, tolerance, cap = pipe.recv()
-        pipe.send(ask(bodies, row, tolerance, cap))
 
 
 def opened(method, a, b):
@@ -214,9 +117,9 @@ class Query:
         )
         self.way = (np.linalg.norm(self.a.velocity - self.b.velocity) + turning) * self.duration
 
-    def tests(self, tolerance, cap):
+    def tests(self, tolerance):
         """Returns the number of steps that move no point by more than the tolerance."""
-        return int(min(max(math.ceil(self.way / tolerance), 1), cap))
+        return int(min(max(math.ceil(self.way / tolerance), 1), CAP))
 
 
 class Coal:
@@ -244,7 +147,7 @@ class Coal:
         turn = matrix(rotation)
         return self.coal.Transform3s(turn, centre - turn @ motion.centre)
 
-    def distance(self, row, _tolerance, _cap):
+    def distance(self, row, _tolerance):
         query = Query(row, self.reach)
         a, b = self.pose(query.a, 0), self.pose(query.b, 0)
         request, result = self.coal.DistanceRequest(), self.coal.DistanceResult()
@@ -252,9 +155,9 @@ class Coal:
         self.coal.distance(self.a, a, self.b, b, request, result)
         return (time.perf_counter() - begin) * 1e6, 1, "static", ""
 
-    def steps(self, row, tolerance, cap):
+    def steps(self, row, tolerance):
         query = Query(row, self.reach)
-        count = query.tests(tolerance, cap)
+        count = query.tests(tolerance)
         request, spent = self.coal.CollisionRequest(), 0.0
         for k in range(count + 1):
             when = query.duration * k / count
@@ -289,18 +192,18 @@ class Fcl:
             self.models[key] = model
         return self.models[key]
 
-    def advance(self, row, tolerance, cap):
-        return self.collide(row, tolerance, cap, self.fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT)
+    def advance(self, row, tolerance):
+        return self.collide(row, tolerance, self.fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT)
 
-    def sample(self, row, tolerance, cap):
-        return self.collide(row, tolerance, cap, self.fcl.CCDSolverType.CCDC_NAIVE)
+    def sample(self, row, tolerance):
+        return self.collide(row, tolerance, self.fcl.CCDSolverType.CCDC_NAIVE)
 
-    def collide(self, row, tolerance, cap, solver):
+    def collide(self, row, tolerance, solver):
         query = Query(row, self.reach)
         motions = [query.a, query.b]
         turn = max(np.linalg.norm(motion.spin) for motion in motions) * query.duration
         stretches = max(1, math.ceil(turn / LONGEST_TURN))
-        tests = max(1, math.ceil(query.tests(tolerance, cap) / stretches))
+        tests = max(1, math.ceil(query.tests(tolerance) / stretches))
         request = self.fcl.ContinuousCollisionRequest(
             num_max_iterations=tests,
             toc_err=1.0 / tests,

@@ -10,7 +10,7 @@ pub mod wire;
 use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, screw};
 use crate::method::script::ScriptKind;
-use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use crate::method::solver::{Claim, Reply, Solver};
 use crate::scene::Pieces;
 use ccd_core::Answer;
 use ccd_core::{InputError, Instructions, Outcome, Settings};
@@ -34,15 +34,19 @@ pub enum Method {
 }
 
 /// The published rivals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum RivalKind {
     /// Continuous tests of oriented boxes.
+    #[value(name = "CONTACT")]
     Contact,
     /// Adaptive bisection.
+    #[value(name = "Dynamic Collision Checker")]
     DynamicChecker,
     /// Controlled conservative advancement.
+    #[value(name = "C2A")]
     C2a,
     /// Static tests at equal steps.
+    #[value(name = "discrete stepping")]
     Stepping,
 }
 
@@ -55,12 +59,11 @@ pub enum MotionKind {
     Screw,
 }
 
-const RIVALS: [RivalKind; 4] = [
-    RivalKind::Contact,
-    RivalKind::DynamicChecker,
-    RivalKind::C2a,
-    RivalKind::Stepping,
-];
+/// Returns the name of a value on the command line and in the tables.
+pub(crate) fn name_of(value: &impl ValueEnum) -> String {
+    let name = value.to_possible_value();
+    name.map_or_else(String::new, |name| name.get_name().to_owned())
+}
 
 impl Method {
     /// Returns all methods that this program runs, the default kind first.
@@ -82,37 +85,37 @@ impl Method {
             (kind(best, OracleKind::Direct), Pieces::ApproximateHulls),
         ];
         let ours = ours.map(|(kind, pieces)| Method::Ours(kind, pieces));
-        let rivals = RIVALS.map(Method::Rival);
-        let peers = PeerKind::ALL.into_iter().map(Method::Peer);
+        let rivals = RivalKind::value_variants()
+            .iter()
+            .copied()
+            .map(Method::Rival);
+        let peers = PeerKind::all().map(Method::Peer);
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
     /// Returns all combinations of this project's schedules, oracles, pieces and bounds, except for pieces on
     /// which a schedule falls back to another.
     pub fn combinations() -> Vec<Method> {
-        let mut all = Vec::new();
-        for &schedule in ScheduleKind::value_variants() {
-            let bounds = if schedule.uses_a_bound() {
+        let with_bounds = |kind: SolverKind| {
+            let bounds = if kind.schedule.uses_a_bound() {
                 BoundKind::value_variants()
             } else {
                 &[BoundKind::Sound]
             };
-            let pieces: &[Pieces] = if schedule.uses_hull_trees() {
+            bounds
+                .iter()
+                .map(move |&bound| SolverKind { bound, ..kind })
+        };
+        let on_pieces = |kind: SolverKind| {
+            let pieces: &[Pieces] = if kind.schedule.uses_hull_trees() {
                 &[Pieces::Patches]
             } else {
                 &Pieces::ALL
             };
-            for &oracle in OracleKind::value_variants() {
-                let kinds = bounds.iter().map(|&bound| SolverKind {
-                    schedule,
-                    oracle,
-                    bound,
-                });
-                let pairs = kinds.flat_map(|kind| pieces.iter().map(move |&of| (kind, of)));
-                all.extend(pairs.map(|(kind, of)| Method::Ours(kind, of)));
-            }
-        }
-        all
+            pieces.iter().map(move |&of| Method::Ours(kind, of))
+        };
+        let kinds = SolverKind::all().flat_map(with_bounds);
+        kinds.flat_map(on_pieces).collect()
     }
 
     /// Returns FAST as published, whose bound does not hold over a step, so that its answers may be late.
@@ -125,11 +128,20 @@ impl Method {
         Method::Ours(kind, Pieces::Patches)
     }
 
+    /// Returns all methods that a script runs.
+    pub fn of_scripts() -> impl Iterator<Item = Method> {
+        ScriptKind::value_variants()
+            .iter()
+            .copied()
+            .map(Method::Script)
+    }
+
     /// Returns the method with a name.
     pub fn named(name: &str) -> Option<Method> {
-        let hidden = [PeerKind::Hanging, PeerKind::Dying].map(Method::Peer);
-        let more = hidden.into_iter().chain(Method::combinations());
-        let more = more.chain(ScriptKind::ALL.map(Method::Script));
+        let peers = PeerKind::value_variants().iter().copied().map(Method::Peer);
+        let more = peers
+            .chain(Method::combinations())
+            .chain(Method::of_scripts());
         let mut all = Method::all().into_iter().chain(more);
         all.find(|method| method.to_string() == name)
     }
@@ -139,8 +151,9 @@ impl Method {
     pub fn takes_tolerances(self) -> bool {
         match self {
             Method::Ours(..) => !self.is_model(),
-            Method::Rival(_) | Method::Script(_) => true,
+            Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
+            Method::Script(kind) => kind != ScriptKind::CoalDistance,
         }
     }
 
@@ -183,12 +196,12 @@ impl MotionKind {
 
 impl RivalKind {
     /// Returns a solver of this kind on two meshes.
-    pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Box<dyn Adjustable> {
+    pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh) -> Box<dyn Solver> {
         match self {
-            RivalKind::Contact => Box::new(Contact::new(a, b, tolerance)),
-            RivalKind::DynamicChecker => Box::new(DynamicChecker::new(a, b, tolerance)),
-            RivalKind::C2a => Box::new(C2a::new(a, b, tolerance)),
-            RivalKind::Stepping => Box::new(Stepping::new(a, b, tolerance)),
+            RivalKind::Contact => Box::new(Contact::new(a, b)),
+            RivalKind::DynamicChecker => Box::new(DynamicChecker::new(a, b)),
+            RivalKind::C2a => Box::new(C2a::new(a, b)),
+            RivalKind::Stepping => Box::new(Stepping::new(a, b)),
         }
     }
 }
@@ -214,31 +227,30 @@ pub struct Ours<'s> {
     bodies: Bodies<'s>,
     kind: SolverKind,
     solver: Box<dyn Solve>,
-    config: Settings,
+    margin: f64,
 }
 
 impl<'s> Ours<'s> {
-    /// Returns a solver of the given kind on two bodies.
-    pub fn new(kind: SolverKind, bodies: Bodies<'s>, config: Settings) -> Self {
+    /// Returns a solver of the given kind on two bodies that are to keep a margin.
+    pub fn new(kind: SolverKind, bodies: Bodies<'s>, margin: f64) -> Self {
         Ours {
             bodies,
             kind,
             solver: kind.solver(Instructions::Best),
-            config,
+            margin,
         }
-    }
-}
-
-impl Adjustable for Ours<'_> {
-    fn set_tolerance(&mut self, tolerance: f64) {
-        self.config.tolerance = tolerance;
     }
 }
 
 impl Solver for Ours<'_> {
     /// Answers a query; steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
-    fn answer(&mut self, query: &Motions) -> Reply {
-        let answer = match first_contact(self.bodies, query, &self.config, self.solver.as_mut()) {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
+        let settings = Settings {
+            tolerance,
+            margin: self.margin,
+            ..Settings::DEFAULT
+        };
+        let answer = match first_contact(self.bodies, query, &settings, self.solver.as_mut()) {
             Ok(answer) => answer,
             // An invalid query is not answered.
             Err(error) => {
@@ -289,12 +301,9 @@ impl fmt::Display for Method {
                     (Pieces::ApproximateHulls, _) => f.write_str(" over hulls"),
                 }
             }
-            Method::Rival(RivalKind::Contact) => f.write_str("CONTACT"),
-            Method::Rival(RivalKind::DynamicChecker) => f.write_str("Dynamic Collision Checker"),
-            Method::Rival(RivalKind::C2a) => f.write_str("C2A"),
-            Method::Rival(RivalKind::Stepping) => f.write_str("discrete stepping"),
-            Method::Peer(kind) => f.write_str(kind.name()),
-            Method::Script(kind) => f.write_str(kind.name()),
+            Method::Rival(kind) => f.write_str(&name_of(kind)),
+            Method::Peer(kind) => f.write_str(&name_of(kind)),
+            Method::Script(kind) => f.write_str(&name_of(kind)),
         }
     }
 }

@@ -2,16 +2,15 @@
 
 mod listing;
 pub mod model;
-mod shots;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use listing::{Listing, listings};
-pub use shots::{Shots, drops_past_board};
 
-use crate::scene::model::{Model, Origin};
-use ccd_core::{Body, InputError};
-use ccd_decomp::{BodyError, Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
+use crate::scene::model::Model;
+use anyhow::{Context, Result};
+use ccd_core::Body;
+use ccd_decomp::{Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::batch::Bodies;
 use rigid_ccd::table::motions::Motions;
 use std::collections::HashMap;
@@ -23,8 +22,6 @@ use std::sync::{Arc, OnceLock};
 pub struct Scene {
     /// The name.
     pub name: String,
-    /// The figure of the paper that shows it.
-    pub figure: Option<u8>,
     /// Body A.
     pub a: SceneBody,
     /// Body B.
@@ -38,18 +35,9 @@ pub struct Scene {
 pub struct SceneBody {
     /// The body, made of the fewest exact pieces.
     pub body: Arc<Body>,
-    /// The origin of its mesh.
-    pub origin: Origin,
     mesh: Arc<TriangleMesh>,
-    others: Arc<Others>,
-}
-
-/// The same body made of other pieces. Each is made on first use; `None` if it cannot be made.
-#[derive(Debug, Default)]
-struct Others {
-    triangles: OnceLock<Option<Body>>,
-    patches: OnceLock<Option<Body>>,
-    hulls: OnceLock<Option<Body>>,
+    /// The same body made of other pieces, each made on first use; `None` if it cannot be made.
+    others: Arc<[OnceLock<Option<Body>>; Pieces::ALL.len()]>,
 }
 
 /// The kind of pieces of a body.
@@ -64,16 +52,6 @@ pub enum Pieces {
     Patches,
     /// Convex hulls of parts, which may extend beyond the body.
     ApproximateHulls,
-}
-
-impl Pieces {
-    /// All kinds.
-    pub const ALL: [Pieces; 4] = [
-        Pieces::Least,
-        Pieces::Triangles,
-        Pieces::Patches,
-        Pieces::ApproximateHulls,
-    ];
 }
 
 /// The largest number of approximate hulls of a body.
@@ -93,18 +71,24 @@ impl SceneBody {
     /// Returns the same body made of the given pieces, which are made on first use, or `None` if
     /// the mesh does not allow them.
     pub fn body_of(&self, pieces: Pieces) -> Option<&Body> {
-        let others = match pieces {
-            Pieces::Least => return Some(&self.body),
-            Pieces::Triangles => &self.others.triangles,
-            Pieces::Patches => &self.others.patches,
-            Pieces::ApproximateHulls => &self.others.hulls,
-        };
-        let made = others.get_or_init(|| pieces.body_of(&self.mesh).ok());
-        made.as_ref()
+        if pieces == Pieces::Least {
+            return Some(&self.body);
+        }
+        let made = &self.others[pieces as usize];
+        made.get_or_init(|| pieces.body_of(&self.mesh).ok())
+            .as_ref()
     }
 }
 
 impl Pieces {
+    /// All kinds.
+    pub const ALL: [Pieces; 4] = [
+        Pieces::Least,
+        Pieces::Triangles,
+        Pieces::Patches,
+        Pieces::ApproximateHulls,
+    ];
+
     /// Makes the body of a mesh.
     ///
     /// # Errors
@@ -122,31 +106,6 @@ impl Pieces {
             Pieces::Least | Pieces::Triangles | Pieces::ApproximateHulls => model.body(),
         }
     }
-}
-
-/// A scene cannot be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SceneError {
-    /// A model cannot be made into a body.
-    #[error("model {name}: {source}")]
-    Model {
-        /// The model's name.
-        name: &'static str,
-        /// The cause.
-        source: BodyError,
-    },
-    /// A motion is invalid.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// The data of the scenes is invalid.
-    #[error("{what}: {problem}")]
-    Data {
-        /// The part that is invalid.
-        what: String,
-        /// The problem.
-        problem: String,
-    },
 }
 
 /// The bodies of models, each made once.
@@ -192,21 +151,17 @@ impl Models {
     ///
     /// # Errors
     /// If the model's file is no mesh that a body can be made of.
-    pub fn body(&mut self, model: Model) -> Result<SceneBody, SceneError> {
+    pub fn body(&mut self, model: Model) -> Result<SceneBody> {
         if let Some(body) = self.bodies.get(&model) {
             return Ok(body.clone());
         }
-        let name = model.name();
-        let failed = |source: BodyError| SceneError::Model { name, source };
-        let loaded = model
-            .load(self.directory.as_deref())
-            .map_err(|error| failed(error.into()))?;
-        let prepared =
-            body_from_mesh(&loaded.mesh, Detail::Auto).map_err(|error| failed(error.into()))?;
+        let of_model = || format!("model {}", model.name());
+        let mesh = model.load(self.directory.as_deref());
+        let mesh = mesh.with_context(of_model)?;
+        let prepared = body_from_mesh(&mesh, Detail::Auto).with_context(of_model)?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
-            origin: loaded.origin,
-            mesh: Arc::new(loaded.mesh),
+            mesh: Arc::new(mesh),
             others: Arc::default(),
         };
         self.bodies.insert(model, body.clone());

@@ -18,8 +18,8 @@ mod summary;
 mod survey;
 
 pub use families::families;
-pub use family::{Case, Expected, Family, Step, StepError};
+pub use family::{Case, Expected, Family, Step};
 pub use findings::Findings;
 pub use judge::judge;
 pub use summary::{growth_map, limits, reach_map, summary};
-pub use survey::{Extent, Survey, SurveyError};
+pub use survey::Survey;

@@ -177,28 +177,31 @@ impl<'a> Query<'a> {
         settings: &'a Settings,
     ) -> Result<Self, InputError> {
         let (a, b, terms) = (a.into(), b.into(), settings.terms());
-        let problem = match (a.movement, b.movement) {
-            (Movement::Motion(of_a), Movement::Motion(of_b)) => {
-                let bodies = [(a.body, of_a), (b.body, of_b)];
-                Some(Problem::new(bodies, duration, &terms)?)
-            }
-            _ => {
-                terms.check(duration)?;
-                check(
-                    "duration",
-                    duration,
-                    duration <= MAX_DURATION,
-                    "at most 1e50 along trajectories",
-                )?;
-                None
-            }
-        };
+        // One expression for each case: a problem is large, and is not moved again.
+        if let (Movement::Motion(of_a), Movement::Motion(of_b)) = (a.movement, b.movement) {
+            let bodies = [(a.body, of_a), (b.body, of_b)];
+            let problem = Problem::new(bodies, duration, &terms)?;
+            return Ok(Query {
+                a,
+                b,
+                duration,
+                terms,
+                problem: Some(problem),
+            });
+        }
+        terms.check(duration)?;
+        check(
+            "duration",
+            duration,
+            duration <= MAX_DURATION,
+            "at most 1e50 along trajectories",
+        )?;
         Ok(Query {
             a,
             b,
             duration,
             terms,
-            problem,
+            problem: None,
         })
     }
 

@@ -4,15 +4,15 @@
 //! The README of this folder has the scene that needs each of them, and what it saves there.
 
 pub(crate) mod approach;
+pub(crate) mod balls;
+pub(crate) mod boxes;
 pub(crate) mod closer_look;
-mod flat_pair;
-pub(crate) mod out_of_reach;
+mod flat_nodes;
 mod placed;
-pub(crate) mod roots;
 pub(crate) mod rounds;
 pub(crate) mod screw;
-pub(crate) mod sweeping_node;
-pub(crate) mod sweeping_piece;
+pub(crate) mod turning_nodes;
+pub(crate) mod turning_pieces;
 
 /// A shortcut of the search, which can be turned off to measure its benefit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

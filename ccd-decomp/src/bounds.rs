@@ -1,9 +1,10 @@
-//! Axis-aligned boxes.
+//! Axis-aligned boxes, and trees of them.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
 /// An axis-aligned box; touching counts as meeting.
 #[derive(Clone, Copy, Debug)]
@@ -38,14 +39,45 @@ impl Bounds {
         (self.lo.cmple(other.hi) & other.lo.cmple(self.hi)).all()
     }
 
-    pub(crate) fn as_aabb(self) -> Aabb {
-        let vector = |p: DVec3| Vector::new(p.x, p.y, p.z);
-        Aabb::new(vector(self.lo), vector(self.hi))
-    }
-
     /// Returns the distance of a point from the box, up to rounding; 0 inside.
     pub(crate) fn distance(&self, point: DVec3) -> f64 {
         let beyond = (self.lo - point).max(point - self.hi).max(DVec3::ZERO);
         greater(beyond.length(), 0.0)
     }
 }
+
+/// Boxes, to be searched by box.
+pub(crate) struct BoundsTree {
+    bounds: Vec<Bounds>,
+    bvh: Bvh,
+}
+
+impl BoundsTree {
+    /// O(n log n).
+    pub(crate) fn new(bounds: Vec<Bounds>) -> Self {
+        let boxes: Vec<Aabb> = bounds.iter().map(aabb).collect();
+        let bvh = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+        BoundsTree { bounds, bvh }
+    }
+
+    /// Returns a box by its index.
+    pub(crate) fn get(&self, index: u32) -> &Bounds {
+        &self.bounds[index as usize]
+    }
+
+    /// Calls `holds` for the index of every box that meets a box, until it returns false. Returns whether all results
+    /// were true.
+    pub(crate) fn all_meeting(&self, bounds: &Bounds, mut holds: impl FnMut(u32) -> bool) -> bool {
+        let aabb = aabb(bounds);
+        let mut near = self.bvh.intersect_aabb(&aabb);
+        near.all(|index| !self.get(index).meets(bounds) || holds(index))
+    }
+}
+
+fn aabb(bounds: &Bounds) -> Aabb {
+    let vector = |p: DVec3| Vector::new(p.x, p.y, p.z);
+    Aabb::new(vector(bounds.lo), vector(bounds.hi))
+}
+
+#[cfg(test)]
+mod tests;

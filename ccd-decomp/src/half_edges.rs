@@ -30,6 +30,15 @@ impl Use {
         self.0 as u32 >> 1
     }
 
+    pub(crate) fn face(self) -> u32 {
+        self.half_edge() / 3
+    }
+
+    /// Returns 1 if the half-edge runs from the lower end to the upper, else −1.
+    pub(crate) fn direction(self) -> i32 {
+        if self.is_backward() { -1 } else { 1 }
+    }
+
     /// Returns whether the half-edge runs from the upper end to the lower.
     pub(crate) fn is_backward(self) -> bool {
         self.0 & 1 == 1

@@ -55,7 +55,7 @@
 //! | `solid` | whether a mesh bounds a solid: edges, shells, intersecting faces, [`DecomposeError`] |
 //! | `mesh` | triangle meshes: file formats, repairs, [`MeshError`] |
 //! | `search` | trees of oriented boxes over triangles |
-//! | `hull` | convex hulls of points, proven, [`HullError`] |
+//! | `hull` | convex hulls of points, exact, [`HullError`] |
 //! | `exact` | exact predicates |
 //! | `tolerance`, `work`, `tally`, `bounds`, `half_edges`, `disjoint_sets`, `messages` | constants, budgets, counts, boxes, edges, sets, error messages |
 

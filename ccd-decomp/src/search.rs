@@ -13,13 +13,12 @@ mod oriented_box;
 mod planes;
 pub(crate) mod region;
 
+use crate::bounds::BoundsTree;
 use crate::work::Work;
 use box_tree::BoxTree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use fans::{Fan, split};
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use region::Region;
 
 /// Trees of boxes over triangles, to search by region. Boxes are oriented like the triangles, so that those of adjacent
@@ -28,17 +27,16 @@ pub(crate) struct TriangleBoxes {
     single: BoxTree,
     fans: Vec<Fan>,
     /// The boxes of the fans.
-    bvh: Bvh,
+    bounds: BoundsTree,
 }
 
 impl TriangleBoxes {
     /// Builds the trees. O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let (single, fans) = split(points, faces);
-        let boxes: Vec<Aabb> = fans.iter().map(|fan| fan.bounds().as_aabb()).collect();
         TriangleBoxes {
             single: BoxTree::of_faces(points, faces, single),
-            bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+            bounds: BoundsTree::new(fans.iter().map(Fan::bounds).collect()),
             fans,
         }
     }
@@ -57,12 +55,9 @@ impl TriangleBoxes {
         if !self.single.all_meeting(region, work, &mut holds) {
             return false;
         }
-        let aabb = region.bounds().as_aabb();
-        let mut near = self.bvh.intersect_aabb(&aabb);
-        near.all(|fan| {
+        self.bounds.all_meeting(region.bounds(), |fan| {
             let fan = &self.fans[fan as usize];
-            !fan.bounds().meets(region.bounds())
-                || work.spend(1) && fan.all_meeting(region.shape(), work, &mut holds)
+            work.spend(1) && fan.all_meeting(region.shape(), work, &mut holds)
         })
     }
 

@@ -89,8 +89,7 @@ pub(crate) const MOST_PARTS: u32 = 512;
 
 /// The number of points of a part used to estimate the cost of merging.
 ///
-/// Unit: points. At most half of [`LIKELY_POINTS`]. More: hardly better choices, and time that grows with
-/// their square.
+/// Unit: points. More: hardly better choices, and more time.
 pub(crate) const PRICED_POINTS: u32 = 96;
 
 /// The maximum accepted excess of hulls, in units of half the mesh's diagonal.
@@ -156,16 +155,9 @@ pub(crate) const LENGTHS: f64 = 16.0;
 /// Number of direction bins per unit of each coordinate of a unit vector.
 pub(crate) const DIRECTIONS: f64 = 64.0;
 
-/// The maximum number of points for the library's hull, which is then proven.
-///
-/// Unit: points. The library's time and memory grow with their square: a hull of 625 corners on a circle and two
-/// on its axis took 380 MB.
-pub(crate) const LIBRARY_POINTS: usize = 64;
-
 /// The maximum number of points for the incremental hull without a conflict graph.
 ///
-/// Unit: points. More: the time grows with their square. Fewer: the library takes three to ten times as long, and
-/// fails on many that are coplanar.
+/// Unit: points. More: the time grows with their square. Fewer: the graph takes more time than it saves.
 pub(crate) const FEW_POINTS: usize = 32;
 
 /// The minimum number of pieces to build the two sides of a hull tree node in parallel.
@@ -224,11 +216,6 @@ pub(crate) const UNPACKED: u64 = 1 << 24;
 /// size.
 #[cfg(feature = "3mf")]
 pub(crate) const UNPACKED_RATIO: u64 = 128;
-
-/// The maximum number of points for the library's unproven hull, which only serves comparisons.
-///
-/// Unit: points. At this many the library's memory peaks at 60 MB.
-pub(crate) const LIKELY_POINTS: usize = 256;
 
 #[cfg(test)]
 mod tests;

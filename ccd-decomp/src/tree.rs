@@ -2,3 +2,4 @@
 
 pub(crate) mod hierarchy;
 pub(crate) mod hull_tree;
+mod slot;

@@ -241,30 +241,52 @@ fn history<O: DistanceOracle + Default>(count: usize) {
     laws::ignores_history::<O>(&scenes);
 }
 
-/// Tests that degenerate and infinite frames, and pieces without points, do not make the search hang or fail.
-#[test]
-fn nonsense_ends() {
-    fn law<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
-        let (mut oracle, mut cache) = (O::default(), O::Cache::default());
-        for _ in 0..3 {
-            if let Ok(claim) = oracle.separation(pair, &mut cache) {
-                assert!(
-                    claim
-                        .a
-                        .support()
-                        .iter()
-                        .all(|&k| (k as usize) < pair.a.points.len())
-                );
-                assert!(
-                    claim
-                        .b
-                        .support()
-                        .iter()
-                        .all(|&k| (k as usize) < pair.b.points.len())
-                );
+/// Checks that claims name points of the pieces.
+fn ends<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
+    let (mut oracle, mut cache) = (O::default(), O::Cache::default());
+    for _ in 0..3 {
+        if let Ok(claim) = oracle.separation(pair, &mut cache) {
+            for (named, piece) in [(claim.a, &pair.a), (claim.b, &pair.b)] {
+                let known = |&k: &u32| (k as usize) < piece.points.len();
+                assert!(named.support().iter().all(known), "{claim:?}");
             }
         }
     }
+}
+
+fn all_end(a: &[DVec3], b: &[DVec3], b_to_a: Frame) {
+    let (a, b) = (Piece::from_points(a), Piece::from_points(b));
+    for (a, b) in [(a, b), (b, a), (a, a)] {
+        let pair = PiecePair { a, b, b_to_a };
+        ends::<ClosedForm>(&pair);
+        ends::<Gjk>(&pair);
+        ends::<Direct>(&pair);
+    }
+}
+
+#[test]
+fn odd_coordinates_end() {
+    for seed in 0..cases() {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        for count in [1, 2, 3, 8, 20] {
+            let [a, b] = [count, 3].map(|count| scene::odd_points(&mut rng, count));
+            let translation = scene::odd_points(&mut rng, 1)[0];
+            all_end(&a, &b, Frame::IDENTITY);
+            all_end(
+                &a,
+                &b,
+                Frame {
+                    translation,
+                    ..Frame::IDENTITY
+                },
+            );
+        }
+    }
+}
+
+/// Tests that degenerate and infinite frames, and pieces without points, do not make a search hang or fail.
+#[test]
+fn nonsense_ends() {
     let mut rng = Pcg64::seed_from_u64(3);
     for count in [0, 1, 2, 3, 4, 20] {
         let (a, b) = (scene::points(&mut rng, count), scene::points(&mut rng, 3));
@@ -273,13 +295,7 @@ fn nonsense_ends() {
                 translation: DVec3::new(wrong, 0.0, -wrong),
                 rotation: wrong * DMat3::IDENTITY,
             };
-            let (a, b) = (Piece::from_points(&a), Piece::from_points(&b));
-            for (a, b) in [(a, b), (b, a)] {
-                let pair = PiecePair { a, b, b_to_a };
-                law::<ClosedForm>(&pair);
-                law::<Gjk>(&pair);
-                law::<Direct>(&pair);
-            }
+            all_end(&a, &b, b_to_a);
         }
     }
 }

@@ -79,7 +79,10 @@ impl Remark {
     /// # Complexity
     /// Linear in the body's points.
     pub fn size(body: &Body) -> f64 {
-        sides(corners(body)).to_array().into_iter().fold(0.0, greater)
+        sides(corners(body))
+            .to_array()
+            .into_iter()
+            .fold(0.0, greater)
     }
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their

@@ -96,11 +96,7 @@ impl Touch {
             motion: Motion::still(pose),
         };
         Touch {
-            query: Query {
-                a: still(shape_a, start),
-                b: still(shape_b, frame),
-                duration: 1.0,
-            },
+            query: Query::new(still(shape_a, start), still(shape_b, frame)),
             gap,
             size_of_support: a.size.max(b.size),
         }

@@ -146,11 +146,10 @@ fn bodies_that_slide_on_cut_ground_are_free() {
             rng.random_range(-1.0..1.0),
             0.0,
         );
-        let query = Query {
-            a: Actor::moving(solid(rng), at, velocity, turning),
-            b: Actor::still(ground, DVec3::ZERO),
-            duration: 1.0,
-        };
+        let query = Query::new(
+            Actor::moving(solid(rng), at, velocity, turning),
+            Actor::still(ground, DVec3::ZERO),
+        );
         let query = query.seen_from(&frame(rng));
         for query in [query.swapped(), query] {
             for_each_setup(&query, &leave(), |_, setup, answer| {
@@ -179,7 +178,7 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
         };
         let speed = rng.random_range(5.0..9.0);
         let query = Query {
-            a: Actor::moving(mover, at + 0.5 * DVec3::Z, speed * DVec3::X, DVec3::ZERO),
+            a: Actor::straight(mover, at + 0.5 * DVec3::Z, speed * DVec3::X),
             b: Actor::still(ground, DVec3::ZERO),
             duration: 2.0,
         };
@@ -288,7 +287,7 @@ fn sheets_within_one_plane_meet() {
         })
     };
     let query = Query {
-        a: Actor::moving(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X, DVec3::ZERO),
+        a: Actor::straight(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X),
         b: Actor::still(
             Shape::union([sheet(-1.0, 0.0), sheet(3.0, 4.0)]),
             DVec3::ZERO,

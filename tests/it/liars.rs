@@ -69,11 +69,10 @@ fn every_lie(case: &Case, count: impl Fn(&Answer)) -> Law {
 #[test]
 fn a_missing_oracle_is_reported() {
     let cube = || cuboid(DVec3::splat(0.5));
-    let query = Query {
-        a: Actor::still(cube(), DVec3::ZERO),
-        b: Actor::moving(cube(), 3.0 * DVec3::X, -4.0 * DVec3::X, DVec3::Z),
-        duration: 1.0,
-    };
+    let query = Query::new(
+        Actor::still(cube(), DVec3::ZERO),
+        Actor::moving(cube(), 3.0 * DVec3::X, -4.0 * DVec3::X, DVec3::Z),
+    );
     for bodies in query.all_bodies() {
         let problem = query.problem(&bodies, &Settings::DEFAULT);
         let answer = best_first().solve_with(&problem, &mut Liar::new(Lie::GivesUp));

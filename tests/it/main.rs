@@ -3,7 +3,6 @@
 //! `CCD_TEST_CASES` multiplies the number of random cases, and `CCD_TEST_SEED` picks other ones: the default is a
 //! sample, and ten times as many a search before a release. `CCD_TEST_SLOW` adds the scenes that take minutes.
 
-mod backends_agree;
 mod bad_inputs;
 mod circles;
 mod contact_normals;
@@ -12,7 +11,6 @@ mod decomposition;
 mod dense_hulls;
 mod equal_bits;
 mod exact;
-mod faulty_meshes;
 mod flat_ground;
 mod folds;
 mod generators;
@@ -26,7 +24,6 @@ mod motions;
 mod names;
 mod near_misses;
 mod never_late;
-mod oracle_contract;
 mod patch_liars;
 mod proven_bounds;
 mod published_bound;

@@ -36,16 +36,10 @@ fn random_cases_keep_any_margin() {
 
 #[test]
 fn a_falling_cube_stops_at_the_margin() {
-    let query = Query {
-        a: Actor::moving(
-            cuboid(DVec3::splat(0.5)),
-            3.0 * DVec3::Z,
-            -4.0 * DVec3::Z,
-            DVec3::ZERO,
-        ),
-        b: Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
-        duration: 1.0,
-    };
+    let query = Query::new(
+        Actor::straight(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z),
+        Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
+    );
     for margin in [0.0, 1e-3, 0.25, 1.5] {
         let config = Settings {
             margin,

@@ -10,11 +10,10 @@ use ccd_tests::query::{Actor, Query};
 /// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another; they touch at half time.
 fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
-    let query = Query {
-        a: Actor::moving(parallel_plate(cells), high, -DVec3::Z, DVec3::ZERO),
-        b: Actor::still(parallel_plate(cells), DVec3::ZERO),
-        duration: 1.0,
-    };
+    let query = Query::new(
+        Actor::straight(parallel_plate(cells), high, -DVec3::Z),
+        Actor::still(parallel_plate(cells), DVec3::ZERO),
+    );
     let config = Settings {
         tolerance,
         budget: u64::MAX,

@@ -83,11 +83,7 @@ fn the_referee_moves_bodies_as_the_engine_does() {
                 motion: Motion::about(start, sign * centre, sign * turn * axis, centre)
                     .expect("finite"),
             };
-            let query = Query {
-                a: moving(start_a, 1.0),
-                b: moving(start_b, -1.0),
-                duration: 1.0,
-            };
+            let query = Query::new(moving(start_a, 1.0), moving(start_b, -1.0));
             let [a, b] = Placement::pair(&query);
             for corner in &query.a.shape.mesh.vertices {
                 let seen = b.at(t, *corner) - a.at(t, *corner);

@@ -18,7 +18,7 @@ fn triangles_of_any_shape() {
 
 #[test]
 fn every_setup_of_any_shape() {
-    check_cases(150, cases(), every_setup);
+    check_cases(200, cases(), every_setup);
 }
 
 #[test]

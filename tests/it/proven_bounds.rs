@@ -5,7 +5,9 @@ use ccd_core::Moving;
 use ccd_core::Unresolved;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Contact, Motion, Outcome, Pose, Settings, Trajectory};
+use ccd_tests::checks::Law;
 use ccd_tests::courses::{self, KINDS};
+use ccd_tests::law;
 use ccd_tests::solids::Solid;
 use ccd_tests::strategies::seeds;
 use rand::{RngExt, SeedableRng};
@@ -19,17 +21,6 @@ const REACH: f64 = 2.0;
 
 /// The rounding error of distances and poses in this test: coordinates are below 32.
 const ROUNDING: f64 = 2e-14;
-
-type Law = Result<(), String>;
-
-macro_rules! law {
-    ($holds:expr, $($why:tt)*) => {{
-        let holds: bool = $holds;
-        if !holds {
-            return Err(format!($($why)*));
-        }
-    }};
-}
 
 /// Two solids on trajectories from time 0 to 1.
 struct Scene {

@@ -73,11 +73,10 @@ fn rods(rng: &mut Pcg64) -> Query {
         )
         .expect("finite velocities"),
     };
-    Query {
-        a: rod(DVec3::new(-2.5, 0.2, 0.1), 5.0 * DVec3::X, 3.0),
-        b: rod(DVec3::ZERO, DVec3::ZERO, 0.0),
-        duration: 1.0,
-    }
+    Query::new(
+        rod(DVec3::new(-2.5, 0.2, 0.1), 5.0 * DVec3::X, 3.0),
+        rod(DVec3::ZERO, DVec3::ZERO, 0.0),
+    )
 }
 
 #[test]

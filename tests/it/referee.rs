@@ -19,11 +19,10 @@ fn the_cuboids_in_the_distance_collide() {
 #[test]
 fn distances_of_boxes() {
     let gap = |offset: DVec3| {
-        let query = Query {
-            a: Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
-            b: Actor::still(cuboid(DVec3::splat(0.5)), offset),
-            duration: 1.0,
-        };
+        let query = Query::new(
+            Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
+            Actor::still(cuboid(DVec3::splat(0.5)), offset),
+        );
         Referee::new(&query).gap(0.0)
     };
     let close = |x: f64, y: f64| assert!((x - y).abs() < 1e-14, "{x} is not {y}");

@@ -104,10 +104,11 @@ fn touching_and_approaching_is_a_contact_at_once() {
 fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     let cube = || cuboid(DVec3::splat(0.5));
     for side in [DVec3::X, DVec3::Y, DVec3::Z] {
-        let dive = |velocity: DVec3| Query {
-            a: Actor::still(cube(), DVec3::ZERO),
-            b: Actor::moving(cube(), side, velocity, DVec3::ZERO),
-            duration: 1.0,
+        let dive = |velocity: DVec3| {
+            Query::new(
+                Actor::still(cube(), DVec3::ZERO),
+                Actor::straight(cube(), side, velocity),
+            )
         };
         for velocity in [-side, -side + 0.5 * DVec3::new(side.y, side.z, side.x)] {
             let query = dive(0.5 * velocity);
@@ -151,15 +152,15 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     for margin in [3.4e-3, 0.1] {
         for share in [1.0, 0.5, 1e-3, 0.0] {
             let gap = share * margin;
-            let at = |velocity: DVec3| Query {
-                a: Actor::still(floor.clone(), DVec3::ZERO),
-                b: Actor::moving(
-                    cuboid(half),
-                    DVec3::new(0.25, -0.97, half.z + gap),
-                    velocity,
-                    DVec3::ZERO,
-                ),
-                duration: 1.0,
+            let at = |velocity: DVec3| {
+                Query::new(
+                    Actor::still(floor.clone(), DVec3::ZERO),
+                    Actor::straight(
+                        cuboid(half),
+                        DVec3::new(0.25, -0.97, half.z + gap),
+                        velocity,
+                    ),
+                )
             };
             let across = DVec3::new(-1.12, 0.63, 0.0);
             let query = at(across);
@@ -199,11 +200,10 @@ fn a_liar_cannot_release_a_pair() {
         ],
         faces: vec![[0, 1, 2]],
     });
-    let query = Query {
-        a: Actor::still(floor, DVec3::ZERO),
-        b: Actor::moving(spike, DVec3::ZERO, -DVec3::Z, DVec3::ZERO),
-        duration: 1.0,
-    };
+    let query = Query::new(
+        Actor::still(floor, DVec3::ZERO),
+        Actor::straight(spike, DVec3::ZERO, -DVec3::Z),
+    );
     let bodies = query.triangles();
     let settings = leave(1e-3);
     let problem = query.problem(&bodies, &settings);
@@ -239,16 +239,10 @@ fn a_released_contact_may_come_back() {
     // It slides off to the side, against a post a unit away.
     let post = cuboid(DVec3::new(0.1, 1.0, 1.0)).moved(DVec3::new(-1.6, 0.0, 0.5));
     let slab = cuboid(DVec3::new(3.0, 3.0, 0.5)).moved(-0.5 * DVec3::Z);
-    let query = Query {
-        a: Actor::moving(
-            cuboid(DVec3::splat(0.5)),
-            0.5 * DVec3::Z,
-            -2.0 * DVec3::X,
-            DVec3::ZERO,
-        ),
-        b: Actor::still(Shape::union([slab, post]), DVec3::ZERO),
-        duration: 1.0,
-    };
+    let query = Query::new(
+        Actor::straight(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
+        Actor::still(Shape::union([slab, post]), DVec3::ZERO),
+    );
     outcomes(&query, &leave(1e-3), |outcome| match outcome {
         Outcome::Contact { time, .. } => (0.4995..=0.5).contains(&time),
         _ => false,

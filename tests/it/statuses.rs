@@ -8,11 +8,10 @@ use ccd_tests::query::{Actor, Query};
 use std::cell::Cell;
 
 fn query(a: Shape, b: Shape, at: DVec3) -> Query {
-    Query {
-        a: Actor::still(a, DVec3::ZERO),
-        b: Actor::moving(b, at, 0.1 * DVec3::X, DVec3::Z),
-        duration: 1.0,
-    }
+    Query::new(
+        Actor::still(a, DVec3::ZERO),
+        Actor::moving(b, at, 0.1 * DVec3::X, DVec3::Z),
+    )
 }
 
 fn outcomes(query: &Query, check: impl Fn(Outcome) -> bool) {
@@ -164,11 +163,10 @@ fn needles_that_cross_overlap() {
 fn bodies_far_smaller_than_the_tolerance_are_answered() {
     for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
         let away = DVec3::new(0.9, 0.01, 0.02) * tolerance;
-        let near = Query {
-            a: Actor::still(octahedron(size), DVec3::ZERO),
-            b: Actor::still(octahedron(size), away),
-            duration: 1.0,
-        };
+        let near = Query::new(
+            Actor::still(octahedron(size), DVec3::ZERO),
+            Actor::still(octahedron(size), away),
+        );
         let head_on = Query {
             b: Actor::moving(octahedron(size), 3.0 * away, -4.0 * away, DVec3::Z),
             ..near.clone()
@@ -279,13 +277,14 @@ fn a_cavity_is_outside() {
 
 #[test]
 fn nothing_moves() {
-    let at = |x: f64| Query {
-        a: Actor::still(cube(0.5), DVec3::ZERO),
-        b: Actor::still(
-            cube(0.5).placed(DQuat::from_rotation_z(0.3), DVec3::ZERO),
-            x * DVec3::X,
-        ),
-        duration: 1.0,
+    let at = |x: f64| {
+        Query::new(
+            Actor::still(cube(0.5), DVec3::ZERO),
+            Actor::still(
+                cube(0.5).placed(DQuat::from_rotation_z(0.3), DVec3::ZERO),
+                x * DVec3::X,
+            ),
+        )
     };
     outcomes(&at(3.0), |o| matches!(o, Outcome::Free { .. }));
     outcomes(&at(0.9), overlaps);

@@ -70,11 +70,7 @@ impl Scene {
         let [a, b] = actors;
         Scene {
             name: name.into(),
-            query: Query {
-                a,
-                b,
-                duration: 1.0,
-            },
+            query: Query::new(a, b),
             expect,
         }
     }

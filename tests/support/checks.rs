@@ -27,6 +27,7 @@ pub struct Judge<'a> {
 pub type Law = Result<(), String>;
 
 /// Returns an error with the reason unless the condition holds; comparisons with NaN do not hold.
+#[macro_export]
 macro_rules! law {
     ($holds:expr, $($why:tt)*) => {{
         let holds: bool = $holds;
@@ -35,8 +36,6 @@ macro_rules! law {
         }
     }};
 }
-
-use law;
 
 impl<'a> Judge<'a> {
     /// Runs the referee on a query.

@@ -3,7 +3,6 @@
 //! It shares no code with the code under test.
 
 mod blend;
-mod number;
 mod predicates;
 mod samples;
 
@@ -86,7 +85,7 @@ impl<'a> Solid<'a> {
         for &face in self.columns.faces_over(&p) {
             let triangle = self.mesh.triangle(face as usize);
             let top = greater(greater(triangle[0].z, triangle[1].z), triangle[2].z);
-            if top < p.near[2].lo || apart_from_above(triangle, &p) {
+            if top < p.near.z - p.rounding() || apart_from_above(triangle, &p) {
                 continue;
             }
             if holds(triangle, &p) {
@@ -108,7 +107,7 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
             lesser(lesser(a[axis], b[axis]), c[axis]),
             greater(greater(a[axis], b[axis]), c[axis]),
         );
-        p.near[axis].hi < lo || p.near[axis].lo > hi
+        p.near[axis] + p.rounding() < lo || p.near[axis] - p.rounding() > hi
     })
 }
 
@@ -186,7 +185,7 @@ impl Columns {
 
     /// Returns a superset of the faces that a point could be over, under or on.
     fn faces_over(&self, p: &Spot<'_>) -> &[u32] {
-        let [x, y] = self.cell_of(DVec2::new(p.near[0].lo, p.near[1].lo));
+        let [x, y] = self.cell_of(p.near.truncate());
         &self.faces[x * self.count + y]
     }
 }

@@ -5,7 +5,6 @@ pub mod analytic;
 pub mod backends;
 pub mod case;
 pub mod checks;
-pub mod contract;
 pub mod corpus;
 pub mod courses;
 mod distances;

@@ -1,6 +1,7 @@
 //! The laws of a convex patch of a closed surface, checked exactly: its hull is in the solid, its faces are on its
 //! hull, and its names are right.
 
+use crate::checks::Law;
 use crate::exact::{
     Blend, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
     triangle_holds,
@@ -10,9 +11,6 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Origin, Polytope};
 use std::cmp::Ordering;
 use std::collections::HashMap;
-
-/// `Ok` if the law holds, otherwise the reason why not.
-pub type Law = Result<(), String>;
 
 /// A convex patch: faces of a mesh, and the polytope that represents them.
 #[derive(Clone, Debug)]

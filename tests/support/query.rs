@@ -36,6 +36,12 @@ pub struct Bodies {
 }
 
 impl Query {
+    /// Returns the query over the unit of time.
+    pub fn new(a: Actor, b: Actor) -> Self {
+        let duration = 1.0;
+        Query { a, b, duration }
+    }
+
     /// Returns the query with the bodies' roles exchanged.
     pub fn swapped(&self) -> Query {
         Query {
@@ -132,6 +138,16 @@ impl Actor {
     /// Returns a shape at rest.
     pub fn still(shape: Shape, at: DVec3) -> Self {
         Actor::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
+    }
+
+    /// Returns a shape that moves without rotation.
+    pub fn straight(shape: Shape, at: DVec3, velocity: DVec3) -> Self {
+        Actor::moving(shape, at, velocity, DVec3::ZERO)
+    }
+
+    /// Returns a shape that rotates about its place.
+    pub fn turning(shape: Shape, at: DVec3, spin: DVec3) -> Self {
+        Actor::moving(shape, at, DVec3::ZERO, spin)
     }
 
     /// Returns a shape that starts unrotated at a position, with velocities.

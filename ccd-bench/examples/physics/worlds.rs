@@ -1,5 +1,6 @@
 //! Worlds in which fast bodies pass through each other without continuous collision detection.
 
+use crate::Method;
 use crate::bunny::bunny;
 use anyhow::Result;
 use ccd_core::glam::DVec3;
@@ -32,14 +33,6 @@ pub(crate) struct Simulated {
     pub(crate) is_fixed: bool,
 }
 
-/// The use of rapier's own continuous collision detection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Detection {
-    Off,
-    /// On for all bodies, and also between moving ones.
-    Full,
-}
-
 /// The distance that rapier keeps around each body. Bodies that rest on each other are farther apart than those that
 /// are stopped.
 const SKIN: f64 = 0.002;
@@ -52,11 +45,11 @@ impl World {
     pub(crate) const COUNT: usize = 3;
 
     /// Creates a world by its number.
-    pub(crate) fn new(number: usize, detection: Detection) -> Result<World> {
+    pub(crate) fn new(number: usize, method: Method) -> Result<World> {
         match number {
-            0 => bullets(detection),
-            1 => bunnies(detection),
-            _ => chain(detection),
+            0 => bullets(method),
+            1 => bunnies(method),
+            _ => chain(method),
         }
     }
 
@@ -65,15 +58,10 @@ impl World {
         (self.act)(self, step);
     }
 
-    fn empty(
-        name: &'static str,
-        detection: Detection,
-        thinnest: f64,
-        act: fn(&mut World, u32),
-    ) -> Self {
+    fn empty(name: &'static str, method: Method, thinnest: f64, act: fn(&mut World, u32)) -> Self {
         let mut physics = PhysicsWorld::new();
         physics.gravity = -9.81 * Vector::Z;
-        if detection == Detection::Off {
+        if method != Method::Rapier {
             physics.integration_parameters.max_ccd_substeps = 0;
         }
         World {
@@ -125,9 +113,9 @@ fn vector(v: DVec3) -> Vector {
     Vector::from_array(v.to_array())
 }
 
-fn dynamic(detection: Detection) -> RigidBodyBuilder {
+fn dynamic(method: Method) -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic()
-        .ccd_enabled(detection == Detection::Full)
+        .ccd_enabled(method == Method::Rapier)
         .can_sleep(false)
 }
 
@@ -135,8 +123,8 @@ fn dynamic(detection: Detection) -> RigidBodyBuilder {
 const SHEETS: usize = 5;
 
 /// Creates twelve bullets at 100 to 390 metres a second, aimed at five sheets of paper.
-fn bullets(detection: Detection) -> Result<World> {
-    let mut world = World::empty("bullets and paper", detection, 0.001, |world, step| {
+fn bullets(method: Method) -> Result<World> {
+    let mut world = World::empty("bullets and paper", method, 0.001, |world, step| {
         for index in SHEETS..world.bodies.len() {
             // One after the other.
             if step % ROUND == 3 * (index - SHEETS) as u32 {
@@ -155,15 +143,15 @@ fn bullets(detection: Detection) -> Result<World> {
     }
     for k in 0..12 {
         let aside = DVec3::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
-        let builder = dynamic(detection).translation(vector(aside));
+        let builder = dynamic(method).translation(vector(aside));
         world.add(builder, SharedShape::ball(0.01), Body::ball(0.01)?);
     }
     Ok(world)
 }
 
 /// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
-fn bunnies(detection: Detection) -> Result<World> {
-    let mut world = World::empty("bunnies onto bunnies", detection, 0.01, |world, step| {
+fn bunnies(method: Method) -> Result<World> {
+    let mut world = World::empty("bunnies onto bunnies", method, 0.01, |world, step| {
         if step % ROUND != 0 {
             return;
         }
@@ -197,7 +185,7 @@ fn bunnies(detection: Detection) -> Result<World> {
             1.5,
         );
         world.add(
-            dynamic(detection).translation(vector(aside)),
+            dynamic(method).translation(vector(aside)),
             shape.clone(),
             body.clone(),
         );
@@ -211,8 +199,8 @@ const LINKS: usize = 14;
 const HALF: f64 = 0.06;
 
 /// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and laid out anew.
-fn chain(detection: Detection) -> Result<World> {
-    let mut world = World::empty("chain through a slot", detection, 0.004, |world, step| {
+fn chain(method: Method) -> Result<World> {
+    let mut world = World::empty("chain through a slot", method, 0.004, |world, step| {
         if step.is_multiple_of(4 * ROUND) {
             (0..LINKS).for_each(|link| world.lay_out(link));
         }
@@ -230,7 +218,7 @@ fn chain(detection: Detection) -> Result<World> {
     }
     for link in 0..LINKS {
         let shape = SharedShape::capsule_z(HALF, 0.02);
-        let index = world.add(dynamic(detection), shape, Body::capsule(0.02, HALF)?);
+        let index = world.add(dynamic(method), shape, Body::capsule(0.02, HALF)?);
         world.lay_out(link);
         if link > 0 {
             let joint = SphericalJointBuilder::new()

@@ -6,7 +6,6 @@ use crate::method::wire::{REFUSED, serve};
 use crate::method::{Method, Ours};
 use crate::run::contest::MOST_PAIRS_FOR_NAIVE;
 use anyhow::{Context, Result, anyhow};
-use ccd_core::Settings;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::{Bodies, ScheduleKind};
@@ -71,26 +70,22 @@ fn answer(
             if kind.schedule == ScheduleKind::Naive && pairs > MOST_PAIRS_FOR_NAIVE {
                 return Ok(Err(format!("{pairs} pairs are too many")));
             }
-            let config = Settings {
-                tolerance,
-                margin: args.margin,
-                ..Settings::DEFAULT
-            };
-            serve_all(&mut Ours::new(kind, Bodies { a: &a, b: &b }, config))?;
+            let bodies = Bodies { a: &a, b: &b };
+            serve_all(&mut Ours::new(kind, bodies, args.margin), tolerance)?;
         }
-        Method::Rival(kind) => serve_all(kind.solver(a, b, tolerance).as_mut())?,
-        Method::Peer(kind) => match kind.solver(a, b, tolerance) {
-            Ok(mut solver) => serve_all(solver.as_mut())?,
-            Err(error) => return Ok(Err(error.to_string())),
+        Method::Rival(kind) => serve_all(kind.solver(a, b).as_mut(), tolerance)?,
+        Method::Peer(kind) => match kind.solver(a, b) {
+            Ok(mut solver) => serve_all(solver.as_mut(), tolerance)?,
+            Err(error) => return Ok(Err(format!("{error:#}"))),
         },
         Method::Script(_) => return Ok(Err("the method is run by a script".to_owned())),
     }
     Ok(Ok(()))
 }
 
-fn serve_all(solver: &mut dyn Solver) -> Result<()> {
+fn serve_all(solver: &mut dyn Solver, tolerance: f64) -> Result<()> {
     let (input, output) = (io::stdin().lock(), io::stdout().lock());
-    match serve(solver, input, output) {
+    match serve(solver, tolerance, input, output) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             Err(error).context("standard input: no query")

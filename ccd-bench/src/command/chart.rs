@@ -1,12 +1,14 @@
 //! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
 
 use crate::method::Method;
+use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
 use crate::run::evaluation::{Evaluated, Plan, USUAL_TOLERANCE};
 use crate::run::joined::{self, Foreign};
 use crate::scene::listings;
-use crate::show::presentation::{Presentation, splice};
+use crate::show::presentation::Presentation;
+use crate::show::splice::splice;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use rigid_ccd::command::{CannotWrite, Exit};
@@ -39,6 +41,8 @@ pub(super) struct ChartArgs {
     /// Seconds after which a peer is stopped in the middle of a row
     #[arg(long, value_name = "SECONDS")]
     patience: Option<f64>,
+    #[command(flatten)]
+    programs: Programs,
     /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
     #[arg(long, value_name = "FILE.csv")]
     join: Vec<PathBuf>,
@@ -97,57 +101,29 @@ const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e
 /// The tolerances at which methods are compared at equal accuracy.
 const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
 
-/// The amount of measurement.
-#[derive(Clone, Copy, PartialEq)]
-enum Extent {
-    /// A few rows, with the fast methods.
-    Glance,
-    /// Everything.
-    Full,
-}
-
-/// The allowances in this process and in a separate process, for everything in half an hour.
-const AT_LENGTH: (Allowance, Allowance) = (
-    Allowance {
-        cell: Duration::from_millis(600),
-        patience: Duration::from_secs(4),
-        rows: usize::MAX,
-        least_rows: 10,
-        preparation: Duration::from_secs(20),
-    },
-    Allowance {
-        cell: Duration::from_millis(600),
-        patience: Duration::from_secs(4),
-        rows: usize::MAX,
-        least_rows: 1,
-        preparation: Duration::ZERO,
-    },
-);
-/// The allowances for a few rows of everything in a minute.
-const AT_A_GLANCE: (Allowance, Allowance) = (
-    Allowance {
-        cell: Duration::from_millis(40),
-        patience: Duration::from_millis(200),
-        rows: 40,
-        least_rows: 3,
-        preparation: Duration::from_millis(400),
-    },
-    Allowance {
-        cell: Duration::from_millis(40),
-        patience: Duration::from_millis(200),
-        rows: 40,
-        least_rows: 1,
-        preparation: Duration::ZERO,
-    },
-);
+/// The allowance for everything in half an hour.
+const AT_LENGTH: Allowance = Allowance {
+    cell: Duration::from_millis(600),
+    patience: Duration::from_secs(4),
+    rows: usize::MAX,
+    least_rows: 10,
+    preparation: Duration::from_secs(20),
+};
+/// The allowance for a few rows of everything in a minute.
+const AT_A_GLANCE: Allowance = Allowance {
+    cell: Duration::from_millis(40),
+    patience: Duration::from_millis(200),
+    rows: 40,
+    least_rows: 3,
+    preparation: Duration::from_millis(400),
+};
 
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
-    let extent = if args.full {
-        Extent::Full
-    } else {
-        Extent::Glance
-    };
-    let mut plan = plan(&args.common, extent)?;
+    let mut plan = plan(&args.common, args.full)?;
+    if args.programs.script.is_some() {
+        plan.methods.extend(Method::of_scripts());
+        plan.programs = args.programs.clone();
+    }
     plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
     plan.methods = chosen(plan.methods, &args.methods, "method", Method::to_string)?;
     if !args.tolerances.is_empty() {
@@ -163,7 +139,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         plan.allowance.cell = duration("--cell", seconds)?;
     }
     if let Some(seconds) = args.patience {
-        plan.peer_allowance.patience = duration("--patience", seconds)?;
+        plan.allowance.patience = duration("--patience", seconds)?;
     }
     if let Some(folder) = &args.export {
         joined::export(&plan.listings, plan.models, folder)?;
@@ -184,7 +160,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
 }
 
 pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
-    let plan = plan(args, Extent::Glance)?;
+    let plan = plan(args, false)?;
     present(args, plan.run()?, Vec::new(), &[])
 }
 
@@ -225,7 +201,7 @@ fn present(
 }
 
 /// Returns the plan for everything, or for a few rows with the fast methods.
-fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
+fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
     if let Some(directory) = &common.models {
         ensure!(
             directory.is_dir(),
@@ -233,22 +209,19 @@ fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
             directory.display()
         );
     }
-    let (allowance, peer_allowance) = match extent {
-        Extent::Full => AT_LENGTH,
-        Extent::Glance => AT_A_GLANCE,
-    };
-    let tolerances: &[f64] = match extent {
-        Extent::Full => &TOLERANCES,
-        Extent::Glance => &FEW_TOLERANCES,
+    let (allowance, tolerances) = if full {
+        (AT_LENGTH, &TOLERANCES[..])
+    } else {
+        (AT_A_GLANCE, &FEW_TOLERANCES[..])
     };
     let methods = Method::all().into_iter();
-    let methods = methods.filter(|method| extent == Extent::Full || is_fast_to_run(*method));
+    let methods = methods.filter(|method| full || is_fast_to_run(*method));
     Ok(Plan {
         listings: listings()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
         allowance,
-        peer_allowance,
+        programs: Programs::default(),
         models: common.models.clone(),
         folder: common.out.clone(),
     })

@@ -33,9 +33,8 @@ pub(super) struct JudgeArgs {
     /// The tolerance, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value = "1e-3", value_parser = tolerance)]
     tolerance: f64,
-    /// The script that runs Coal and FCL, for their methods: scripts/peers.py
-    #[arg(long, value_name = "SCRIPT")]
-    peers: Option<PathBuf>,
+    #[command(flatten)]
+    programs: Programs,
     /// Seconds that a query may take
     #[arg(long, value_name = "SECONDS", default_value = "3")]
     patience: NonZeroU32,
@@ -61,11 +60,8 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
     let surfaces = meshes.each_ref().map(Surface::new);
     let referee = Referee::new(&surfaces[0], &surfaces[1]);
     let setting = Setting::new(method, args.tolerance);
-    let programs = Programs {
-        script: args.peers.clone(),
-    };
-    let mut guarded =
-        Guarded::start(&programs, setting, meshes.each_ref()).context(name.clone())?;
+    let guarded = Guarded::start(&args.programs, setting, meshes.each_ref());
+    let mut guarded = guarded.with_context(|| name.clone())?;
     let mut table = Table::create(&args.out, &COLUMNS)?;
     let mut bad_rows = BadRows::new(input_name(&args.motions));
     let (rows, _) = open_motions(&args.motions)?;

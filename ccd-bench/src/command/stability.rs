@@ -6,14 +6,12 @@ use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
-use crate::stability::{
-    Extent, Findings, Survey, families, growth_map, limits, reach_map, summary,
-};
+use crate::stability::{Findings, Survey, families, growth_map, limits, reach_map, summary};
 use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::{CannotWrite, Exit};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Find where each method fails: families of scenes that get harder step by step
 #[derive(Debug, Args)]
@@ -28,9 +26,8 @@ pub(super) struct StabilityArgs {
     /// Only these methods
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     methods: Vec<String>,
-    /// The script that runs Coal and FCL, which adds their methods: scripts/peers.py
-    #[arg(long, value_name = "SCRIPT")]
-    peers: Option<PathBuf>,
+    #[command(flatten)]
+    programs: Programs,
     /// Ask every combination of this project's schedules, oracles, pieces and bounds instead
     #[arg(long)]
     ours: bool,
@@ -60,19 +57,20 @@ Examples:
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
 /// Returns all methods, without those of a script if there is none.
-fn all_methods(script: Option<&Path>) -> Vec<Method> {
+fn all_methods(programs: &Programs) -> Vec<Method> {
     let mut methods = known_methods();
-    methods.retain(|method| script.is_some() || !matches!(method, Method::Script(_)));
+    methods.retain(|method| programs.script.is_some() || !matches!(method, Method::Script(_)));
     methods
 }
 
-/// Returns all methods; FAST as published comes after its sound forms.
+/// Returns all methods that answer queries; FAST as published comes after its sound forms.
 fn known_methods() -> Vec<Method> {
     let mut methods = Method::all();
     let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
     let last = methods.iter().rposition(is_fast);
     methods.insert(last.map_or(0, |last| last + 1), Method::published());
-    methods.extend(ScriptKind::ALL.map(Method::Script));
+    methods.extend(Method::of_scripts());
+    methods.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
     methods
 }
 
@@ -80,7 +78,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     let methods = if args.ours {
         Method::combinations()
     } else {
-        all_methods(args.peers.as_deref())
+        all_methods(&args.programs)
     };
     // The folder may contain more than the requested answers.
     let drawn = if args.ours {
@@ -91,14 +89,8 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
         methods: chosen(methods, &args.methods, "method", Method::to_string)?,
-        extent: if args.full {
-            Extent::Full
-        } else {
-            Extent::Quick
-        },
-        programs: Programs {
-            script: args.peers.clone(),
-        },
+        full: args.full,
+        programs: args.programs.clone(),
         folder: args.out.clone(),
     };
     let journal = if args.redraw {

@@ -1,18 +1,20 @@
 //! The command `ccd-bench truth`: reads two meshes and a table of motions, and writes a table of
 //! brackets of the exact first contacts.
 
-use crate::truth::{Referee, Surface, TRUTH_COLUMNS, Truth, TruthRow};
+use crate::method::name_of;
+use crate::truth::{Referee, Status, Surface, TRUTH_COLUMNS, TruthRow};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use rigid_ccd::ParallelSolver;
 use rigid_ccd::batch::{BatchSize, on_threads};
 use rigid_ccd::command::{
-    BadRows, CannotWrite, Exit, Progress, Size, Table, complain, input_name, open_motions,
-    refuse_overwriting, same_file,
+    BadRows, Exit, Progress, Size, Table, complain, input_name, open_motions, refuse_overwriting,
+    same_file,
 };
 use rigid_ccd::table::motions::MotionRow;
+use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -91,7 +93,8 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     let mut size = BatchSize::new(referees.threads());
     let progress = Progress::of_rows(length, args.quiet);
     let mut bad_rows = BadRows::new(input_name(&args.motions));
-    let (mut counts, start) = (TruthCounts::default(), Instant::now());
+    let (mut counts, mut widest) = (HashMap::new(), 0.0);
+    let start = Instant::now();
     loop {
         let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(size.items()).collect();
         let batch = batch.with_context(|| input_name(&args.motions))?;
@@ -103,18 +106,26 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
         let truths = judge(&mut referees, &batch, &progress);
         size.adapt(started.elapsed());
         for (row, truth) in batch.iter().zip(truths) {
-            if let Err(error) = row {
-                bad_rows.report(error.position, &error.problem, &progress);
+            match (row, truth) {
+                (Ok(_), Some(truth)) => {
+                    *counts.entry(truth.status).or_default() += 1;
+                    widest = greater(widest, truth.width());
+                    table.write(|writer| writer.serialize((truth, "")))?;
+                }
+                (Ok(_), None) => {}
+                (Err(error), _) => {
+                    bad_rows.report(error.position, &error.problem, &progress);
+                    let reason = error.problem.to_string();
+                    table.write(|writer| writer.serialize((&error.id, "error", "", "", reason)))?;
+                }
             }
-            write(&mut table, row, truth)?;
-            truth.iter().for_each(|truth| counts.add(truth));
         }
         table.flush()?;
     }
     table.finish()?;
     drop(progress);
     bad_rows.close();
-    if counts.rows() + bad_rows.count() == 0 {
+    if counts.is_empty() && bad_rows.count() == 0 {
         complain(&format!(
             "{}: has a header, but no rows",
             input_name(&args.motions)
@@ -122,7 +133,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     }
     if !args.quiet {
         let seconds = start.elapsed().as_secs_f64();
-        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", counts.summary());
+        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", summary(&counts, widest));
     }
     Ok(match bad_rows.count() {
         0 => Exit::AllAnswered,
@@ -155,69 +166,26 @@ fn judge(
     referees: &mut ParallelSolver<&Referee<'_>>,
     batch: &[MotionRow],
     progress: &Progress,
-) -> Vec<Option<Truth>> {
+) -> Vec<Option<TruthRow>> {
     referees.map(batch, |referee, row| {
-        let query = row.as_ref().map(|(_, query)| query);
-        let truth = query.ok().map(|query| referee.first_contact(query));
+        let truth = row.as_ref().ok().map(|(_, query)| {
+            let truth = referee.first_contact(query);
+            TruthRow::new(query.id.clone(), query.duration, truth)
+        });
         progress.step();
         truth
     })
 }
 
-fn write(table: &mut Table, row: &MotionRow, truth: Option<Truth>) -> Result<(), CannotWrite> {
-    table.write(|writer| match (row, truth) {
-        (Ok((_, query)), Some(truth)) => {
-            let row = TruthRow::new(query.id.clone(), query.duration, truth);
-            writer.serialize((row, ""))
-        }
-        (Err(error), _) => {
-            let reason = error.problem.to_string();
-            writer.serialize((&error.id, "error", "", "", reason))
-        }
-        (Ok(_), None) => Ok(()),
-    })
-}
-
-/// The number of truths of each kind, and the widest bracket.
-#[derive(Default)]
-struct TruthCounts {
-    hit: usize,
-    free: usize,
-    initial: usize,
-    graze: usize,
-    undecided: usize,
-    widest: f64,
-}
-
-impl TruthCounts {
-    fn add(&mut self, truth: &Truth) {
-        let count = match truth {
-            Truth::Hit { lo, hi } => {
-                self.widest = greater(self.widest, hi - lo);
-                &mut self.hit
-            }
-            Truth::Free => &mut self.free,
-            Truth::Start => &mut self.initial,
-            Truth::Graze { .. } => &mut self.graze,
-            Truth::Undecided { .. } => &mut self.undecided,
-        };
-        *count += 1;
-    }
-
-    fn rows(&self) -> usize {
-        self.hit + self.free + self.initial + self.graze + self.undecided
-    }
-
-    fn summary(&self) -> String {
-        format!(
-            "{} rows: {} hit, {} free, {} initial, {} graze, {} undecided; widest bracket {:.1e}",
-            self.rows(),
-            self.hit,
-            self.free,
-            self.initial,
-            self.graze,
-            self.undecided,
-            self.widest,
-        )
-    }
+/// Counts the truths of each kind; gives the widest bracket of a hit.
+fn summary(counts: &HashMap<Status, usize>, widest: f64) -> String {
+    let kinds = Status::value_variants().iter().map(|kind| {
+        let count = counts.get(kind).unwrap_or(&0);
+        format!("{count} {}", name_of(kind))
+    });
+    let (rows, kinds): (usize, Vec<String>) = (counts.values().sum(), kinds.collect());
+    format!(
+        "{rows} rows: {}; widest bracket {widest:.1e}",
+        kinds.join(", ")
+    )
 }

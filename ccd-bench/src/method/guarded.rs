@@ -5,6 +5,7 @@ use super::solver::{Claim, Reply, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
+use clap::Args;
 use rigid_ccd::table::motions::Motions;
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Write};
@@ -66,10 +67,11 @@ pub enum QueryOutcome {
     Died,
 }
 
-/// The programs that run the methods.
-#[derive(Clone, Debug, Default)]
+/// The programs that run the methods: this one, and a script for the methods of kind [`Method::Script`].
+#[derive(Clone, Debug, Default, Args)]
 pub struct Programs {
-    /// The script that runs the methods of kind [`Method::Script`].
+    /// The script that runs Coal and FCL, for their methods: scripts/peers.py
+    #[arg(long = "peers", value_name = "SCRIPT")]
     pub script: Option<PathBuf>,
 }
 
@@ -89,7 +91,7 @@ impl Programs {
         match Guarded::start(self, setting, [&mesh, &mesh]) {
             Ok(_) => Ok(()),
             Err(error) => Err(io::Error::other(format!(
-                "{error}; its script needs Python with coal, python-fcl and numpy"
+                "{method}: {error}; its script needs Python with coal, python-fcl and numpy"
             ))),
         }
     }
@@ -114,6 +116,23 @@ impl QueryOutcome {
             QueryOutcome::CutOff | QueryOutcome::Died => None,
         }
     }
+
+    /// Returns the time of the query in microseconds: that until it was stopped, NaN if the process ended.
+    pub fn micros(&self, patience: Duration) -> f64 {
+        match *self {
+            QueryOutcome::Answered { micros, .. } => micros,
+            QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
+            QueryOutcome::Died => f64::NAN,
+        }
+    }
+
+    /// Returns the number of steps in time, 0 without an answer.
+    pub fn steps(&self) -> u64 {
+        match self {
+            QueryOutcome::Answered { reply, .. } => reply.steps,
+            QueryOutcome::CutOff | QueryOutcome::Died => 0,
+        }
+    }
 }
 
 impl Guarded {
@@ -128,10 +147,22 @@ impl Guarded {
         setting: Setting,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
-        let program = programs.program_of(setting.method)?;
-        let mut guarded = Guarded::with_program(program, setting, meshes)?;
+        let mut guarded = Guarded::new(programs, setting, meshes)?;
         guarded.running()?;
         Ok(guarded)
+    }
+
+    /// Prepares a method on two meshes. The first query starts it.
+    ///
+    /// # Errors
+    /// If the meshes cannot be written, or the method has no program.
+    pub fn new(
+        programs: &Programs,
+        setting: Setting,
+        meshes: [&TriangleMesh; 2],
+    ) -> io::Result<Self> {
+        let program = programs.program_of(setting.method)?;
+        Guarded::with_program(program, setting, meshes)
     }
 
     /// Prepares a method that runs another program with the command `answer`. The first query starts it.
@@ -151,14 +182,12 @@ impl Guarded {
         })
     }
 
-    /// Restarts the method at another tolerance, with the same meshes.
-    ///
-    /// # Errors
-    /// Those of [`Guarded::start`].
-    pub fn restart_with(&mut self, tolerance: f64) -> io::Result<()> {
-        self.setting.tolerance = tolerance;
-        self.process = None;
-        self.running().map(|_| ())
+    /// Sets the tolerance; the next query restarts the method if it is another one.
+    pub fn set_tolerance(&mut self, tolerance: f64) {
+        if self.setting.tolerance != tolerance {
+            self.setting.tolerance = tolerance;
+            self.process = None;
+        }
     }
 
     /// Runs one query. A process that was stopped or has died is restarted first; that is not timed.

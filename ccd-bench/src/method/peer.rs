@@ -18,10 +18,12 @@ mod tests;
 
 use crate::method::solver::{Claim, Solver};
 use crate::method::wire;
+use anyhow::Result;
 use ccd_decomp::TriangleMesh;
+use clap::ValueEnum;
 
 /// The peer libraries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum PeerKind {
     /// The method [`parry::double::cast`].
     ParryF64,
@@ -39,34 +41,12 @@ pub enum PeerKind {
     Dying,
 }
 
-/// A peer cannot use a mesh.
-#[derive(Clone, Debug, thiserror::Error)]
-#[error("the peer refuses the mesh: {why}")]
-pub struct PeerError {
-    why: String,
-}
-
 impl PeerKind {
-    /// All peers, except those made for tests.
-    pub const ALL: [PeerKind; 5] = [
-        PeerKind::ParryF64,
-        PeerKind::ParryF32,
-        PeerKind::ParrySweepF64,
-        PeerKind::ParrySweepF32,
-        PeerKind::RapierStepF64,
-    ];
-
-    /// Returns the name used on the command line and in the tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            PeerKind::ParryF64 => "parry-f64",
-            PeerKind::ParryF32 => "parry-f32",
-            PeerKind::ParrySweepF64 => "parry-sweep-f64",
-            PeerKind::ParrySweepF32 => "parry-sweep-f32",
-            PeerKind::RapierStepF64 => "rapier-step-f64",
-            PeerKind::Hanging => "hanging",
-            PeerKind::Dying => "dying",
-        }
+    /// Returns all peers, except those made for tests.
+    pub fn all() -> impl Iterator<Item = PeerKind> {
+        let for_tests = [PeerKind::Hanging, PeerKind::Dying];
+        let all = PeerKind::value_variants().iter().copied();
+        all.filter(move |kind| !for_tests.contains(kind))
     }
 
     /// Returns true if the answers depend on the tolerance. The other peers are run at one
@@ -82,19 +62,14 @@ impl PeerKind {
     ///
     /// # Errors
     /// If the peer refuses a mesh.
-    pub fn solver(
-        self,
-        a: &TriangleMesh,
-        b: &TriangleMesh,
-        tolerance: f64,
-    ) -> Result<Box<dyn Solver>, PeerError> {
+    pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh) -> Result<Box<dyn Solver>> {
         use parry::{double, single};
         Ok(match self {
             PeerKind::ParryF64 => Box::new(double::cast::Cast::new(a, b)?),
             PeerKind::ParryF32 => Box::new(single::cast::Cast::new(a, b)?),
-            PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptPairs::new(a, b, tolerance)?),
-            PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptPairs::new(a, b, tolerance)?),
-            PeerKind::RapierStepF64 => Box::new(rapier::Simulated::new(a, b, tolerance)?),
+            PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptPairs::new(a, b)?),
+            PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptPairs::new(a, b)?),
+            PeerKind::RapierStepF64 => Box::new(rapier::Simulated::new(a, b)?),
             PeerKind::Hanging => Box::new(wire::Hanging),
             PeerKind::Dying => Box::new(wire::Dying),
         })

@@ -5,10 +5,10 @@ use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Motions;
 use std::time::{Duration, Instant};
 
-/// A solver that answers queries about two bodies, one after another, with the same tolerance.
+/// A solver that answers queries about two bodies, one after another.
 pub trait Solver {
-    /// Returns the first contact that the solver finds.
-    fn answer(&mut self, query: &Motions) -> Reply;
+    /// Returns the first contact that the solver finds with a tolerance, a length.
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply;
 }
 
 /// A reply and its time.
@@ -27,12 +27,12 @@ const REPEATS: usize = 4;
 const REPEATED_WITHIN: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
-pub fn timed(solver: &mut dyn Solver, query: &Motions) -> TimedReply {
+pub fn timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
     let mut micros = Vec::with_capacity(REPEATS);
     let first = Instant::now();
     loop {
         let start = Instant::now();
-        let reply = solver.answer(query);
+        let reply = solver.answer(query, tolerance);
         micros.push(start.elapsed().as_secs_f64() * 1e6);
         if first.elapsed() > REPEATED_WITHIN || micros.len() == REPEATS {
             let warm = usize::from(micros.len() > 1);
@@ -40,12 +40,6 @@ pub fn timed(solver: &mut dyn Solver, query: &Motions) -> TimedReply {
             return TimedReply { reply, micros };
         }
     }
-}
-
-/// A solver whose tolerance can be changed without a new solver.
-pub trait Adjustable: Solver {
-    /// Sets the tolerance, a length, of the queries that follow.
-    fn set_tolerance(&mut self, tolerance: f64);
 }
 
 /// The reply of a solver to one query.
@@ -95,6 +89,8 @@ pub enum Claim {
     },
     /// The solver does not support the query.
     Refused,
+    /// The solver measured something else, such as a single distance, for a comparison of times.
+    Static,
 }
 
 impl Claim {
@@ -105,6 +101,7 @@ impl Claim {
             Claim::Free => "free",
             Claim::Unresolved { .. } => "unresolved",
             Claim::Refused => "refused",
+            Claim::Static => "static",
         }
     }
 
@@ -112,7 +109,7 @@ impl Claim {
     pub fn time(self) -> Option<f64> {
         match self {
             Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),
-            Claim::Free | Claim::Refused => None,
+            Claim::Free | Claim::Refused | Claim::Static => None,
         }
     }
 }

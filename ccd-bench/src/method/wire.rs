@@ -19,6 +19,7 @@ pub const REFUSED: &str = "refused: ";
 /// If a line is no query, or if the reader of the replies is gone.
 pub fn serve(
     solver: &mut dyn Solver,
+    tolerance: f64,
     input: impl BufRead,
     mut output: impl Write,
 ) -> io::Result<()> {
@@ -29,7 +30,11 @@ pub fn serve(
         let Some(query) = parse_query(&line) else {
             return Err(io::Error::new(io::ErrorKind::InvalidData, line));
         };
-        writeln!(output, "{}", format_reply(&timed(solver, &query)))?;
+        writeln!(
+            output,
+            "{}",
+            format_reply(&timed(solver, &query, tolerance))
+        )?;
         output.flush()?;
     }
     Ok(())
@@ -109,6 +114,7 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
         "free" => Claim::Free,
         "unresolved" => Claim::Unresolved { safe_until: time },
         "refused" => Claim::Refused,
+        "static" => Claim::Static,
         _ => return None,
     };
     let steps = cells.next()?.parse().ok()?;
@@ -132,7 +138,7 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
 pub struct Hanging;
 
 impl Solver for Hanging {
-    fn answer(&mut self, _: &Motions) -> Reply {
+    fn answer(&mut self, _: &Motions, _: f64) -> Reply {
         loop {
             std::thread::sleep(Duration::from_secs(3600));
         }
@@ -144,7 +150,7 @@ impl Solver for Hanging {
 pub struct Dying;
 
 impl Solver for Dying {
-    fn answer(&mut self, _: &Motions) -> Reply {
+    fn answer(&mut self, _: &Motions, _: f64) -> Reply {
         std::process::exit(3)
     }
 }

@@ -8,22 +8,23 @@ mod truths;
 mod verdict;
 
 use ccd_core::order::greater;
-pub use journal::{Journal, JournalError, program_stamp};
+pub use journal::{Journal, program_stamp};
 pub use session::Session;
-pub use truths::{Truths, TruthsError};
+pub use truths::Truths;
 pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
 
+use crate::method::MotionKind;
+use crate::method::guarded::QueryOutcome;
 use crate::method::rival::screw;
-use crate::method::{Method, MotionKind};
+use crate::method::solver::Claim;
 use crate::run::measured::{Cell, Trial};
 use crate::scene::Scene;
-use crate::truth::{Referee, Surface, Truth};
+use crate::truth::{Referee, Surface};
+use anyhow::{Context, Result};
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Motions;
-use session::Answered;
-use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -31,7 +32,6 @@ use std::time::{Duration, Instant};
 pub struct Contest<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
-    given: Vec<Motions>,
     /// The same queries with screw motions.
     screws: Vec<Motions>,
 }
@@ -55,29 +55,12 @@ pub struct Allowance {
 /// The maximum number of pairs of pieces for a schedule without a tree, which processes all pairs in every step.
 pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
-/// A method could not be run.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ContestError {
-    /// A query has no screw.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// A peer's process cannot be started.
-    #[error("{name} cannot be started: {source}")]
-    Peer {
-        /// The peer.
-        name: String,
-        /// The cause.
-        source: io::Error,
-    },
-}
-
 impl<'s> Contest<'s> {
     /// Opens a scene.
     ///
     /// # Errors
     /// If a motion has no screw between its ends.
-    pub fn new(scene: &'s Scene) -> Result<Self, ContestError> {
+    pub fn new(scene: &'s Scene) -> Result<Self> {
         let a = Arc::new(Surface::new(scene.a.mesh()));
         let b = if Arc::ptr_eq(&scene.a.body, &scene.b.body) {
             Arc::clone(&a)
@@ -88,7 +71,6 @@ impl<'s> Contest<'s> {
         Ok(Contest {
             scene,
             surfaces: [a, b],
-            given: scene.queries.clone(),
             screws: screws?,
         })
     }
@@ -96,7 +78,7 @@ impl<'s> Contest<'s> {
     /// Returns the queries with motions of the given kind.
     pub fn queries(&self, motion: MotionKind) -> &[Motions] {
         match motion {
-            MotionKind::Given => &self.given,
+            MotionKind::Given => &self.scene.queries,
             MotionKind::Screw => &self.screws,
         }
     }
@@ -109,7 +91,7 @@ impl<'s> Contest<'s> {
     /// Returns the order of the rows to run, of which at most `most` are run. The rows are spread evenly, and so is any
     /// number of the first ones.
     pub fn order(&self, most: usize) -> Vec<usize> {
-        let count = self.given.len();
+        let count = self.scene.queries.len();
         let stride = (1..=count)
             .rev()
             .find(|&stride| 1618 * stride <= 1000 * count && coprime(stride, count))
@@ -119,27 +101,6 @@ impl<'s> Contest<'s> {
         rows.take(most).collect()
     }
 
-    /// Opens a session of a method, or returns `None` if the method does not support the scene.
-    ///
-    /// # Errors
-    /// If a peer cannot be started.
-    pub fn session(
-        &self,
-        method: Method,
-        tolerance: f64,
-    ) -> Result<Option<Session<'s>>, ContestError> {
-        Session::open(method, self.scene, tolerance).map_err(not_started(method))
-    }
-
-    /// Sets the tolerance of a session.
-    ///
-    /// # Errors
-    /// If a peer cannot be restarted.
-    pub fn adjust(&self, session: &mut Session<'_>, tolerance: f64) -> Result<(), ContestError> {
-        let failed = not_started(session.method());
-        session.set_tolerance(tolerance).map_err(failed)
-    }
-
     /// Runs a method on the queries, and judges its answers. Returns `None` if it can be asked none of the queries.
     ///
     /// # Errors
@@ -147,23 +108,25 @@ impl<'s> Contest<'s> {
     pub fn run(
         &self,
         session: &mut Session<'_>,
+        tolerance: f64,
         allowance: &Allowance,
         truths: &Truths,
-    ) -> Result<Option<(Cell, Vec<Trial>)>, ContestError> {
-        let (method, tolerance) = (session.method(), session.tolerance());
+    ) -> Result<Option<(Cell, Vec<Trial>)>> {
+        let method = session.method();
         let queries = self.queries(method.motion_kind());
         let order = self.order(allowance.rows);
-        let prepared = session.prepare(order.iter().map(|&r| &queries[r]), allowance.preparation);
-        let mut asked: Vec<(usize, Answered)> = Vec::new();
+        let asked_for = order.iter().map(|&row| &queries[row]);
+        let prepared = session.prepare(asked_for, tolerance, allowance.preparation);
+        let mut asked: Vec<(usize, QueryOutcome)> = Vec::new();
         let start = Instant::now();
         for &row in &order[..prepared] {
             let enough = asked.len() >= allowance.least_rows;
             if start.elapsed() > allowance.cell && enough {
                 break;
             }
-            let answered = session.ask(&queries[row], allowance.patience);
-            let answered = answered.map_err(not_started(method))?;
-            if !answered.is_refusal() {
+            let answered = session.ask(&queries[row], tolerance, allowance.patience);
+            let answered = answered.with_context(|| format!("{method} cannot be started"))?;
+            if answered.claim() != Some(Claim::Refused) {
                 asked.push((row, answered));
             }
         }
@@ -177,45 +140,24 @@ impl<'s> Contest<'s> {
             .par_iter()
             .map(|(row, answered)| {
                 let query = &queries[*row];
-                let judged = self.judged(query, truths(*row), answered, tolerance);
-                Trial {
-                    scene: self.scene.name.clone(),
-                    method: method.clone(),
-                    tolerance,
-                    row: *row,
-                    id: query.id.clone(),
-                    micros: answered.micros(),
-                    steps: answered.steps(),
-                    verdict: judged.verdict.to_string(),
-                    error: judged.error.unwrap_or(f64::NAN),
-                    time: answered.time(),
-                    note: String::new(),
-                }
+                let truth = truths(*row);
+                let judged = judge_outcome(answered, |reply| {
+                    judge(&self.referee(), query, truth, reply.claim, tolerance)
+                });
+                Trial::new(
+                    (&self.scene.name, &method, tolerance),
+                    (*row, &query.id),
+                    (answered, allowance.patience),
+                    judged,
+                )
             })
             .collect();
         Ok(Some((sum_up(&trials), trials)))
     }
 
-    fn judged(&self, query: &Motions, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
-        match answered {
-            Answered::InTime { reply, .. } => {
-                judge(&self.referee(), query, truth, reply.claim, tolerance)
-            }
-            Answered::CutOff { .. } => Judged::plain(Verdict::CutOff),
-            Answered::Died => Judged::plain(Verdict::Died),
-        }
-    }
-
     /// Returns the scene.
     pub fn scene(&self) -> &'s Scene {
         self.scene
-    }
-}
-
-fn not_started(method: Method) -> impl Fn(io::Error) -> ContestError {
-    move |source| ContestError::Peer {
-        name: method.to_string(),
-        source,
     }
 }
 

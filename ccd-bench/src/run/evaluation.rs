@@ -1,11 +1,11 @@
 //! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
 
+use crate::method::guarded::Programs;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{
-    Allowance, Contest, ContestError, Journal, JournalError, Truths, TruthsError, program_stamp,
-};
-use crate::scene::{Listing, Models, Pieces, Scene, SceneBody, SceneError};
+use crate::run::contest::{Allowance, Contest, Journal, Session, Truths, program_stamp};
+use crate::scene::{Listing, Models, Pieces, Scene, SceneBody};
 use crate::show::chart::PAPER_TOLERANCE;
+use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, Total};
 use std::path::PathBuf;
@@ -20,10 +20,10 @@ pub struct Plan {
     pub methods: Vec<Method>,
     /// The tolerances.
     pub tolerances: Vec<f64>,
-    /// The limits of methods that run in this process.
+    /// The limits of each method on each scene; a peer may run a single row, and prepares nothing on first use.
     pub allowance: Allowance,
-    /// The limits of peers.
-    pub peer_allowance: Allowance,
+    /// The programs that run the methods.
+    pub programs: Programs,
     /// The folder of mesh files that replace the models made by code.
     pub models: Option<PathBuf>,
     /// The folder of the measurements.
@@ -40,24 +40,6 @@ pub struct Evaluated {
     pub truths: Truths,
 }
 
-/// An evaluation ended early.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum EvaluationError {
-    /// A scene cannot be made.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A method cannot be run.
-    #[error(transparent)]
-    Contest(#[from] ContestError),
-    /// The truths cannot be read or written.
-    #[error(transparent)]
-    Truths(#[from] TruthsError),
-    /// Measurements cannot be kept.
-    #[error(transparent)]
-    Journal(#[from] JournalError),
-}
-
 /// The file of the known truths, in the folder of the measurements.
 const TRUTHS: &str = "truth.csv";
 
@@ -68,13 +50,12 @@ impl Plan {
     /// Returns the measurements in the folder, whatever their settings, and measures nothing.
     ///
     /// # Errors
-    /// [`EvaluationError`].
-    pub fn recall(&self) -> Result<Evaluated, EvaluationError> {
+    /// If a scene cannot be made, or the truths cannot be read.
+    pub fn recall(&self) -> Result<Evaluated> {
         let mut models = Models::new(self.models.clone());
-        let make = |listing: &Listing| listing.make(&mut models);
-        let scenes: Result<Vec<Scene>, SceneError> = self.listings.iter().map(make).collect();
+        let scenes = self.listings.iter().map(|l| l.make(&mut models));
         Ok(Evaluated {
-            scenes: scenes?,
+            scenes: scenes.collect::<Result<_>>()?,
             journal: Journal::read(&self.folder),
             truths: Truths::read(&self.folder.join(TRUTHS))?,
         })
@@ -83,8 +64,11 @@ impl Plan {
     /// Measures whatever is missing in the folder.
     ///
     /// # Errors
-    /// [`EvaluationError`]; earlier measurements are kept.
-    pub fn run(&self) -> Result<Evaluated, EvaluationError> {
+    /// If a scene cannot be made, a method cannot be run, or a file cannot be kept; earlier measurements are kept.
+    pub fn run(&self) -> Result<Evaluated> {
+        for &method in &self.methods {
+            self.programs.check(method)?;
+        }
         let mut journal = Journal::open(&self.folder, &self.stamp(), &[TRUTHS])?;
         let truths_file = self.folder.join(TRUTHS);
         let mut truths = Truths::read(&truths_file)?;
@@ -121,13 +105,17 @@ impl Plan {
         truths: &Truths,
         journal: &mut Journal,
         progress: &Progress,
-    ) -> Result<(), EvaluationError> {
+    ) -> Result<()> {
         let scene = &contest.scene().name;
         for &method in &self.methods {
             let name = method.to_string();
-            let allowance = match method {
-                Method::Peer(_) | Method::Script(_) => &self.peer_allowance,
-                Method::Ours(..) | Method::Rival(_) => &self.allowance,
+            let least_rows = match method {
+                Method::Peer(_) | Method::Script(_) => 1,
+                Method::Ours(..) | Method::Rival(_) => self.allowance.least_rows,
+            };
+            let allowance = Allowance {
+                least_rows,
+                ..self.allowance
             };
             let mut session = None;
             for tolerance in self.tolerances_of(method) {
@@ -136,14 +124,13 @@ impl Plan {
                     continue;
                 }
                 progress.say(&format!("{scene}: {name}, {tolerance:e}"));
-                match &mut session {
-                    None => session = contest.session(method, tolerance)?,
-                    Some(session) => contest.adjust(session, tolerance)?,
+                if session.is_none() {
+                    session = Session::open(method, contest.scene(), &self.programs)?;
                 }
                 let Some(session) = &mut session else {
                     continue;
                 };
-                if let Some((cell, trials)) = contest.run(session, allowance, truths)? {
+                if let Some((cell, trials)) = contest.run(session, tolerance, &allowance, truths)? {
                     journal.add(cell, trials)?;
                 }
             }
@@ -151,7 +138,7 @@ impl Plan {
         Ok(())
     }
 
-    fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>, SceneError> {
+    fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>> {
         let progress = Progress::new(Total::Steps(self.listings.len()));
         let make = |listing: &Listing| {
             progress.say(&format!("making {}", listing.name));
@@ -159,7 +146,7 @@ impl Plan {
             progress.step();
             scene
         };
-        let scenes: Result<Vec<Scene>, SceneError> = self.listings.iter().map(make).collect();
+        let scenes: Result<Vec<Scene>> = self.listings.iter().map(make).collect();
         let scenes = scenes?;
         progress.say("making pieces");
         self.make_pieces(&scenes);
@@ -209,13 +196,12 @@ impl Plan {
     /// Describes the settings that determine all measurements: this program, and the allowances.
     fn stamp(&self) -> String {
         format!(
-            "{}models {}\nmethods {:?}\npeers {:?}\n",
+            "{}models {}\nmethods {:?}\n",
             program_stamp(),
             self.models
                 .as_ref()
                 .map_or("by code".into(), |folder| folder.display().to_string()),
-            self.allowance,
-            self.peer_allowance
+            self.allowance
         )
     }
 }

@@ -8,6 +8,7 @@ use crate::run::measured::{Trial, read};
 use crate::scene::{Listing, Models, Scene};
 use anyhow::{Context, Result, bail, ensure};
 use ccd_decomp::{TriangleMesh, write_obj};
+use rigid_ccd::command::Progress;
 use rigid_ccd::table::motions::{self, Motions};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -24,15 +25,6 @@ pub struct Foreign {
     steps: u64,
     status: String,
     time: Option<f64>,
-}
-
-/// The result of another program for a query.
-enum Reported {
-    Claim(Claim),
-    CutOff,
-    Died,
-    /// Another quantity, such as a single distance, which is not judged.
-    Static,
 }
 
 /// Writes each scene into a folder with its name: `a.obj`, `b.obj`, `motions.csv`.
@@ -81,7 +73,7 @@ pub fn read_trials(file: &Path) -> Result<Vec<Foreign>> {
             "{} is measured here; give it another name",
             trial.method
         );
-        reported(trial)?;
+        let _ = reported(trial)?;
     }
     Ok(foreign)
 }
@@ -118,35 +110,19 @@ pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> 
 
 fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<Trial>> {
     let contest = Contest::new(scene)?;
-    let rows: Result<Vec<usize>> = group
-        .iter()
-        .map(|foreign| {
-            let row = scene.queries.iter().position(|q| q.id == foreign.id);
-            row.with_context(|| format!("scene {} has no query {}", scene.name, foreign.id))
-        })
-        .collect();
-    let rows = rows?;
-    truths.find(
-        &contest,
-        MotionKind::Given,
-        &rows,
-        &rigid_ccd::command::Progress::hidden(),
-    );
+    let row_of = |foreign: &Foreign| {
+        let row = scene.queries.iter().position(|q| q.id == foreign.id);
+        row.with_context(|| format!("scene {} has no query {}", scene.name, foreign.id))
+    };
+    let rows = group.iter().map(row_of).collect::<Result<Vec<_>>>()?;
+    truths.find(&contest, MotionKind::Given, &rows, &Progress::hidden());
     let truth = truths.of_scene(&contest, MotionKind::Given);
     let mut trials = Vec::new();
     for (foreign, &row) in group.iter().zip(&rows) {
-        let judged = match reported(foreign)? {
-            Reported::Claim(claim) => judge(
-                &contest.referee(),
-                &scene.queries[row],
-                truth(row),
-                claim,
-                foreign.tolerance,
-            ),
-            Reported::CutOff => Judged::plain(Verdict::CutOff),
-            Reported::Died => Judged::plain(Verdict::Died),
-            Reported::Static => Judged::plain(Verdict::NotJudged),
-        };
+        let (query, tolerance) = (&scene.queries[row], foreign.tolerance);
+        let judged = reported(foreign)?.map_or_else(Judged::plain, |claim| {
+            judge(&contest.referee(), query, truth(row), claim, tolerance)
+        });
         trials.push(Trial {
             scene: scene.name.clone(),
             method: foreign.method.clone(),
@@ -164,20 +140,21 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
     Ok(trials)
 }
 
-fn reported(foreign: &Foreign) -> Result<Reported> {
+/// Returns the claim of a trial, or the verdict on one without a claim.
+fn reported(foreign: &Foreign) -> Result<Result<Claim, Verdict>> {
     let time = || {
         let time = foreign.time.filter(|time| time.is_finite());
         time.with_context(|| format!("{} of {} has no time", foreign.status, foreign.id))
     };
     Ok(match foreign.status.as_str() {
-        "contact" => Reported::Claim(Claim::Contact { time: time()? }),
-        "free" => Reported::Claim(Claim::Free),
-        "unresolved" => Reported::Claim(Claim::Unresolved {
+        "contact" => Ok(Claim::Contact { time: time()? }),
+        "free" => Ok(Claim::Free),
+        "unresolved" => Ok(Claim::Unresolved {
             safe_until: foreign.time.unwrap_or(0.0),
         }),
-        "cut off" => Reported::CutOff,
-        "died" => Reported::Died,
-        "static" => Reported::Static,
+        "cut off" => Err(Verdict::CutOff),
+        "died" => Err(Verdict::Died),
+        "static" => Err(Verdict::NotJudged),
         other => {
             bail!("status {other}: it has to be contact, free, unresolved, cut off, died or static")
         }

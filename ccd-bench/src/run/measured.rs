@@ -3,12 +3,17 @@
 #[cfg(test)]
 mod tests;
 
+use crate::method::guarded::QueryOutcome;
+use crate::method::solver::Claim;
+use crate::run::contest::Judged;
+use anyhow::{Context, Result};
 use rigid_ccd::table::Lines;
 use rigid_ccd::table::Quotes;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::Path;
+use std::time::Duration;
 
 /// One method on one scene at one tolerance: a row of `chart.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -83,6 +88,30 @@ pub struct Trial {
     pub note: String,
 }
 
+impl Trial {
+    /// Returns the trial of a query of a scene at a tolerance, without a remark.
+    pub fn new(
+        (scene, method, tolerance): (&str, &str, f64),
+        (row, id): (usize, &str),
+        (outcome, patience): (&QueryOutcome, Duration),
+        judged: Judged,
+    ) -> Self {
+        Trial {
+            scene: scene.to_owned(),
+            method: method.to_owned(),
+            tolerance,
+            row,
+            id: id.to_owned(),
+            micros: outcome.micros(patience),
+            steps: outcome.steps(),
+            verdict: judged.verdict.to_string(),
+            error: judged.error.unwrap_or(f64::NAN),
+            time: outcome.claim().and_then(Claim::time).unwrap_or(f64::NAN),
+            note: String::new(),
+        }
+    }
+}
+
 /// Returns the default for earlier tables, which have no times.
 fn no_time() -> f64 {
     f64::NAN
@@ -99,14 +128,15 @@ impl Cell {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
-    Ok(ccd_file::write(path, |out| {
+pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
+    let write = |out: &mut dyn Write| {
         let mut writer = csv::Writer::from_writer(out);
         for row in rows {
             writer.serialize(row)?;
         }
         writer.flush()
-    })?)
+    };
+    ccd_file::write(path, write).with_context(|| path.display().to_string())
 }
 
 /// Reads a table with a header.

@@ -1,6 +1,10 @@
+pub(crate) mod shots;
+
 use super::*;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
+use rigid_ccd::table::motions::write;
+use shots::{Shots, drops_past_board};
 
 fn shots() -> Shots {
     Shots {
@@ -66,4 +70,39 @@ fn models_are_made_once() {
     let second = models.body(Model::Knot216).unwrap();
     assert!(Arc::ptr_eq(&first.body, &second.body));
     assert_eq!(first.triangles(), 216);
+}
+
+/// The stored shots and drops, drawn again from their seeds, are the same bytes.
+#[test]
+fn the_stored_motions_are_those_of_their_seeds() {
+    let bunnies = Shots {
+        count: 250,
+        translations: 100,
+        distance: 2.6..3.2,
+        aside: 1.6,
+        seed: 2,
+    };
+    let knots = Shots {
+        distance: 3.0..3.8,
+        aside: 2.3,
+        seed: 3,
+        ..bunnies.clone()
+    };
+    let knots = knots.queries().unwrap();
+    // Every tenth row keeps the proportion of both kinds of motion.
+    let few: Vec<Motions> = knots.iter().step_by(10).cloned().collect();
+    let drawn = [
+        ("santa.csv", drops_past_board(100, 1).unwrap()),
+        ("bunnies.csv", bunnies.queries().unwrap()),
+        ("knots.csv", knots),
+        ("small-knots.csv", few),
+    ];
+    for (name, queries) in drawn {
+        let mut table = Vec::new();
+        write(&mut table, &queries).unwrap();
+        let stored = listing::MOTIONS
+            .into_iter()
+            .find(|(stored, _)| *stored == name);
+        assert!(stored.unwrap().1.as_bytes() == table, "{name}");
+    }
 }

@@ -9,31 +9,27 @@
 //! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point
 //! on a plane of time and error: its accuracy when it is right is no merit.
 
-mod axis;
-mod grid;
 mod heat_map;
-mod legend;
-mod panel;
 mod pareto;
+mod plane;
 mod sheet;
 mod style;
 #[cfg(test)]
 mod tests;
 mod triangles;
 
-pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
+pub use heat_map::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 
 use crate::run::measured::Cell;
-use std::io;
-use std::path::{Path, PathBuf};
-use style::{Fill, MethodStyle};
+use anyhow::{Result, ensure};
+use plane::Shown;
 
 /// The paper's tolerance `[FAST06 §6.2]`, used by charts of one tolerance.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
 /// The remark on medians over different rows.
-const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on \
-                         the rows that both were asked.";
+const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on the \
+                         rows that both were asked.";
 
 /// The data of all charts.
 #[derive(Clone, Copy, Debug)]
@@ -64,8 +60,6 @@ pub struct MethodFacts<'a> {
     pub name: &'a str,
     /// The family.
     pub family: Family,
-    /// The label in the legend.
-    pub label: &'a str,
 }
 
 /// The origin of a method.
@@ -86,68 +80,22 @@ pub enum Family {
 pub struct Drawing {
     /// The name of its file, without the extension.
     pub name: String,
-    /// The description, a sentence.
-    pub title: String,
     /// The content of its file.
     pub svg: String,
 }
 
-/// Charts cannot be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum ChartError {
-    /// The table has no row with a known scene and a known method.
-    #[error("nothing to draw: no row of the table is of a known scene and a known method")]
-    NothingToDraw,
-    /// The drawing library failed.
-    #[error("chart {name}: {reason}")]
-    Drawing {
-        /// The chart.
-        name: String,
-        /// The library's message.
-        reason: String,
-    },
-    /// A file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The cause.
-        source: io::Error,
-    },
-}
-
 impl Charts<'_> {
-    /// Writes `NAME.svg` of every chart that has data. Returns their paths.
-    ///
-    /// # Errors
-    /// [`ChartError::NothingToDraw`] for empty tables, [`ChartError::Write`] if a file cannot be
-    /// written.
-    pub fn write(&self, directory: &Path) -> Result<Vec<PathBuf>, ChartError> {
-        self.drawings()?
-            .iter()
-            .map(|drawing| {
-                let path = directory.join(format!("{}.svg", drawing.name));
-                match ccd_file::write(&path, |out| out.write_all(drawing.svg.as_bytes())) {
-                    Ok(()) => Ok(path),
-                    Err(source) => Err(ChartError::Write { path, source }),
-                }
-            })
-            .collect()
-    }
-
     /// Returns every chart that has data.
     ///
     /// # Errors
-    /// [`ChartError::NothingToDraw`] for empty tables.
-    pub fn drawings(&self) -> Result<Vec<Drawing>, ChartError> {
-        if self.measured_scenes().is_empty() {
-            return Err(ChartError::NothingToDraw);
-        }
-        let mut drawings = Vec::new();
-        drawings.extend(pareto::chart(self)?);
-        drawings.extend(triangles::chart(self)?);
-        Ok(drawings)
+    /// If no row of the table is of a known scene and a known method, or the drawing library fails.
+    pub fn drawings(&self) -> Result<Vec<Drawing>> {
+        ensure!(
+            !self.measured_scenes().is_empty(),
+            "nothing to draw: no row of the table is of a known scene and a known method"
+        );
+        let charts = [pareto::chart(self)?, triangles::chart(self)?];
+        Ok(charts.into_iter().flatten().collect())
     }
 
     /// Returns true if the method was late or missed a contact in any cell.
@@ -159,14 +107,11 @@ impl Charts<'_> {
 
     /// Returns the scenes that have cells.
     fn measured_scenes(&self) -> Vec<&SceneFacts<'_>> {
-        let of_known = |scene: &str| {
-            let known = |cell: &&Cell| self.methods.iter().any(|m| m.name == cell.method);
-            self.cells
-                .iter()
-                .filter(known)
-                .any(|cell| cell.scene == scene)
+        let has_cells = |scene: &&SceneFacts<'_>| {
+            let of = |method: &MethodFacts<'_>| !self.cells_of(scene.name, method.name).is_empty();
+            self.methods.iter().any(of)
         };
-        self.scenes.iter().filter(|s| of_known(s.name)).collect()
+        self.scenes.iter().filter(has_cells).collect()
     }
 
     /// Returns the cells of a method on a scene, the coarsest tolerance first.
@@ -181,24 +126,14 @@ impl Charts<'_> {
     }
 
     /// Returns the methods of some families that have cells, each with its style.
-    fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, MethodStyle)> {
+    fn shown(&self, families: &[Family]) -> Vec<Shown<'_>> {
         let measured = |name: &str| {
-            let known = |cell: &&Cell| self.scenes.iter().any(|s| s.name == cell.scene);
-            self.cells
-                .iter()
-                .filter(known)
-                .any(|cell| cell.method == name)
-        };
-        let fill = |name: &str| {
-            if self.is_unsafe(name) {
-                Fill::Hollow
-            } else {
-                Fill::Solid
-            }
+            let of = |scene: &SceneFacts<'_>| !self.cells_of(scene.name, name).is_empty();
+            self.scenes.iter().any(of)
         };
         self.methods
             .iter()
-            .zip(style::styles(self.methods, fill))
+            .zip(style::styles(self.methods, |name| self.is_unsafe(name)))
             .filter(|(method, _)| families.contains(&method.family) && measured(method.name))
             .collect()
     }
@@ -222,12 +157,4 @@ impl Family {
 /// Returns true if a tolerance is the paper's, up to its rounding in a table.
 fn is_papers(tolerance: f64) -> bool {
     (tolerance / PAPER_TOLERANCE - 1.0).abs() < 1e-9
-}
-
-/// Returns a constructor of the error for a chart that the library failed to draw.
-fn failed(name: &str) -> impl Fn(sheet::DrawError) -> ChartError {
-    move |error| ChartError::Drawing {
-        name: name.to_owned(),
-        reason: error.to_string(),
-    }
 }

@@ -1,41 +1,60 @@
-//! The template and the style of a page.
+//! One page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
 
-use super::chart::ChartError;
-use std::io;
-use std::path::{Path, PathBuf};
+use super::chart::Drawing;
+use super::tables::TextTable;
+use super::views::Views;
+use ccd_view::{escape, filled};
 
-pub(super) use ccd_view::{escape, filled};
+#[cfg(test)]
+mod tests;
 
-/// The style of a page.
-pub(super) const STYLE: &str = include_str!("page/style.css");
-
-/// A page cannot be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PageError {
-    /// A chart cannot be drawn.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
-    /// The data for the page's scripts cannot be serialised.
-    #[error("the page's data: {0}")]
-    Data(#[from] serde_json::Error),
-    /// The file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The cause.
-        source: io::Error,
-    },
-}
-
-/// Writes a page into a file.
+/// Returns the text of the page.
 ///
 /// # Errors
-/// [`PageError::Write`].
-pub(super) fn write(path: &Path, html: &str) -> Result<(), PageError> {
-    ccd_file::write(path, |out| out.write_all(html.as_bytes())).map_err(|source| PageError::Write {
-        path: path.to_owned(),
-        source,
-    })
+/// If the views cannot be serialised.
+pub fn html(
+    drawings: &[Drawing],
+    views: &Views,
+    tables: &[TextTable],
+) -> Result<String, serde_json::Error> {
+    let figure = |drawing: &Drawing| format!("<figure>{}</figure>\n", drawing.svg);
+    let parts = [
+        ("style", include_str!("page/style.css").to_owned()),
+        ("charts", drawings.iter().map(figure).collect()),
+        ("tables", tables.iter().map(table_html).collect()),
+        ("view_place", ccd_view::HTML.to_owned()),
+        ("view_style", ccd_view::STYLE.to_owned()),
+        ("views", ccd_view::data(&views.meshes, &views.groups)?),
+        ("view_scripts", ccd_view::scripts()),
+        ("tables_script", include_str!("page/tables.js").to_owned()),
+    ];
+    Ok(filled(include_str!("page/page.html"), &parts))
+}
+
+fn table_html(table: &TextTable) -> String {
+    let cell = |text: &String| {
+        let class = if text.starts_with(char::is_alphabetic) {
+            ""
+        } else {
+            " class=\"number\""
+        };
+        format!("<td{class}>{}</td>", escape(text))
+    };
+    let header = table.header.iter().map(|name| {
+        format!(
+            "<th scope=\"col\"><button type=\"button\">{}</button></th>",
+            escape(name)
+        )
+    });
+    let rows = table.rows.iter().map(|row| {
+        let cells: String = row.iter().map(cell).collect();
+        format!("<tr>{cells}</tr>\n")
+    });
+    format!(
+        "<h3>{}</h3>\n<div class=\"table\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n\
+         </table></div>\n",
+        escape(&table.title),
+        header.collect::<String>(),
+        rows.collect::<String>(),
+    )
 }

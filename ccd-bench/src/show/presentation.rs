@@ -1,19 +1,16 @@
 //! Turns measurements into tables, charts and a page.
 
-mod readme;
-mod views;
-
-pub use readme::splice;
-
 use crate::method::Method;
 use crate::run::evaluation::{Evaluated, USUAL_TOLERANCE};
 use crate::run::measured::Cell;
 use crate::scene::Scene;
 use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
+use crate::show::page;
 use crate::show::sentences::Measurements;
 use crate::show::tables::{self, TextTable};
-use anyhow::Result;
+use crate::show::views::Views;
+use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
 /// Tables, charts and views of one evaluation.
@@ -96,13 +93,11 @@ impl<'e> Presentation<'e> {
                 triangles: scene.a.triangles(),
             })
             .collect();
-        let methods: Vec<MethodFacts<'_>> = self
-            .methods
-            .iter()
+        let methods = self.methods.iter();
+        let methods: Vec<MethodFacts<'_>> = methods
             .map(|(name, family)| MethodFacts {
                 name,
                 family: *family,
-                label: name,
             })
             .collect();
         let charts = Charts {
@@ -110,14 +105,21 @@ impl<'e> Presentation<'e> {
             scenes: &scenes,
             methods: &methods,
         };
-        charts.write(folder)?;
-        Ok(views::write_page(
-            charts,
-            &self.evaluated.scenes,
-            &self.comparisons,
-            folder,
-        )?)
+        let drawings = charts.drawings()?;
+        for drawing in &drawings {
+            write(&folder.join(format!("{}.svg", drawing.name)), &drawing.svg)?;
+        }
+        let views = Views::new(&self.evaluated.scenes)?;
+        let page = folder.join("index.html");
+        write(&page, &page::html(&drawings, &views, &self.comparisons)?)?;
+        Ok(page)
     }
+}
+
+/// Writes a text into a file.
+fn write(path: &Path, text: &str) -> Result<()> {
+    ccd_file::write(path, |out| out.write_all(text.as_bytes()))
+        .with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// Returns the methods in a table of answers, without those that measure something else.

@@ -8,7 +8,8 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::{Family, Step, StepError};
+use super::family::{Family, Step};
+use anyhow::Result;
 
 /// Returns all families.
 pub fn families() -> Vec<Family> {
@@ -26,16 +27,12 @@ pub fn families() -> Vec<Family> {
     .collect()
 }
 
-fn family(
-    name: &'static str,
-    parameter: &'static str,
-    values: Vec<f64>,
-    make: fn(f64) -> Result<Step, StepError>,
-) -> Family {
+/// Returns a family without values.
+fn family(name: &'static str, make: fn(f64) -> Result<Step>) -> Family {
     Family {
         name,
-        parameter,
-        values,
+        parameter: "",
+        values: Vec::new(),
         make,
     }
 }

@@ -1,8 +1,9 @@
 //! A family of scenes: one hard parameter in steps, with exact answers.
 
+use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
-use ccd_decomp::{MeshError, TriangleMesh};
+use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
 /// Scenes of one kind, with a parameter that makes them harder.
@@ -15,7 +16,7 @@ pub struct Family {
     /// The values of the parameter, the easiest first.
     pub values: Vec<f64>,
     /// The function that makes the scene of a value.
-    pub make: fn(f64) -> Result<Step, StepError>,
+    pub make: fn(f64) -> Result<Step>,
 }
 
 /// Two meshes, and queries about them with known answers.
@@ -58,16 +59,15 @@ pub enum Expected {
     Start,
 }
 
-/// A scene cannot be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// A mesh is invalid.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-    /// A motion is invalid.
-    #[error(transparent)]
-    Input(#[from] InputError),
+impl Family {
+    /// Returns the same family over the values of a parameter.
+    pub(super) fn over(self, parameter: &'static str, values: Vec<f64>) -> Self {
+        Family {
+            parameter,
+            values,
+            ..self
+        }
+    }
 }
 
 /// The motion of one body, with its displacement and its rotation over the whole duration.
@@ -98,9 +98,7 @@ impl Expected {
             hi: time + slack,
         }
     }
-}
 
-impl Expected {
     /// Converts the answer from duration 1 to another duration.
     fn over(self, duration: f64) -> Self {
         match self {
@@ -152,6 +150,16 @@ impl BodyMotion {
         }
     }
 
+    /// Returns the same motion from another orientation.
+    pub(super) fn oriented(self, turned: DQuat) -> Self {
+        BodyMotion { turned, ..self }
+    }
+
+    /// Returns the same motion with a rotation about the centre.
+    pub(super) fn spinning(self, spin: DVec3) -> Self {
+        BodyMotion { spin, ..self }
+    }
+
     fn motion(self, world: DQuat, duration: f64) -> Result<Motion, InputError> {
         let start = Pose::new(world * self.at, world * self.turned)?;
         let velocity = world * self.velocity / duration;
@@ -172,13 +180,13 @@ impl Step {
         }
     }
 
+    /// Returns the same step with another tolerance.
+    pub(super) fn within(self, tolerance: f64) -> Self {
+        Step { tolerance, ..self }
+    }
+
     /// Adds a query with exactly these numbers; the answer is for a duration of 1.
-    pub(super) fn exactly(
-        self,
-        a: BodyMotion,
-        b: BodyMotion,
-        expected: Expected,
-    ) -> Result<Self, InputError> {
+    pub(super) fn exactly(self, a: BodyMotion, b: BodyMotion, expected: Expected) -> Result<Self> {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
@@ -188,7 +196,7 @@ impl Step {
         a: BodyMotion,
         b: BodyMotion,
         expected: Expected,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self> {
         self = self.exactly(a, b, expected)?;
         for (axis, angle) in WORLDS {
             self = self.in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
@@ -196,12 +204,27 @@ impl Step {
         Ok(self)
     }
 
+    /// Adds the query, in rotated worlds too if it bears their rounding.
+    pub(super) fn turned_if(
+        self,
+        bears_rounding: bool,
+        a: BodyMotion,
+        b: BodyMotion,
+        expected: Expected,
+    ) -> Result<Self> {
+        if bears_rounding {
+            self.turned_too(a, b, expected)
+        } else {
+            self.exactly(a, b, expected)
+        }
+    }
+
     fn in_world(
         mut self,
         world: DQuat,
         [a, b]: [BodyMotion; 2],
         expected: Expected,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self> {
         let query = Motions {
             id: self.cases.len().to_string(),
             a: a.motion(world, self.duration)?,

@@ -39,83 +39,9 @@ fn from_start(claim: Claim, duration: f64) -> Verdict {
         Claim::Contact { .. } | Claim::Unresolved { .. } => Verdict::Late,
         Claim::Free => Verdict::Missed,
         Claim::Refused => Verdict::Refused,
+        Claim::Static => Verdict::NotJudged,
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::stability::families;
-    use crate::truth::Surface;
-    use rstest::rstest;
-
-    const FREE: Claim = Claim::Free;
-
-    fn contact(time: f64) -> Claim {
-        Claim::Contact { time }
-    }
-
-    fn safe(safe_until: f64) -> Claim {
-        Claim::Unresolved { safe_until }
-    }
-
-    /// The easiest step of each family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start inside.
-    #[rstest]
-    #[case("margin", contact(0.5), Verdict::Right)]
-    #[case("margin", contact(0.5 - 1e-7), Verdict::Right)]
-    #[case("margin", contact(0.49), Verdict::Early)]
-    #[case("margin", contact(0.5001), Verdict::Late)]
-    #[case("margin", contact(f64::NAN), Verdict::Late)]
-    #[case("margin", FREE, Verdict::Missed)]
-    #[case("margin", safe(0.4), Verdict::Unresolved)]
-    #[case("margin", safe(0.6), Verdict::Late)]
-    #[case("margin", Claim::Refused, Verdict::Refused)]
-    #[case("cubes passing", FREE, Verdict::Right)]
-    #[case("cubes passing", contact(0.5), Verdict::False)]
-    #[case("cubes passing", safe(0.9), Verdict::Unresolved)]
-    #[case("one inside the other", contact(0.0), Verdict::Right)]
-    #[case("one inside the other", contact(0.1), Verdict::Late)]
-    #[case("one inside the other", FREE, Verdict::Missed)]
-    #[case("one inside the other", safe(0.0), Verdict::Unresolved)]
-    #[case("one inside the other", safe(0.1), Verdict::Late)]
-    fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict: Verdict) {
-        let family = families().into_iter().find(|f| f.name == family).unwrap();
-        let step = (family.make)(family.values[1]).unwrap();
-        let [a, b] = step.meshes.each_ref().map(Surface::new);
-        let outcome = QueryOutcome::Answered {
-            reply: Reply::new(claim, 1),
-            micros: 1.0,
-        };
-        for case in &step.cases {
-            let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
-            assert_eq!(judged.verdict, verdict, "{claim:?}");
-        }
-    }
-
-    /// The bodies approach at speed 4, so that 0.01 in time is 0.04 in distance.
-    #[rstest]
-    #[case(None, Verdict::Early)]
-    #[case(Some(0.02), Verdict::Early)]
-    #[case(Some(0.05), Verdict::Right)]
-    #[case(Some(f64::NAN), Verdict::Early)]
-    fn an_answer_is_judged_by_the_tolerance_that_it_states(
-        #[case] tolerance: Option<f64>,
-        #[case] verdict: Verdict,
-    ) {
-        let mut families = families().into_iter();
-        let family = families.find(|f| f.name == "margin").unwrap();
-        let step = (family.make)(0.0).unwrap();
-        let [a, b] = step.meshes.each_ref().map(Surface::new);
-        let case = &step.cases[0];
-        let Expected::Contact { lo, .. } = case.expected else {
-            panic!("{:?}", case.expected)
-        };
-        let reply = Reply {
-            tolerance,
-            ..Reply::new(contact(lo - 0.01), 1)
-        };
-        let outcome = QueryOutcome::Answered { reply, micros: 1.0 };
-        let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
-        assert_eq!(judged.verdict, verdict);
-    }
-}
+mod tests;

@@ -2,7 +2,7 @@
 
 use crate::scene::model::sphere::sphere;
 use crate::scene::model::{Board, Plate, Ring};
-use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::glam::{DAffine3, DVec3, dvec3};
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
 
@@ -12,12 +12,6 @@ pub(super) fn cuboid(x: f64, y: f64, z: f64) -> Result<TriangleMesh, MeshError> 
         half_extents: dvec3(x, y, z),
     }
     .mesh()
-}
-
-/// Returns a mesh with its origin elsewhere.
-pub(super) fn moved(mesh: &TriangleMesh, by: DVec3) -> Result<TriangleMesh, MeshError> {
-    let vertices = mesh.vertices().iter().map(|&p| p + by).collect();
-    TriangleMesh::new(vertices, mesh.faces())
 }
 
 /// Returns a cube of side 1 about the origin.
@@ -163,32 +157,13 @@ pub(super) fn ribbon(
     TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
-/// Returns open squares across z at two heights.
-pub(super) fn stacked(half_side: f64, heights: [f64; 2]) -> Result<TriangleMesh, MeshError> {
-    let sheet = sheet(half_side)?;
-    let sheets: Result<Vec<TriangleMesh>, MeshError> = heights
-        .into_iter()
-        .map(|z| moved(&sheet, z * DVec3::Z))
-        .collect();
-    together(&sheets?)
-}
-
-/// Returns all meshes as one.
-pub(super) fn together(meshes: &[TriangleMesh]) -> Result<TriangleMesh, MeshError> {
-    let mut vertices = Vec::new();
-    let mut faces = Vec::new();
-    for mesh in meshes {
-        let first = vertices.len() as u32;
-        vertices.extend_from_slice(mesh.vertices());
-        faces.extend(mesh.faces().iter().map(|face| face.map(|v| first + v)));
-    }
-    TriangleMesh::new(vertices, &faces)
-}
-
-/// Returns a mesh that is turned about its origin.
-pub(super) fn turned(mesh: &TriangleMesh, by: DQuat) -> Result<TriangleMesh, MeshError> {
-    let vertices = mesh.vertices().iter().map(|&p| by * p).collect();
-    TriangleMesh::new(vertices, mesh.faces())
+/// Returns copies of an open square across z, one at each height.
+pub(super) fn stacked(
+    sheet: &TriangleMesh,
+    heights: impl Iterator<Item = f64>,
+) -> Result<TriangleMesh, MeshError> {
+    let sheets = heights.map(|z| sheet.transformed(DAffine3::from_translation(z * DVec3::Z)));
+    TriangleMesh::merge(&sheets.collect::<Result<Vec<_>, _>>()?)
 }
 
 /// Returns the wide box of [`slab`] with a vertex on its top close to the diagonal, so that one of the three triangles
@@ -216,23 +191,19 @@ pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
 /// Returns cubes of side 1/4 in rows across z, every other one inside out, with all tops at z = 0.
 pub(super) fn field_of_cubes(count: u32) -> Result<TriangleMesh, MeshError> {
     let cube = cuboid(0.125, 0.125, 0.125)?;
+    let faces: Vec<[u32; 3]> = cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
+    let inside_out = TriangleMesh::new(cube.vertices().to_vec(), &faces)?;
     let wide = f64::from(count).sqrt().ceil() as u32;
     let middle = 0.5 * f64::from(wide - 1);
     let cubes: Result<Vec<TriangleMesh>, MeshError> = (0..count)
         .map(|k| {
             let place = |at: u32| 0.5 * (f64::from(at) - middle);
-            let cube = moved(&cube, dvec3(place(k % wide), place(k / wide), -0.125))?;
-            match k % 2 {
-                0 => Ok(cube),
-                _ => {
-                    let faces: Vec<[u32; 3]> =
-                        cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
-                    TriangleMesh::new(cube.vertices().to_vec(), &faces)
-                }
-            }
+            let cube = if k % 2 == 0 { &cube } else { &inside_out };
+            let place = dvec3(place(k % wide), place(k / wide), -0.125);
+            cube.transformed(DAffine3::from_translation(place))
         })
         .collect();
-    together(&cubes?)
+    TriangleMesh::merge(&cubes?)
 }
 
 /// Returns a plate from z = −0.1 to 0.1 with half side 3, and with a square hole about the origin.
@@ -255,12 +226,12 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
 
 /// Returns open squares across z, the highest at z = 0, the lowest at z = −0.5.
 pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
+    let square = Plate {
+        half_side: 1.0,
+        squares: 1,
+    };
     let step = 0.5 / f64::from(count);
-    let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-    let square = |k: u32| corners.map(|(x, y)| dvec3(x, y, -step * f64::from(k)));
-    let vertices: Vec<DVec3> = (0..count).flat_map(square).collect();
-    let faces = (0..count).flat_map(|k| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|v| 4 * k + v)));
-    TriangleMesh::new(vertices, &faces.collect::<Vec<_>>())
+    stacked(&square.mesh()?, (0..count).map(|k| -step * f64::from(k)))
 }
 
 /// Returns a mesh with some of its faces repeated, half of them reversed, and as many degenerate faces.
@@ -274,72 +245,4 @@ pub(super) fn with_bad_faces(mesh: &TriangleMesh, count: usize) -> Result<Triang
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use ccd_core::order::greater;
-    use ccd_decomp::Topology;
-
-    #[test]
-    fn bodies_are_closed_and_of_the_volume_that_they_should_have() {
-        let third = std::f64::consts::PI / 3.0;
-        let cases = [
-            (cuboid(1.0, 2.0, 3.0), 48.0, 1e-12),
-            (ball(1.0, 5000), 4.0 * third, 0.01),
-            (cone(300, 1.0), third, 0.001),
-            // The bar ends with the last tooth.
-            (comb(3), 1.0 - 0.2 + 0.4, 1e-12),
-            (holed_plate(0.5), 0.2 * (36.0 - 1.0), 1e-12),
-            (comb(64), 1.0 - 0.6 / 64.0 + 0.4, 1e-12),
-            (slit_plate(0.5), 0.2 * 6.0 * 5.0, 1e-12),
-            (sliver_slab(1e-6), 648.0, 1e-9),
-        ];
-        for (mesh, volume, slack) in cases {
-            let topology = Topology::of(&mesh.unwrap());
-            assert!(topology.is_solid() && topology.is_manifold(), "{topology}");
-            assert!(
-                (topology.signed_volume - volume).abs() <= slack,
-                "{volume}: {topology:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_sliver_is_as_thin_as_it_should_be() {
-        let mesh = sliver_slab(1e-3).unwrap();
-        let height = |face: &[u32; 3]| {
-            let [a, b, c] = face.map(|v| mesh.vertices()[v as usize]);
-            let sides = [b - a, c - b, a - c].map(DVec3::length);
-            let longest = sides.into_iter().fold(0.0, greater);
-            (b - a).cross(c - a).length() / longest
-        };
-        let thinnest = mesh.faces().iter().map(height).min_by(f64::total_cmp);
-        let expected = 1e-3 * std::f64::consts::SQRT_2;
-        assert!((thinnest.unwrap() - expected).abs() < 1e-9, "{thinnest:?}");
-    }
-
-    #[test]
-    fn cubes_in_a_field_are_turned_inside_out_one_by_one() {
-        let field = field_of_cubes(5).unwrap();
-        assert_eq!(field.faces().len(), 60);
-        let topology = Topology::of(&field);
-        assert_eq!(topology.wrong_way.count(), 2, "{topology:?}");
-        assert!(field.vertices().iter().all(|p| p.z <= 0.0));
-    }
-
-    #[test]
-    fn a_ribbon_rises_by_its_pitch() {
-        let ribbon = ribbon([0.9, 1.0], 0.2, 16, 3).unwrap();
-        assert_eq!(ribbon.faces().len(), 96);
-        let highest = ribbon.vertices().last().unwrap();
-        assert!((highest - dvec3(1.0, 0.0, 0.6)).length() < 1e-15);
-    }
-
-    #[test]
-    fn bad_faces_are_repaired_or_kept_without_moving_the_surface() {
-        let cube = cuboid(0.5, 0.5, 0.5).unwrap();
-        let bad = with_bad_faces(&cube, 30).unwrap();
-        assert_eq!(bad.vertices(), cube.vertices());
-        let repairs = bad.repairs();
-        assert!(!repairs.collapsed.is_empty() && !repairs.duplicates.is_empty());
-    }
-}
+mod tests;

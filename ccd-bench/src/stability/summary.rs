@@ -5,7 +5,7 @@ use super::findings::{Findings, VERDICTS};
 use super::survey::step_name;
 use crate::run::contest::Verdict;
 use crate::run::measured::Cell;
-use crate::show::chart::{HeatCell, HeatKind, HeatMap, HeatRow};
+use crate::show::chart::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
 use std::collections::HashMap;
@@ -71,14 +71,14 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
 
 /// Returns the map of the reach of each method in each family.
 pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
-    map(findings, HeatKind::Reach, |family, method| {
+    map(findings, REACH, |family, method| {
         let reach = findings.reach(family, method)?;
         let worst = reach.worst;
-        Some(HeatCell::Reach {
-            worst: worst.map_or(Verdict::Right, |limit| limit.verdict),
-            share: reach.share,
-            limit: worst.map_or(String::new(), |limit| format!("{:e}", limit.value)),
-        })
+        Some(HeatCell::reach(
+            worst.map_or(Verdict::Right, |limit| limit.verdict),
+            reach.share,
+            worst.map_or(String::new(), |limit| format!("{:e}", limit.value)),
+        ))
     })
 }
 
@@ -92,7 +92,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     let cells = findings.journal.cells().iter();
     let costs: HashMap<(String, String), f64> =
         cells.filter(|cell| cell.cut_off == 0).map(cost).collect();
-    map(findings, HeatKind::Growth, |family, method| {
+    map(findings, GROWTH, |family, method| {
         let costs = family.values.iter().filter_map(|&value| {
             let key = (step_name(family, value), method.to_owned());
             costs.get(&key).copied()
@@ -103,14 +103,14 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
         };
         let most = costs.iter().copied().fold(0.0, greater);
         // Some methods count no steps.
-        (most > 1.0).then_some(HeatCell::Growth(most / easiest))
+        (most > 1.0).then_some(HeatCell::growth(most / easiest))
     })
 }
 
 /// Makes a map from a function of the family and the method.
 fn map(
     findings: &Findings<'_>,
-    kind: HeatKind,
+    kind: &'static HeatKind,
     cell: impl Fn(&Family, &str) -> Option<HeatCell>,
 ) -> HeatMap {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();

@@ -1,14 +1,15 @@
 //! Runs methods on all steps of families, each in a process that can be stopped, and records the answers in a journal.
 
-use super::family::{Family, Step, StepError};
+use super::family::{Family, Step};
 use super::judge::judge;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::rival::is_screw;
-use crate::method::solver::{Claim, Reply};
+use crate::method::solver::Reply;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Journal, JournalError, Judged, Verdict, program_stamp, sum_up};
+use crate::run::contest::{Journal, Judged, Verdict, program_stamp, sum_up};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 use rigid_ccd::command::{Progress, Total};
 use std::io;
@@ -23,48 +24,12 @@ pub struct Survey {
     pub families: Vec<Family>,
     /// The methods.
     pub methods: Vec<Method>,
-    /// The extent of each family.
-    pub extent: Extent,
+    /// Whether all values of a family are asked about, not the easiest, the hardest, and one between.
+    pub full: bool,
     /// The programs that run the methods.
     pub programs: Programs,
     /// The folder of the journal.
     pub folder: PathBuf,
-}
-
-/// The extent of a survey within each family.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Extent {
-    /// The easiest value, the hardest, and one between.
-    Quick,
-    /// All values.
-    Full,
-}
-
-/// A survey ended early.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SurveyError {
-    /// A scene cannot be made.
-    #[error("{family} at {value:e}: {source}")]
-    Step {
-        /// The family.
-        family: &'static str,
-        /// The value.
-        value: f64,
-        /// The cause.
-        source: StepError,
-    },
-    /// A method's process cannot be started.
-    #[error("{method}: {source}")]
-    Start {
-        /// The method.
-        method: String,
-        /// The cause.
-        source: io::Error,
-    },
-    /// The journal cannot be kept.
-    #[error(transparent)]
-    Journal(#[from] JournalError),
 }
 
 /// The time limit of one query.
@@ -76,21 +41,6 @@ const PREPARATION: Duration = Duration::from_secs(20);
 /// The number of consecutive steps at which a method is stopped before its harder steps are skipped.
 const CHANCES: usize = 2;
 
-impl Extent {
-    /// Returns the values of a family to survey.
-    fn values(self, family: &Family) -> Vec<f64> {
-        let all = &family.values;
-        match self {
-            Extent::Full => all.clone(),
-            Extent::Quick => {
-                let mut rows = vec![0, all.len() / 2, all.len() - 1];
-                rows.dedup();
-                rows.into_iter().map(|row| all[row]).collect()
-            }
-        }
-    }
-}
-
 /// Returns the name of a step in the tables.
 pub(super) fn step_name(family: &Family, value: f64) -> String {
     format!("{} {value:e}", family.name)
@@ -100,29 +50,30 @@ impl Survey {
     /// Runs the steps that the folder does not have yet.
     ///
     /// # Errors
-    /// [`SurveyError`]; earlier answers are kept.
-    pub fn run(&self) -> Result<Journal, SurveyError> {
+    /// If a scene cannot be made, a method cannot be started, or the journal cannot be kept; earlier answers are kept.
+    pub fn run(&self) -> Result<Journal> {
         for &method in &self.methods {
-            let started = self.programs.check(method);
-            started.map_err(|source| SurveyError::Start {
-                method: method.to_string(),
-                source,
-            })?;
+            self.programs.check(method)?;
         }
         let journal = Mutex::new(Journal::open(&self.folder, &stamp(), &[])?);
-        let steps: usize = self
-            .families
-            .iter()
-            .map(|f| self.extent.values(f).len())
-            .sum();
+        let steps = self.families.iter().map(|f| self.values(f).len());
+        let steps: usize = steps.sum();
         let progress = Progress::new(Total::Steps(steps * self.methods.len()));
-        let asked: Result<(), SurveyError> = self
-            .families
-            .par_iter()
-            .try_for_each(|family| self.ask_family(family, &journal, &progress));
-        asked?;
+        let families = self.families.par_iter();
+        families.try_for_each(|family| self.ask_family(family, &journal, &progress))?;
         drop(progress);
         Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Returns the values of a family to ask about.
+    fn values(&self, family: &Family) -> Vec<f64> {
+        let all = &family.values;
+        if self.full {
+            return all.clone();
+        }
+        let mut rows = vec![0, all.len() / 2, all.len() - 1];
+        rows.dedup();
+        rows.into_iter().map(|row| all[row]).collect()
     }
 
     fn ask_family(
@@ -130,16 +81,11 @@ impl Survey {
         family: &Family,
         journal: &Mutex<Journal>,
         progress: &Progress,
-    ) -> Result<(), SurveyError> {
+    ) -> Result<()> {
         let mut stopped = vec![0; self.methods.len()];
-        for value in self.extent.values(family) {
-            let failed = |source| SurveyError::Step {
-                family: family.name,
-                value,
-                source,
-            };
-            let step = (family.make)(value).map_err(failed)?;
+        for value in self.values(family) {
             let name = step_name(family, value);
+            let step = (family.make)(value).with_context(|| name.clone())?;
             let ready = Ready::new(&step, &name);
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
                 progress.say(&format!("{name}: {method}"));
@@ -149,13 +95,8 @@ impl Survey {
                 if *stopped >= CHANCES || known {
                     continue;
                 }
-                let trials =
-                    ready
-                        .ask(method, &self.programs)
-                        .map_err(|source| SurveyError::Start {
-                            method: method.to_string(),
-                            source,
-                        })?;
+                let trials = ready.ask(method, &self.programs);
+                let trials = trials.with_context(|| method.to_string())?;
                 let cut_off = Verdict::CutOff.to_string();
                 if trials.iter().any(|trial| trial.verdict == cut_off) {
                     *stopped += 1;
@@ -227,25 +168,17 @@ impl<'s> Ready<'s> {
     }
 
     fn trial(&self, method: Method, row: usize, outcome: &QueryOutcome, judged: Judged) -> Trial {
-        let silent = Reply::new(Claim::Refused, 0);
-        let (reply, micros) = match outcome {
-            QueryOutcome::Answered { reply, micros } => (reply, *micros),
-            QueryOutcome::CutOff => (&silent, PATIENCE.as_secs_f64() * 1e6),
-            QueryOutcome::Died => (&silent, f64::NAN),
+        let note = match outcome {
+            QueryOutcome::Answered { reply, .. } => self.note(reply),
+            QueryOutcome::CutOff | QueryOutcome::Died => String::new(),
         };
-        Trial {
-            scene: self.name.to_owned(),
-            method: method.to_string(),
-            tolerance: self.step.tolerance,
-            row,
-            id: row.to_string(),
-            micros,
-            steps: reply.steps,
-            verdict: judged.verdict.to_string(),
-            error: judged.error.unwrap_or(f64::NAN),
-            time: reply.claim.time().unwrap_or(f64::NAN),
-            note: self.note(reply),
-        }
+        let trial = Trial::new(
+            (self.name, &method.to_string(), self.step.tolerance),
+            (row, &row.to_string()),
+            (outcome, PATIENCE),
+            judged,
+        );
+        Trial { note, ..trial }
     }
 
     /// Returns the method's remark about its answer.

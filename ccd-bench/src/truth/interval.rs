@@ -107,36 +107,21 @@ impl Interval {
         Interval::new(greater(self.inf, other.inf), lesser(self.sup, other.sup))
     }
 
-    /// Multiplies two intervals without negative numbers. The least product is of the lower bound: with the least
-    /// factor, or with the greatest if that bound is negative. The greatest product likewise.
+    /// Multiplies by numbers that are not negative.
     fn times(self, factor: Self) -> Self {
-        let least = if self.inf >= 0.0 {
-            factor.inf
-        } else {
-            factor.sup
-        };
-        let most = if self.sup >= 0.0 {
-            factor.sup
-        } else {
-            factor.inf
-        };
-        let ([inf, _], [_, sup]) = (product(self.inf, least), product(self.sup, most));
-        Interval::new(inf, sup)
+        self.with(product, [factor.inf, factor.sup])
     }
 
     /// Divides by positive numbers: the greatest divisor takes the place of the least factor.
     fn over(self, divisor: Self) -> Self {
-        let least = if self.inf >= 0.0 {
-            divisor.sup
-        } else {
-            divisor.inf
-        };
-        let most = if self.sup >= 0.0 {
-            divisor.inf
-        } else {
-            divisor.sup
-        };
-        let ([inf, _], [_, sup]) = (quotient(self.inf, least), quotient(self.sup, most));
+        self.with(quotient, [divisor.sup, divisor.inf])
+    }
+
+    /// Returns the results of an operation that scales numbers by least to most. The least one is of the lower bound:
+    /// scaled least, or most if that bound is negative. The greatest one likewise.
+    fn with(self, scaled: impl Fn(f64, f64) -> [f64; 2], [least, most]: [f64; 2]) -> Self {
+        let [inf, _] = scaled(self.inf, if self.inf >= 0.0 { least } else { most });
+        let [_, sup] = scaled(self.sup, if self.sup >= 0.0 { most } else { least });
         Interval::new(inf, sup)
     }
 }

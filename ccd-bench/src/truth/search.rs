@@ -9,7 +9,6 @@ use super::triangle::{gap, nearest, normals};
 use super::{Referee, Truth};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
-use std::ops::ControlFlow;
 use std::rc::Rc;
 
 /// A node of A and one of B.
@@ -225,29 +224,6 @@ impl<'a> Search<'a> {
         let snapshot = self.snapshot(span);
         let [a, b] = &self.tracks;
         let instant = Instant::new(a, b, time);
-        self.descend(&snapshot, roots, |search, pair| {
-            let touches = match proof {
-                Proof::NotApart => true,
-                Proof::Pierced => {
-                    let triangles = search.triangles(pair);
-                    triangles.is_some_and(|[a, b]| instant.certainly_meet(a, b))
-                }
-            };
-            if touches {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })
-    }
-
-    /// Passes on all leaves that are not certainly apart, until the callback stops the descent.
-    fn descend(
-        &mut self,
-        snapshot: &Snapshot,
-        roots: Pair,
-        mut leaf: impl FnMut(&Self, Pair) -> ControlFlow<()>,
-    ) -> Touch {
         let mut stack = vec![roots];
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {
@@ -260,8 +236,12 @@ impl<'a> Search<'a> {
             }
             if let Some(Split { parts, .. }) = self.split(pair) {
                 stack.extend(parts);
-            } else if !self.triangles_apart(snapshot, pair) && leaf(self, pair).is_break() {
-                return Touch::Yes;
+            } else if !self.triangles_apart(&snapshot, pair) {
+                let triangles = self.triangles(pair);
+                let meet = |[a, b]: [&Triangle; 2]| instant.certainly_meet(a, b);
+                if proof == Proof::NotApart || triangles.is_some_and(meet) {
+                    return Touch::Yes;
+                }
             }
         }
         Touch::No

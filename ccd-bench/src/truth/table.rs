@@ -1,8 +1,8 @@
 //! The table of truths.
 
 use super::Truth;
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
-use std::io;
 
 /// The columns, in order. The last one holds the reason why a row of motions cannot be judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
@@ -15,19 +15,25 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 pub struct TruthRow {
     /// The name of the query.
     pub id: String,
-    status: Status,
+    /// The kind of its truth.
+    pub status: Status,
     lo: f64,
     hi: f64,
 }
 
 /// The kind of a [`Truth`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
-enum Status {
+pub enum Status {
+    /// The kind of [`Truth::Hit`].
     Hit,
+    /// The kind of [`Truth::Free`].
     Free,
+    /// The kind of [`Truth::Start`].
     Initial,
+    /// The kind of [`Truth::Graze`].
     Graze,
+    /// The kind of [`Truth::Undecided`].
     Undecided,
 }
 
@@ -44,6 +50,15 @@ impl TruthRow {
         TruthRow { id, status, lo, hi }
     }
 
+    /// Returns the width of the bracket of a hit, 0 for others.
+    pub fn width(&self) -> f64 {
+        if self.status == Status::Hit {
+            self.hi - self.lo
+        } else {
+            0.0
+        }
+    }
+
     /// Returns the truth.
     pub fn truth(&self) -> Truth {
         let (lo, hi) = (self.lo, self.hi);
@@ -55,31 +70,4 @@ impl TruthRow {
             Status::Undecided => Truth::Undecided { lo },
         }
     }
-}
-
-/// Writes a table of truths; numbers are read back to the same bits.
-///
-/// # Errors
-/// If `output` cannot be written to.
-pub fn write_truths(
-    output: impl io::Write,
-    rows: impl IntoIterator<Item = TruthRow>,
-) -> Result<(), csv::Error> {
-    let mut writer = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(output);
-    writer.write_record(&TRUTH_COLUMNS[..4])?;
-    for row in rows {
-        writer.serialize(row)?;
-    }
-    writer.flush()?;
-    Ok(())
-}
-
-/// Reads a table of truths.
-///
-/// # Errors
-/// If `input` cannot be read, or a row does not fit the table.
-pub fn read_truths(input: impl io::Read) -> Result<Vec<TruthRow>, csv::Error> {
-    csv::Reader::from_reader(input).deserialize().collect()
 }

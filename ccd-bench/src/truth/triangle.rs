@@ -30,17 +30,12 @@ pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3>
 /// Returns the nearest points of two triangles of any shape, up to rounding; the same point if they intersect.
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest_of_edges(a, b);
-    let mut consider = |p: DVec3, q: DVec3| {
-        if (p - q).length_squared() < (best.0 - best.1).length_squared() {
-            best = (p, q);
-        }
-    };
     for i in 0..3 {
         if let Some(q) = foot(a[i], b) {
-            consider(a[i], q);
+            best = nearer(best, (a[i], q));
         }
         if let Some(p) = foot(b[i], a) {
-            consider(p, b[i]);
+            best = nearer(best, (p, b[i]));
         }
     }
     best
@@ -49,30 +44,33 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
 /// Like [`nearest`], and also checks whether an edge pierces the other triangle.
 pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest(a, b);
-    let mut consider = |p: DVec3, q: DVec3| {
-        if (p - q).length_squared() < (best.0 - best.1).length_squared() {
-            best = (p, q);
-        }
-    };
     for i in 0..3 {
         if let Some((p, q)) = crossing([a[i], a[(i + 1) % 3]], b) {
-            consider(p, q);
+            best = nearer(best, (p, q));
         }
         if let Some((q, p)) = crossing([b[i], b[(i + 1) % 3]], a) {
-            consider(p, q);
+            best = nearer(best, (p, q));
         }
     }
     best
+}
+
+/// Returns the second pair of points if they are nearer to each other, else the first.
+fn nearer(best: (DVec3, DVec3), found: (DVec3, DVec3)) -> (DVec3, DVec3) {
+    let squared = |(p, q): (DVec3, DVec3)| (p - q).length_squared();
+    if squared(found) < squared(best) {
+        found
+    } else {
+        best
+    }
 }
 
 fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = (a[0], b[0]);
     for i in 0..3 {
         for j in 0..3 {
-            let (p, q) = nearest_of_segments([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]);
-            if (p - q).length_squared() < (best.0 - best.1).length_squared() {
-                best = (p, q);
-            }
+            let found = nearest_of_segments([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]);
+            best = nearer(best, found);
         }
     }
     best

@@ -7,15 +7,13 @@ use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::shortcuts::Shortcut;
-use crate::shortcuts::out_of_reach::out_of_reach;
-use crate::shortcuts::roots::keep_apart;
+use crate::shortcuts::{Shortcut, balls, boxes};
 use std::ops::ControlFlow;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
 pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
-    let by_balls = problem.uses(Shortcut::Balls) && out_of_reach(problem);
-    let is_free = by_balls || problem.uses(Shortcut::Boxes) && keep_apart(problem);
+    let by_balls = problem.uses(Shortcut::Balls) && balls::keep_apart(problem);
+    let is_free = by_balls || problem.uses(Shortcut::Boxes) && boxes::keep_apart(problem);
     is_free.then(|| Outcome::Free {
         proven_gap: problem.proven_gap(),
     })

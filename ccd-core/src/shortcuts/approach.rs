@@ -4,6 +4,7 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::gap::Gap;
+use crate::motion::path::Path;
 use crate::problem::Problem;
 use crate::rounding::RATE_F64;
 use glam::DVec3;
@@ -21,12 +22,12 @@ pub(crate) struct Approach {
 impl Approach {
     /// Computes the bounds along a unit vector from A to B, from clock `s` on.
     pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> Self {
-        let (mut straight, mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0, 0.0);
+        let straight = straight(problem, [a, b], n, s);
+        let (mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
             let (path, radius) = (&side.path, node.radius);
             let arm = node.centre - path.centre_at(s);
             let across = n.cross(path.spin);
-            straight += n.dot(path.velocity_at(node.centre, s));
             // n·(ω×w) = w·(n×ω) of points at w from the centre.
             turning += greater(0.0, node.extent_along(across)) + RATE_F64 * path.rate * radius;
             let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
@@ -51,6 +52,12 @@ impl Approach {
         };
         lesser(f64::MAX, gap.free_time())
     }
+}
+
+/// Returns the rate at which the nodes' centres approach each other along `n`.
+pub(crate) fn straight(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> f64 {
+    let rate = |path: &Path, centre: DVec3, n: DVec3| n.dot(path.velocity_at(centre, s));
+    rate(&problem.a.path, a.centre, n) + rate(&problem.b.path, b.centre, -n)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! These bounds are computed only where splits would prove little.
 
 use super::screw::Screw;
-use super::{Shortcut, flat_pair};
+use super::{Shortcut, flat_nodes};
 use crate::engine::meter::Meter;
 use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
@@ -89,7 +89,7 @@ impl CloserLook {
 
 #[cold]
 fn part_flat(problem: &Problem<'_>, siblings: &mut Siblings, s: f64) -> Option<(f64, Siblings)> {
-    let free = flat_pair::free_time(problem, siblings.least_pair(), s);
+    let free = flat_nodes::free_time(problem, siblings.least_pair(), s);
     // One step down undoes the rounding of the sum. Written so that NaN is no clock.
     let clock = (s + free).next_down();
     (clock > s).then(|| (clock, siblings.remove_least(clock)))

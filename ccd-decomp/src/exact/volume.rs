@@ -14,8 +14,15 @@ pub(crate) struct SignedVolume {
 }
 
 impl SignedVolume {
+    /// Sums the volumes, times six, between triangles and a point near the surface.
+    pub(crate) fn of(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
+        let mut volume = SignedVolume::default();
+        triangles.for_each(|triangle| volume.add(triangle, near));
+        volume
+    }
+
     /// Adds the volume, times six, between a triangle and a point near the surface.
-    pub(crate) fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
+    fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
         let (arm, sides) = (p - near, [q - p, r - p]);
         let term = arm.dot(sides[0].cross(sides[1]));
         let sum = self.sum + term;

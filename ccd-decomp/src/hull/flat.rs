@@ -1,17 +1,50 @@
 //! Exact hulls of coplanar points.
 
-use crate::exact::predicates::{Projection, lexicographic};
-use ccd_core::Loops;
+use super::of_facets;
+use crate::exact::predicates::{Projection, is_degenerate, lexicographic};
 use ccd_core::glam::DVec3;
+use ccd_core::{Hull, Loops};
 use std::cmp::Ordering;
 
-/// Computes the hull of points in the plane of one of their triangles, as a front and a back polygon (Andrew's monotone
-/// chain).
-pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
-    let at = |k: u32| points[k as usize];
-    let Some(projection) = Projection::new(triangle.map(|k| points[k])) else {
-        return Loops::default();
+/// Computes the hull of distinct coplanar points: a front and a back polygon, or the ends of points on a line.
+pub(super) fn hull(points: &[DVec3]) -> Hull {
+    let by_order = |p: &DVec3, q: &DVec3| lexicographic(*p, *q);
+    let ends = [
+        points.iter().copied().min_by(by_order),
+        points.iter().copied().max_by(by_order),
+    ];
+    let mut ends: Vec<DVec3> = ends.into_iter().flatten().collect();
+    ends.dedup();
+    let plane = match ends[..] {
+        [a, b] => plane_through([a, b], points),
+        _ => None,
     };
+    match plane {
+        Some(projection) => of_facets(points, facets(points, projection)),
+        None => Hull {
+            points: ends,
+            facets: Loops::default(),
+        },
+    }
+}
+
+/// Returns the projection of the plane of some points, two of which are given; `None` if all are on a line.
+fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
+    let area = |p: &DVec3| (b - a).cross(*p - a).length_squared();
+    let is_proper = |p: &DVec3| !is_degenerate([a, b, *p]);
+    // A far point makes a large triangle; any will do.
+    let points = points.iter().copied();
+    let far = points
+        .clone()
+        .max_by(|p, q| area(p).total_cmp(&area(q)))
+        .filter(is_proper);
+    let corner = far.or_else(|| points.clone().find(is_proper))?;
+    Projection::new([a, b, corner])
+}
+
+/// Computes the polygons by Andrew's monotone chain.
+fn facets(points: &[DVec3], projection: Projection) -> Loops {
+    let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)));
     let chain = |order: &mut dyn Iterator<Item = u32>| {

@@ -1,7 +1,8 @@
 //! Coplanar triangles of a convex surface, merged into polygons.
 
-use crate::exact::predicates::{Projection, side};
-use crate::half_edges::twins;
+use crate::disjoint_sets::DisjointSets;
+use crate::exact::predicates::{Projection, side_of};
+use crate::half_edges::{HalfEdge, twins};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -15,9 +16,9 @@ pub(crate) struct Polygon {
     pub(crate) triangles: Vec<u32>,
 }
 
-/// Merges the triangles of a closed convex surface into convex polygons.
+/// Merges the triangles of a closed convex surface around a volume into convex polygons.
 ///
-/// Exact: the corners of a polygon are exactly coplanar. A flat surface has two polygons, front and back.
+/// Exact: the corners of a polygon are exactly coplanar.
 pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon> {
     let mut polygons = Vec::new();
     for_each_polygon(points, triangles, |corners, group| {
@@ -43,23 +44,11 @@ fn for_each_polygon(
 ) {
     let surface = Surface::new(points, triangles);
     let group_of = surface.groups();
-    let count = group_of.iter().max().map_or(0, |&last| last as usize + 1);
-    // Lists the triangles group by group, each group in ascending order.
-    let mut ends = vec![0; count];
-    group_of.iter().for_each(|&k| ends[k as usize] += 1);
-    let mut end = 0;
-    for next in &mut ends {
-        end += std::mem::replace(next, end);
-    }
-    let mut members = vec![0; triangles.len()];
-    for (t, &number) in (0..).zip(&group_of) {
-        members[ends[number as usize] as usize] = t;
-        ends[number as usize] += 1;
-    }
-    let starts = std::iter::once(&0).chain(&ends);
-    for (&start, &end) in starts.zip(&ends) {
-        let group = &members[start as usize..end as usize];
-        let first = triangles[members[start as usize] as usize];
+    // Sorting is stable: each group is in ascending order.
+    let mut members: Vec<u32> = (0..triangles.len() as u32).collect();
+    members.sort_by_key(|&t| group_of[t as usize]);
+    for group in members.chunk_by(|&t, &u| group_of[t as usize] == group_of[u as usize]) {
+        let first = triangles[group[0] as usize];
         let Some(plane) = Projection::new(first.map(|v| points[v as usize])) else {
             continue;
         };
@@ -110,116 +99,50 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
 struct Surface<'a> {
     points: &'a [DVec3],
     triangles: &'a [[u32; 3]],
-    /// The twin of the edge from corner `k` of triangle `t`, at `3 t + k`; empty if any edge does not have exactly one.
-    pairs: Vec<u32>,
-    /// The directed edges in that case, sorted, each with its triangle and start corner.
-    edges: Vec<(u32, u32, u32, u8)>,
+    /// The twin of every half-edge; empty if any does not have exactly one.
+    twins: Vec<HalfEdge>,
 }
 
 impl<'a> Surface<'a> {
     fn new(points: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Self {
-        let surface = Surface {
+        Surface {
             points,
             triangles,
-            pairs: twins(triangles).unwrap_or_default(),
-            edges: Vec::new(),
-        };
-        if surface.pairs.is_empty() {
-            surface.with_edges()
-        } else {
-            surface
+            twins: twins(triangles).unwrap_or_default(),
         }
-    }
-
-    fn with_edges(mut self) -> Self {
-        let triangles = self.triangles;
-        let edge = |t: usize, k: usize| {
-            let triangle = triangles[t];
-            (triangle[k], triangle[(k + 1) % 3], t as u32, k as u8)
-        };
-        self.pairs = Vec::new();
-        self.edges = (0..triangles.len())
-            .flat_map(|t| (0..3).map(move |k| edge(t, k)))
-            .collect();
-        self.edges.sort_unstable();
-        self
     }
 
     /// Returns the corners of the polygon of a group of coplanar triangles.
     fn corners(&self, group: &[u32], group_of: &[u32], plane: Projection) -> Vec<u32> {
-        let is_inner = |t: usize, k: usize| {
-            let mut twins = self.twins(t, k);
-            twins.any(|(twin, _)| group_of[twin] == group_of[t])
+        let edges = group.iter().flat_map(|&t| 3 * t..3 * t + 3);
+        let is_outer = |&edge: &HalfEdge| {
+            let twin = self.twins.get(edge as usize);
+            twin.is_none_or(|twin| group_of[*twin as usize / 3] != group_of[edge as usize / 3])
         };
-        let edges = group
-            .iter()
-            .flat_map(|&t| (0..3).map(move |k| (t as usize, k)));
-        let rim = edges.filter(|&(t, k)| !is_inner(t, k));
-        let rim = rim.map(|(t, k)| self.edge(t, k)).collect();
+        let ends = |edge: HalfEdge| {
+            let corners = self.triangles[edge as usize / 3];
+            let k = edge as usize % 3;
+            (corners[k], corners[(k + 1) % 3])
+        };
+        let rim = edges.filter(is_outer).map(ends).collect();
         strict_corners(self.points, &chained(rim), plane)
     }
 
-    fn edge(&self, triangle: usize, k: usize) -> (u32, u32) {
-        let corners = self.triangles[triangle];
-        (corners[k], corners[(k + 1) % 3])
-    }
-
-    /// Iterates over the triangles beyond an edge, with their start corners. The two sides of a flat surface may share
-    /// edges, so that there may be two.
-    fn twins(&self, triangle: usize, k: usize) -> impl Iterator<Item = (usize, usize)> {
-        let (a, b) = self.edge(triangle, k);
-        let first = self.edges.partition_point(|e| (e.0, e.1) < (b, a));
-        let same = self.edges[first..]
-            .iter()
-            .take_while(move |e| (e.0, e.1) == (b, a));
-        let pair = self.pairs.get(3 * triangle + k).copied();
-        let pair = pair.map(|edge| (edge as usize / 3, edge as usize % 3));
-        pair.into_iter()
-            .chain(same.map(|e| (e.2 as usize, e.3 as usize)))
-    }
-
-    /// Returns the group of each triangle: connected coplanar triangles with one normal.
+    /// Returns the group of each triangle: connected coplanar triangles.
     fn groups(&self) -> Vec<u32> {
-        const UNSEEN: u32 = u32::MAX;
-        let mut group_of = vec![UNSEEN; self.triangles.len()];
-        let mut count = 0;
-        // An edge that ends a group does so from both sides.
-        let mut ends_at = vec![false; self.pairs.len()];
-        let mut stack = Vec::new();
-        for seed in 0..self.triangles.len() {
-            if group_of[seed] != UNSEEN {
-                continue;
+        let mut groups = DisjointSets::new(self.triangles.len());
+        for (edge, &twin) in (0..).zip(&self.twins).filter(|(edge, twin)| edge < *twin) {
+            let [one, other] = [edge, twin].map(|edge| edge / 3);
+            let triangle = self.triangles[one as usize];
+            let far = self.triangles[other as usize][(twin as usize + 2) % 3];
+            // The predicate is slow in a plane.
+            if groups.root(one) != groups.root(other)
+                && side_of(self.points, triangle, far) == Ordering::Equal
+            {
+                groups.join(one, other);
             }
-            group_of[seed] = count;
-            stack.push(seed);
-            while let Some(t) = stack.pop() {
-                for (k, (next, l)) in (0..3).flat_map(|k| self.twins(t, k).map(move |n| (k, n))) {
-                    let is_known = ends_at.get(3 * t + k) == Some(&true);
-                    if is_known || group_of[next] != UNSEEN {
-                        continue;
-                    }
-                    if self.goes_on(t, next, l) {
-                        group_of[next] = count;
-                        stack.push(next);
-                    } else if let Some(ends) = ends_at.get_mut(3 * next + l) {
-                        *ends = true;
-                    }
-                }
-            }
-            count += 1;
         }
-        group_of
-    }
-
-    /// Returns whether a neighbour continues a triangle's plane, with the same normal.
-    fn goes_on(&self, triangle: usize, next: usize, l: usize) -> bool {
-        let corners = self.triangles[triangle].map(|v| self.points[v as usize]);
-        let beyond = self.triangles[next].map(|v| self.points[v as usize]);
-        let far = beyond[(l + 2) % 3];
-        side(corners, far) == Ordering::Equal
-            && Projection::new(corners).is_some_and(|plane| {
-                plane.turn(beyond[l], beyond[(l + 1) % 3], far) == Ordering::Greater
-            })
+        groups.numbers()
     }
 }
 

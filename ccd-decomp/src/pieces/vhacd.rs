@@ -12,19 +12,17 @@ mod excess;
 mod extremes;
 mod labels;
 mod merge;
-mod part;
 mod target;
 mod voxels;
 
-use crate::hull::{HullError, Method};
+use crate::hull::{HullError, hull};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::as_polytope;
 use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::is_star_shaped;
 use crate::solid::topology::Topology;
 use crate::tolerance;
-use ccd_core::Polytope;
-use part::Part;
+use ccd_core::{Facet, Hull, Origin, Polytope};
 use rayon::prelude::*;
 use target::Target;
 use voxels::Voxels;
@@ -42,8 +40,6 @@ pub(crate) struct Approximation {
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.
     pub(crate) uncovered: f64,
-    /// The number of hulls that the library computed wrongly, and that were recomputed exactly.
-    pub(crate) rebuilt: usize,
     /// A bound on how far the polytopes extend beyond S, in the mesh's unit of length.
     pub(crate) sticks_out: f64,
 }
@@ -116,9 +112,9 @@ pub(crate) fn approximate(
         None => vec![cover::each_once(target.corners().collect())],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
-    let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
+    let parts: Vec<Hull> = merge::down_to(parts.collect(), hulls as usize)
         .par_iter()
-        .map(|points| Part::hull_of(points))
+        .map(|points| hull(points))
         .collect::<Result<_, HullError>>()
         .map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(target.farthest_coordinate());
@@ -134,14 +130,23 @@ pub(crate) fn approximate(
         return Err(VhacdError::TooCoarse { sticks_out, limit });
     }
     Ok(Approximation {
-        rebuilt: parts
-            .iter()
-            .filter(|part| part.method == Method::Rebuilt)
-            .count(),
-        polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
+        polytopes: parts.into_iter().map(|p| polytope(p, uncovered)).collect(),
         uncovered,
         sticks_out,
     })
+}
+
+fn polytope(hull: Hull, radius: f64) -> Polytope {
+    let facet = |corners: &[u32]| Facet {
+        origin: Origin::Virtual,
+        corners: corners.to_vec(),
+    };
+    Polytope {
+        points: hull.points,
+        facets: hull.facets.iter().map(facet).collect(),
+        radius,
+        ..Polytope::default()
+    }
 }
 
 /// Returns whether the mesh is known to be a convex solid, whose hull has no error.

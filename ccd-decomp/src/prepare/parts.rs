@@ -58,7 +58,6 @@ impl Choice {
             Parts::Hull(polytope) => (PieceTree::of_polytopes(&[*polytope])?, Some(triangles()?)),
             Parts::Vhacd(approximation) => {
                 report.inflated_by = approximation.uncovered;
-                report.rebuilt_hulls = approximation.rebuilt;
                 report.sticks_out = approximation.sticks_out;
                 let polytopes = &approximation.polytopes;
                 report.virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();

@@ -27,9 +27,8 @@ pub struct Report {
     /// A bound on how far the pieces extend beyond the solid, or the open surface: the [excess](ccd_core::Body::excess)
     /// of the body, in the mesh's unit of length. Contacts may be early by it. 0 for exact kinds.
     pub sticks_out: f64,
-    /// The number of approximate hulls that the library computed wrongly, and that were recomputed exactly. 0 for all
-    /// other kinds.
-    pub rebuilt_hulls: usize,
+    /// Not used. The format of stored bodies has a number here.
+    pub(super) reserved: usize,
     /// Whether the body is solid: a point inside touches it. A closed mesh is solid.
     pub volume: Volume,
     /// The topology of the mesh, which shows why it is solid or not; `None` for shapes.
@@ -94,7 +93,7 @@ impl Report {
             tree_nodes: 1,
             inflated_by: 0.0,
             sticks_out: 0.0,
-            rebuilt_hulls: 0,
+            reserved: 0,
             volume,
             topology: None,
             repairs: Repairs::default(),

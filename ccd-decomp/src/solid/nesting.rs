@@ -1,8 +1,9 @@
 //! Nesting of shells: which parts of a closed mesh bound material, and which a cavity.
 
 mod closed_parts;
-mod shell_boxes;
 
+use super::shells::faces_by_shell;
+use crate::bounds::{Bounds, BoundsTree};
 use crate::exact::predicates::{is_degenerate, too_fine};
 use crate::exact::rays::{crossing, probe};
 use crate::exact::triangles::meet;
@@ -17,7 +18,6 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use closed_parts::closed_parts;
-use shell_boxes::ShellBoxes;
 
 /// The shells of a closed mesh whose orientation contradicts their nesting.
 ///
@@ -39,14 +39,13 @@ impl Nesting {
     /// Examines a closed mesh, with its edges between welded vertices: every edge has equally many faces in both
     /// directions. A mesh of one part needs no reversal.
     ///
-    /// Exact. O(n log n) where few boxes of triangles of different shells meet, and few boxes of shells overlap along
-    /// the mesh's longest axis.
+    /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
     pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {
         let shell_of = closed_parts(mesh, edges);
-        let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
-        match count {
-            0 | 1 => Nesting::default(),
-            _ => Shells::new(mesh, shell_of, count).nesting(),
+        let faces_of = faces_by_shell(&shell_of);
+        match faces_of[..] {
+            [] | [_] => Nesting::default(),
+            _ => Shells::new(mesh, shell_of, faces_of).nesting(),
         }
     }
 }
@@ -57,7 +56,8 @@ struct Shells<'m> {
     boxes: TriangleBoxes,
     shell_of: Vec<u32>,
     faces_of: Vec<Vec<u32>>,
-    shell_boxes: ShellBoxes,
+    /// The boxes of the shells. A shell winds about no point outside its box.
+    bounds: BoundsTree,
 }
 
 /// The nesting of one shell.
@@ -71,15 +71,12 @@ struct Surroundings {
 }
 
 impl<'m> Shells<'m> {
-    fn new(mesh: &'m TriangleMesh, shell_of: Vec<u32>, count: usize) -> Self {
-        let mut faces_of = vec![Vec::new(); count];
-        for (face, &shell) in shell_of.iter().enumerate() {
-            faces_of[shell as usize].push(face as u32);
-        }
-        let shells = faces_of.iter();
-        let vertices = shells.map(|faces| faces.iter().flat_map(|&face| mesh.triangle(face)));
+    fn new(mesh: &'m TriangleMesh, shell_of: Vec<u32>, faces_of: Vec<Vec<u32>>) -> Self {
+        let bounds = |faces: &Vec<u32>| {
+            Bounds::enclosing(faces.iter().flat_map(|&face| mesh.triangle(face)))
+        };
         Shells {
-            shell_boxes: ShellBoxes::new(vertices),
+            bounds: BoundsTree::new(faces_of.iter().map(bounds).collect()),
             boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
             shell_of,
@@ -154,11 +151,8 @@ impl<'m> Shells<'m> {
     /// Returns the orientation of a shell: 1 outward, −1 inward, 0 without volume.
     fn orientation(&self, faces: &[u32]) -> i32 {
         let near = self.mesh.triangle(faces[0])[0];
-        let mut volume = SignedVolume::default();
-        for &face in faces {
-            volume.add(self.mesh.triangle(face), near);
-        }
-        match volume.is_positive() {
+        let triangles = faces.iter().map(|&face| self.mesh.triangle(face));
+        match SignedVolume::of(triangles, near).is_positive() {
             Some(true) => 1,
             Some(false) => -1,
             None => 0,
@@ -188,7 +182,9 @@ impl<'m> Shells<'m> {
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
-        if !self.shell_boxes.any_other_about(shell, corner) {
+        let is_own = |other: u32| other == shell;
+        let at = Bounds::enclosing([corner]);
+        if self.bounds.all_meeting(&at, is_own) {
             return Some(Vec::new());
         }
         let size = self.boxes.reach(corner);
@@ -220,7 +216,8 @@ impl<'m> Shells<'m> {
         let region = Region::segment(ray);
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
             let other = self.shell_of[face as usize];
-            let may_wind = other != shell && self.shell_boxes.is_about(other, ray[0]);
+            let start = Bounds::enclosing([ray[0]]);
+            let may_wind = other != shell && self.bounds.get(other).meets(&start);
             let found = if may_wind {
                 crossing(ray, self.mesh.triangle(face))
             } else {

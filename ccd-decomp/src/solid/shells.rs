@@ -21,23 +21,17 @@ pub(crate) fn check_orientation(
     work: &Work,
 ) -> Result<(), DecomposeError> {
     let shell_of = shells(manifold);
-    let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
     let near = manifold.triangle(0)[0];
-    let mut faces_of = vec![Vec::new(); count];
-    for (face, &shell) in shell_of.iter().enumerate() {
-        faces_of[shell as usize].push(face as u32);
-    }
+    let faces_of = faces_by_shell(&shell_of);
     for faces in &faces_of {
-        let mut volume = SignedVolume::default();
-        for &face in faces {
-            volume.add(manifold.triangle(face), near);
-        }
+        let triangles = faces.iter().map(|&face| manifold.triangle(face));
+        let volume = SignedVolume::of(triangles, near);
         let face = manifold.mesh().face_ids()[faces[0] as usize];
         let Some(outward) = volume.is_positive() else {
             return Err(DecomposeError::NoVolume { face });
         };
-        let around = match count {
-            1 => Some(0),
+        let around = match faces_of[..] {
+            [_] => Some(0),
             _ => winding_of_others(manifold, &shell_of, faces, work),
         };
         work.check()?;
@@ -63,6 +57,16 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
         }
     }
     shells.numbers()
+}
+
+/// Returns the faces of each shell, given the shell of each face.
+pub(super) fn faces_by_shell(shell_of: &[u32]) -> Vec<Vec<u32>> {
+    let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut faces_of = vec![Vec::new(); count];
+    for (face, &shell) in (0..).zip(shell_of) {
+        faces_of[shell as usize].push(face);
+    }
+    faces_of
 }
 
 /// Returns the winding number of the other shells about one; `None` if every ray meets an edge or vertex.

@@ -6,6 +6,7 @@ mod reinsert;
 
 use crate::bounds::Bounds;
 use crate::tolerance::AGGLOMERATED_PIECES;
+use crate::tree::slot::Slot;
 use agglomerate::{Workspace, agglomerate};
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
@@ -88,13 +89,9 @@ const SHARE: usize = 4096;
 fn split(leaves: &[Node]) -> Vec<Node> {
     let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
-    let (root, below) = nodes.split_at_mut(1);
-    let place = Place {
-        node: &mut root[0],
-        below,
-        first: 1,
-    };
-    Splitter { leaves }.side_by_side(&mut centres, place);
+    if let Some(slot) = Slot::whole(&mut nodes) {
+        Splitter { leaves }.side_by_side(&mut centres, slot);
+    }
     nodes
 }
 
@@ -114,66 +111,57 @@ impl Centre {
     }
 }
 
-/// The slot of a subtree in the list of all nodes.
-struct Place<'n> {
-    node: &'n mut Node,
-    /// The descendants: the two children, those of the second, those of the first.
-    below: &'n mut [Node],
-    /// The index of the first descendant.
-    first: u32,
-}
-
 struct Splitter<'l> {
     leaves: &'l [Node],
 }
 
 impl Splitter<'_> {
     /// Builds the subtree over some pieces, in parallel if there are many.
-    fn side_by_side(&self, centres: &mut [Centre], place: Place<'_>) {
+    fn side_by_side(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
         if centres.len() <= SHARE {
-            return self.one_by_one(centres, place, &mut Workspace::default());
+            return self.one_by_one(centres, slot, &mut Workspace::default());
         }
-        let grow = |centres: &mut [Centre], place: Place<'_>| self.side_by_side(centres, place);
-        halve(centres, place, |[left, right]| {
-            rayon::join(|| grow(left.0, left.1), || grow(right.0, right.1));
+        halve(centres, slot, |[left, right]| {
+            rayon::join(
+                || self.side_by_side(left.0, left.1),
+                || self.side_by_side(right.0, right.1),
+            );
         });
     }
 
-    fn one_by_one(&self, centres: &mut [Centre], place: Place<'_>, workspace: &mut Workspace) {
+    fn one_by_one(&self, centres: &mut [Centre], slot: Slot<'_, Node>, workspace: &mut Workspace) {
         if centres.len() > AGGLOMERATED_PIECES {
-            return halve(centres, place, |sides| {
-                for (centres, place) in sides {
-                    self.one_by_one(centres, place, workspace);
+            return halve(centres, slot, |sides| {
+                for (centres, slot) in sides {
+                    self.one_by_one(centres, slot, workspace);
                 }
             });
         }
         let leaf = |centre: &Centre| self.leaves[centre.piece as usize];
-        let Place { node, below, first } = place;
         let [root, others @ ..] = agglomerate(centres.iter().map(leaf), workspace) else {
             return;
         };
         // Node k > 0 of the small tree becomes node k + offset of the large one.
         let moved = |node: &Node| Node {
             below: match node.below {
-                Below::Children(child) => Below::Children(child - 1 + first),
+                Below::Children(child) => Below::Children(child - 1 + slot.first),
                 leaf => leaf,
             },
             ..*node
         };
-        *node = moved(root);
-        for (to, from) in below.iter_mut().zip(others) {
+        *slot.node = moved(root);
+        for (to, from) in slot.below.iter_mut().zip(others) {
             *to = moved(from);
         }
     }
 }
 
 /// Splits pieces at the median of their centres along the longest axis, builds both sides by `make`, and joins them.
-fn halve<'n>(
+fn halve(
     centres: &mut [Centre],
-    place: Place<'n>,
-    make: impl FnOnce([(&mut [Centre], Place<'_>); 2]),
+    mut slot: Slot<'_, Node>,
+    make: impl FnOnce([(&mut [Centre], Slot<'_, Node>); 2]),
 ) {
-    let Place { node, below, first } = place;
     let spread = centres.iter().fold(Cuboid::EMPTY, |all, centre| {
         all.union(Cuboid::of_point(centre.at.into()))
     });
@@ -184,23 +172,12 @@ fn halve<'n>(
         order.then(a.piece.cmp(&b.piece))
     });
     let (low, high) = centres.split_at_mut(half);
-    let (children, below) = below.split_at_mut(2);
-    let (left, right) = children.split_at_mut(1);
-    let (below_right, below_left) = below.split_at_mut(2 * (high.len() - 1));
-    let of_right = Place {
-        node: &mut right[0],
-        first: first + 2,
-        below: below_right,
-    };
-    let of_left = Place {
-        node: &mut left[0],
-        first: first + 2 + of_right.below.len() as u32,
-        below: below_left,
-    };
-    make([(low, of_left), (high, of_right)]);
-    *node = Node {
-        cuboid: left[0].cuboid.union(right[0].cuboid),
-        below: Below::Children(first),
+    if let Some([left, right]) = slot.children(high.len()) {
+        make([(low, left), (high, right)]);
+    }
+    *slot.node = Node {
+        cuboid: slot.below[0].cuboid.union(slot.below[1].cuboid),
+        below: Below::Children(slot.first),
     };
 }
 

@@ -2,10 +2,11 @@
 
 mod split;
 
-use crate::hull::{HullError, unproven_hull};
+use crate::hull::{HullError, hull};
 use crate::tolerance::SIDE_BY_SIDE;
+use crate::tree::slot::Slot;
 use ccd_core::glam::DVec3;
-use ccd_core::{Hull, HullNode, HullTree, HullTreeError, InputError, Loops, Pieces};
+use ccd_core::{HullNode, HullTree, HullTreeError, InputError, Pieces};
 use split::Splitter;
 
 /// Builds the convex hull tree of pieces.
@@ -34,12 +35,7 @@ pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
         pieces,
         splitter: Splitter::new(pieces),
     };
-    if let Some((root, below)) = nodes.split_first_mut() {
-        let slot = Slot {
-            node: root,
-            below,
-            first: 1,
-        };
+    if let Some(slot) = Slot::whole(&mut nodes) {
         grower.grow(&mut order, slot)?;
     }
     Ok(HullTree::new(pieces, &nodes)?)
@@ -50,53 +46,35 @@ struct Grower<'a> {
     splitter: Splitter,
 }
 
-/// The slot of a subtree: root, descendants, and the index of the first descendant.
-struct Slot<'a> {
-    node: &'a mut HullNode,
-    below: &'a mut [HullNode],
-    first: u32,
-}
-
 impl Grower<'_> {
     /// Builds the subtree over some pieces, every node before its children. Each side gets at least a fixed share of
     /// the pieces, so that the depth is logarithmic.
-    fn grow(&self, pieces: &mut [u32], slot: Slot<'_>) -> Result<(), BuildError> {
-        let Slot { node, below, first } = slot;
+    fn grow(&self, pieces: &mut [u32], mut slot: Slot<'_, HullNode>) -> Result<(), BuildError> {
         if let [piece] = *pieces {
-            *node = HullNode::Leaf(piece);
+            *slot.node = HullNode::Leaf(piece);
             return Ok(());
         }
         let count = pieces.len();
         let middle = self.splitter.split(pieces);
         let (of_left, of_right) = pieces.split_at_mut(middle);
-        let [left, right, below @ ..] = below else {
-            return Err(BuildError::Unproven { points: 0 });
-        };
-        let (below_right, below_left) = below.split_at_mut(2 * (of_right.len() - 1));
-        let start = first + 2;
-        let left_start = start + below_right.len() as u32;
-        let to_left = Slot {
-            node: left,
-            below: below_left,
-            first: left_start,
-        };
-        let to_right = Slot {
-            node: right,
-            below: below_right,
-            first: start,
+        let Some([left, right]) = slot.children(of_right.len()) else {
+            return Ok(());
         };
         let (grown_left, grown_right) = if count >= SIDE_BY_SIDE {
-            rayon::join(
-                || self.grow(of_left, to_left),
-                || self.grow(of_right, to_right),
-            )
+            rayon::join(|| self.grow(of_left, left), || self.grow(of_right, right))
         } else {
-            (self.grow(of_left, to_left), self.grow(of_right, to_right))
+            (self.grow(of_left, left), self.grow(of_right, right))
         };
         grown_left.and(grown_right)?;
-        let corners = [&*left, &*right].map(|child| corners(child, self.pieces));
-        let hull = joint_hull(&corners.concat())?;
-        *node = HullNode::Inner([first, first + 1], hull);
+        let children = &slot.below[..2];
+        let points: Vec<DVec3> = children
+            .iter()
+            .flat_map(|child| corners(child, self.pieces))
+            .copied()
+            .collect();
+        let out_of_range = |error: HullError| BuildError::OutOfRange(points[error.point as usize]);
+        let hull = hull(&points).map_err(out_of_range)?;
+        *slot.node = HullNode::Inner([slot.first, slot.first + 1], hull);
         Ok(())
     }
 }
@@ -108,12 +86,6 @@ pub enum BuildError {
     /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(DVec3),
-    /// A hull could not be proven.
-    #[error("the hull of {points} points could not be proven")]
-    Unproven {
-        /// The number of points.
-        points: usize,
-    },
     /// The core rejects the tree.
     #[error(transparent)]
     Tree(#[from] HullTreeError),
@@ -123,27 +95,6 @@ fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {
     match node {
         HullNode::Leaf(piece) => pieces.get(*piece as usize).points,
         HullNode::Inner(_, hull) => &hull.points,
-    }
-}
-
-/// Computes the hull of some points. The core proves it when the tree is created.
-fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
-    let point = |k: u32| points[k as usize];
-    let lower = |points| Hull {
-        points,
-        facets: Loops::default(),
-    };
-    match unproven_hull(points) {
-        Ok(found) => {
-            let (points, facets) = found.corners_and_facets(points);
-            Ok(Hull { points, facets })
-        }
-        Err(HullError::Single(a)) => Ok(lower(vec![point(a)])),
-        Err(HullError::Collinear(a, b)) => Ok(lower(vec![point(a), point(b)])),
-        Err(HullError::OutOfRange(a)) => Err(BuildError::OutOfRange(point(a))),
-        Err(HullError::Empty | HullError::Unproven(_)) => Err(BuildError::Unproven {
-            points: points.len(),
-        }),
     }
 }
 

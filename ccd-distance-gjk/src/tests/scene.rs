@@ -105,6 +105,15 @@ pub(crate) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
     (0..count).map(|_| vector(rng)).collect()
 }
 
+/// Draws points whose coordinates are far apart in size: zeros, units, the least and large numbers.
+pub(crate) fn odd_points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
+    const ODD: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e15, -1e15, f64::MIN_POSITIVE];
+    let mut odd = || ODD[rng.random_range(0..ODD.len())];
+    (0..count)
+        .map(|_| DVec3::new(odd(), odd(), odd()))
+        .collect()
+}
+
 /// Draws a number between two powers of ten, with every order of magnitude equally likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))

@@ -1,7 +1,7 @@
 //! Tests claims about pieces that touch, contain each other, spin, or are invalid.
 
 use super::scene::{self, Body, Kind, Scene};
-use super::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude};
+use super::shape::{self, Pcg64, RngExt, SeedableRng, Shape, direction, magnitude};
 use super::twin::{self, Bare};
 use super::{Tally, cases};
 use crate::{Cache, Vmarch};
@@ -109,6 +109,45 @@ fn pieces_inside_intersect() {
     assert_eq!(oracle.counters().penetrations, 1000);
 }
 
+fn ask_thrice(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) {
+    for _ in 0..3 {
+        if let Ok(claim) = oracle.separation(&scene.pair(), cache) {
+            for (named, body) in [(claim.a, scene.a), (claim.b, scene.b)] {
+                let known = |&k: &u32| (k as usize) < body.shape.points.len();
+                assert!(named.support().iter().all(known), "{claim:?}");
+            }
+        }
+    }
+}
+
+/// Tests that searches of coordinates far apart in size end, and name points of the pieces.
+#[test]
+fn odd_coordinates_end() {
+    const ODD: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e11, -1e11, f64::MIN_POSITIVE];
+    let mut rng = Pcg64::seed_from_u64(4);
+    let mut point = || DVec3::from_array(std::array::from_fn(|_| ODD[rng.random_range(0..7)]));
+    let mut oracle = Vmarch::default();
+    for k in 0..cases() {
+        let [a, b] = [1 + k as usize % 3, 3].map(|count| {
+            let points: Vec<DVec3> = (0..count).map(|_| point()).collect();
+            Body::new(shape::few(&points))
+        });
+        for b in [&a, &b] {
+            let b_to_a = Frame {
+                translation: point(),
+                ..Frame::IDENTITY
+            };
+            let scene = Scene {
+                a: &a,
+                b,
+                b_to_a,
+                gap: 0.0,
+            };
+            ask_thrice(&mut oracle, &scene, &mut Cache::default());
+        }
+    }
+}
+
 /// Tests that degenerate frames and empty pieces do not make a march hang or fail.
 #[test]
 fn nonsense_ends() {
@@ -137,15 +176,7 @@ fn nonsense_ends() {
                     b_to_a,
                     gap: 0.0,
                 };
-                for _ in 0..3 {
-                    if let Ok(claim) = oracle.separation(&scene.pair(), &mut cache) {
-                        let known = |named: &[u32], count: usize| {
-                            named.iter().all(|&k| (k as usize) < count)
-                        };
-                        assert!(known(claim.a.support(), a.shape.points.len()));
-                        assert!(known(claim.b.support(), b.shape.points.len()));
-                    }
-                }
+                ask_thrice(&mut oracle, &scene, &mut cache);
             }
         }
     }

@@ -77,7 +77,6 @@ Statistics, as aligned lines or, with --format json, as one object:
   sticks_out     upper bound on how far the pieces extend beyond the mesh, in the mesh's unit of
                  length; contacts may be reported early by as much
   inflated_by    distance by which the pieces were enlarged to be certain to cover the mesh
-  rebuilt_hulls  number of hulls that the hull library got wrong and that were recomputed exactly
   volume         solid, or surface: a body inside a surface is not in contact with it
   remarks        defects of the mesh and their repairs, if any
 

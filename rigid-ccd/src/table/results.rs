@@ -11,7 +11,7 @@ use crate::batch::{Bodies, Question};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Contact, Hit, HitKind, Outcome, Overlap, Stats};
+use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
 use serde::{Deserialize, Serialize};
 use std::io;
 
@@ -148,7 +148,7 @@ impl ResultRow {
 
     /// Creates the row of a contact, without an id and counts.
     #[cfg(feature = "command")]
-    pub(crate) fn of_hit(hit: &Hit) -> Self {
+    pub(crate) fn of_hit(hit: &ccd_core::Hit) -> Self {
         let row = ResultRow {
             status: Status::from(&hit.kind),
             ..ResultRow::default()

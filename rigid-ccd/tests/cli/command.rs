@@ -127,6 +127,10 @@ pub(crate) struct Scene {
 impl Scene {
     pub(crate) fn new(name: &str) -> Self {
         let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        // Files of an earlier run may be those of another version.
+        if directory.exists() {
+            std::fs::remove_dir_all(&directory).unwrap();
+        }
         std::fs::create_dir_all(&directory).unwrap();
         Scene { directory }
     }

@@ -33,7 +33,7 @@ fn slab() -> Actor {
 /// T1: face on face, coplanar.
 fn falling_cube() -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    let cube = Actor::straight(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     Scene::new(
         "T1 falling cube",
         [cube, slab()],
@@ -46,7 +46,7 @@ fn tilted_cubes() -> [Scene; 2] {
     let cube = || cuboid(DVec3::splat(0.5));
     let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
     let lower = cube().placed(DQuat::from_rotation_y(FRAC_PI_4), DVec3::ZERO);
-    let falls = |shape| Actor::moving(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    let falls = |shape| Actor::straight(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     // Rotates the diagonal to −z.
     let down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let corner_down = cube().placed(down, DVec3::ZERO);
@@ -67,7 +67,7 @@ fn tilted_cubes() -> [Scene; 2] {
 /// T10: a flat cube slides over a slab at a small distance.
 pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = Actor::moving(cube, (0.5 + gap) * DVec3::Z, velocity, DVec3::ZERO);
+    let cube = Actor::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
     // Accounts for the rounding of the cube's position: 0.5 + gap is a multiple of 2⁻⁵³.
     let gap = (0.5 + gap) - 0.5;
     Scene::new(
@@ -80,7 +80,7 @@ pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
 /// T13: a small fast cube against paper.
 fn bullet() -> Scene {
     let bullet = cuboid(DVec3::splat(0.005));
-    let bullet = Actor::moving(bullet, DVec3::ZERO, 1000.0 * DVec3::X, DVec3::ZERO);
+    let bullet = Actor::straight(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
     let paper = Actor::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);
     Scene::new(
         "T13 bullet",
@@ -114,7 +114,7 @@ fn hooks(velocity: DVec3) -> [Actor; 2] {
     let upper = u_hook(bar, gap, length);
     let lower = u_hook(bar, gap, length).placed(crossed, DVec3::ZERO);
     [
-        Actor::moving(upper, 0.5 * DVec3::Z, velocity, DVec3::ZERO),
+        Actor::straight(upper, 0.5 * DVec3::Z, velocity),
         Actor::still(lower, DVec3::ZERO),
     ]
 }
@@ -126,7 +126,7 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     let corner = |x: f64, z: f64| tilted * DVec3::new(x, 0.0, z);
     let (top, bottom) = (corner(1.0, 0.1), corner(1.0, -0.1));
     let speed = 5.0;
-    let plate = Actor::moving(plate, -2.0 * DVec3::X, speed * DVec3::X, DVec3::ZERO);
+    let plate = Actor::straight(plate, -2.0 * DVec3::X, speed * DVec3::X);
     let expect = if top.z < half_height {
         Expect::Free {
             gap: half_height - top.z,
@@ -148,7 +148,7 @@ fn linked_tori() -> Scene {
     // In the xz-plane, its first section on −x.
     let upright = DQuat::from_rotation_x(FRAC_PI_2) * DQuat::from_rotation_z(PI);
     let upright = torus(major, minor, rings, sides).placed(upright, DVec3::ZERO);
-    let upright = Actor::moving(upright, major * DVec3::X, DVec3::X, DVec3::ZERO);
+    let upright = Actor::straight(upright, major * DVec3::X, DVec3::X);
     // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the angle between
     // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
@@ -170,7 +170,7 @@ pub fn combs(teeth: usize) -> Scene {
         DQuat::from_rotation_x(PI),
         DVec3::new(0.5, 0.0, 1.0 + apart),
     );
-    let upper = Actor::moving(flipped, DVec3::ZERO, -speed * DVec3::Z, DVec3::ZERO);
+    let upper = Actor::straight(flipped, DVec3::ZERO, -speed * DVec3::Z);
     let lower = Actor::still(comb(teeth), DVec3::ZERO);
     Scene::new(
         format!("T19 combs of {teeth}"),
@@ -181,7 +181,7 @@ pub fn combs(teeth: usize) -> Scene {
 
 /// T21: needles come down tip first.
 fn needles_on_slab(width: f64) -> Scene {
-    let fall = Actor::moving(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
+    let fall = Actor::straight(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
     Scene::new(
         format!("T21 needles of {width:.0e}"),
         [fall, slab()],
@@ -191,7 +191,7 @@ fn needles_on_slab(width: f64) -> Scene {
 
 /// Two equal plates, in which every pair of triangles touches at the same time.
 fn parallel_plates() -> Scene {
-    let falling = Actor::moving(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
+    let falling = Actor::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
     let lying = Actor::still(parallel_plate(16), DVec3::ZERO);
     Scene::new("plates", [falling, lying], Expect::hit(|g| 0.5 - g))
 }

@@ -68,12 +68,7 @@ fn balls_passing() -> Scene {
 
 /// Two balls meet off centre, both moving.
 fn balls_head_on() -> Scene {
-    let left = Actor::moving(
-        ball(0.5),
-        DVec3::new(-2.0, 0.6, 0.0),
-        2.0 * DVec3::X,
-        DVec3::ZERO,
-    );
+    let left = Actor::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
     Scene::new("balls head-on", [left, right], Expect::hit(time))
@@ -92,7 +87,7 @@ fn ball_on_slab() -> Scene {
 /// The end of a rotating capsule hits a wall.
 fn capsule_on_wall() -> Scene {
     let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
-    let turning = Actor::moving(capsule, DVec3::ZERO, DVec3::ZERO, PI * DVec3::Y);
+    let turning = Actor::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
     Scene::new(
         "capsule on wall",
         [turning, wall()],
@@ -104,7 +99,7 @@ fn capsule_on_wall() -> Scene {
 fn rounded_box() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;
-    let flying = Actor::moving(shape, -DVec3::X, 4.0 * DVec3::X, DVec3::ZERO);
+    let flying = Actor::straight(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
     Scene::new("rounded box", [flying, wall()], Expect::hit(time))
 }

@@ -44,12 +44,7 @@ fn corner_time(height: f64, speed: f64) -> f64 {
 /// T2: a rod's end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
-    let spinning = Actor::moving(
-        rod(LENGTH, WIDTH),
-        height * DVec3::Z,
-        DVec3::ZERO,
-        PI * DVec3::Y,
-    );
+    let spinning = Actor::turning(rod(LENGTH, WIDTH), height * DVec3::Z, PI * DVec3::Y);
     let slab = Actor::still(cuboid(DVec3::new(4.0, 4.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T2 rod on slab",
@@ -114,7 +109,7 @@ fn grazing_miss(depth: f64) -> Scene {
 fn rod_on_post() -> Scene {
     let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
     let shape = cuboid(DVec3::new(LENGTH, width, 0.1));
-    let spinning = Actor::moving(shape, DVec3::ZERO, DVec3::ZERO, speed * DVec3::Z);
+    let spinning = Actor::turning(shape, DVec3::ZERO, speed * DVec3::Z);
     let post = Actor::still(post(radius, angle), DVec3::ZERO);
     let time = move |g: f64| (angle - ((width + g) / radius).asin()) / speed;
     Scene::new("T7 rod on post", [spinning, post], Expect::hit(time))
@@ -125,12 +120,7 @@ fn rod_on_post() -> Scene {
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
-    let swinging = Actor::moving(
-        mace(length, width),
-        DVec3::ZERO,
-        DVec3::ZERO,
-        speed * DVec3::Z,
-    );
+    let swinging = Actor::turning(mace(length, width), DVec3::ZERO, speed * DVec3::Z);
     let wall = Actor::still(
         wall_at(1.0).placed(DQuat::from_rotation_z(FRAC_PI_2), DVec3::ZERO),
         DVec3::ZERO,
@@ -142,12 +132,7 @@ fn swinging_mace() -> Scene {
 /// T12: a square peg rotates in a square hole: four contacts at once.
 fn peg_in_hole() -> Scene {
     let (peg, hole) = (1.0, 1.2);
-    let turning = Actor::moving(
-        cuboid(DVec3::new(peg, peg, 0.5)),
-        DVec3::ZERO,
-        DVec3::ZERO,
-        DVec3::Z,
-    );
+    let turning = Actor::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
     let plate = Actor::still(frame_plate(hole), DVec3::ZERO);
     let time = move |g: f64| ((hole - g) / (peg * 2.0_f64.sqrt())).asin() - FRAC_PI_4;
     Scene::new("T12 peg in hole", [turning, plate], Expect::hit(time))
@@ -157,8 +142,8 @@ fn peg_in_hole() -> Scene {
 fn two_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
     let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
-    let left = Actor::moving(upright(), DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y);
-    let right = Actor::moving(upright(), apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y);
+    let left = Actor::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
+    let right = Actor::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
     let time = move |g: f64| corner_time(0.5 * (apart - g), speed);
     Scene::new("T14 two rods", [left, right], Expect::hit(time))
 }

@@ -51,12 +51,7 @@ fn dirty_cube() -> Scene {
     mesh.faces.extend(clean.iter().map(|f| [f[0], f[0], f[1]]));
     mesh.faces.extend(clean.iter().map(|f| [f[2]; 3]));
     mesh.faces.extend(clean);
-    let cube = Actor::moving(
-        Shape::open(mesh),
-        3.0 * DVec3::Z,
-        -4.0 * DVec3::Z,
-        DVec3::ZERO,
-    );
+    let cube = Actor::straight(Shape::open(mesh), 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T21 dirty cube",
@@ -76,7 +71,7 @@ fn two_shells() -> Scene {
     let mesh = both.mesh.clone();
     both.mesh.faces.retain(|f| !level(f, &mesh));
     both.parts.clear();
-    let falling = Actor::moving(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    let falling = Actor::straight(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T21 two shells",
@@ -136,9 +131,8 @@ fn deep_overlap() -> Scene {
 
 /// T24: a small cube inside a big one, with separate surfaces.
 fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
-    let small = Actor::moving(
+    let small = Actor::turning(
         shape(cuboid(DVec3::splat(0.5)).mesh),
-        DVec3::ZERO,
         DVec3::ZERO,
         1e-3 * DVec3::Z,
     );

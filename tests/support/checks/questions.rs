@@ -1,6 +1,7 @@
 //! The laws of answers to other questions.
 
-use super::{Judge, Law, check_contact, law};
+use super::{Judge, Law, check_contact};
+use crate::law;
 use crate::query::Bodies;
 use crate::referee::Finding;
 use ccd_core::order::{greater, lesser};

@@ -1,7 +1,7 @@
 //! Convex combinations of points, without rounding.
 
-use super::number::{Interval, Number};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use dashu_ratio::Relaxed;
 use std::cell::OnceCell;
 
@@ -25,41 +25,60 @@ impl Blend {
         Blend::new(points.into_iter().map(|p| (1, p)))
     }
 
-    /// Returns the point in floats, up to a rounding error.
-    pub fn rounded(&self) -> DVec3 {
-        let [x, y, z] = self.coordinates::<Interval>().map(|x| x.lo);
-        DVec3::new(x, y, z)
+    fn weight(&self) -> u32 {
+        self.0.iter().map(|part| part.0).sum()
     }
 
-    fn coordinates<N: Number>(&self) -> [N; 3] {
-        let whole: u32 = self.0.iter().map(|part| part.0).sum();
+    /// Returns the point in floats, up to a rounding error for each part.
+    pub fn rounded(&self) -> DVec3 {
+        let weighted = self.0.iter().map(|&(weight, p)| f64::from(weight) * p);
+        weighted.sum::<DVec3>() / f64::from(self.weight())
+    }
+
+    fn exact(&self) -> [Relaxed; 3] {
+        let whole = Relaxed::from(self.weight());
         [0, 1, 2].map(|axis| {
-            let weighted =
-                |&(w, p): &(u32, DVec3)| N::from_f64(p[axis]).times(&N::from_f64(f64::from(w)));
+            let weighted = |&(weight, p): &(u32, DVec3)| Relaxed::from(weight) * exact(p[axis]);
             let sum = self.0.iter().map(weighted);
-            sum.fold(N::from_f64(0.0), |all, one| all.plus(&one))
-                .over(whole)
+            sum.fold(Relaxed::ZERO, |all, one| all + one) / &whole
         })
     }
+}
+
+/// Converts a finite number exactly.
+pub(super) fn exact(x: f64) -> Relaxed {
+    Relaxed::try_from(x).expect("a finite coordinate")
 }
 
 /// A point for predicates, with fractions that are computed on first use.
 pub(super) struct Spot<'a> {
     blend: &'a Blend,
-    pub(super) near: [Interval; 3],
+    pub(super) near: DVec3,
+    /// The largest coordinate of the points that are combined.
+    pub(super) size: f64,
     exact: OnceCell<[Relaxed; 3]>,
 }
 
+/// The largest rounding error of a combination of up to hundreds of points, in units of their size.
+const ROUNDING: f64 = 1e-13;
+
 impl<'a> Spot<'a> {
     pub(super) fn new(blend: &'a Blend) -> Self {
+        let sizes = blend.0.iter().map(|(_, p)| p.abs().max_element());
         Spot {
             blend,
-            near: blend.coordinates(),
+            near: blend.rounded(),
+            size: sizes.fold(0.0, greater),
             exact: OnceCell::new(),
         }
     }
 
+    /// Returns a bound on the error of the rounded coordinates.
+    pub(super) fn rounding(&self) -> f64 {
+        ROUNDING * self.size
+    }
+
     pub(super) fn exact(&self) -> &[Relaxed; 3] {
-        self.exact.get_or_init(|| self.blend.coordinates())
+        self.exact.get_or_init(|| self.blend.exact())
     }
 }

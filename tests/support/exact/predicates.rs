@@ -1,28 +1,62 @@
 //! The side of a point relative to an edge seen along an axis, and to a triangle.
 
-use super::blend::Spot;
-use super::number::{Interval, Number};
+use super::blend::{Spot, exact};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
 /// The pairs of coordinates in the views along z, x and y.
 pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
+/// Bounds on the rounding errors of determinants, in units of the power of the size of points: hundreds of times those
+/// of the terms, which are dominated by the error of the rounded point.
+const FLAT_ROUNDING: f64 = 1e-12;
+const SOLID_ROUNDING: f64 = 1e-11;
+
 /// Returns whether a point is left of (greater), right of (less) or on the line through an edge, in
 /// a view.
-pub(super) fn turn(view: [usize; 2], edge: [DVec3; 2], p: &Spot<'_>) -> Ordering {
-    turn_in(view, edge, &p.near)
-        .or_else(|| turn_in(view, edge, p.exact()))
-        .expect("fractions have a sign")
+pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &Spot<'_>) -> Ordering {
+    // (b − a) × (p − a)
+    let (u, v) = (b - a, p.near - a);
+    let size = size_of(&[a, b], p);
+    certain(u[x] * v[y] - u[y] * v[x], FLAT_ROUNDING * size * size).unwrap_or_else(|| {
+        let (u, v) = (between(a, b), from(a, p));
+        (&u[x] * &v[y]).cmp(&(&u[y] * &v[x]))
+    })
 }
 
 /// Returns whether a point is above (greater), below (less) or in the plane of a triangle that is
 /// counter-clockwise seen from above.
-pub(super) fn side(triangle: [DVec3; 3], p: &Spot<'_>) -> Ordering {
-    side_in(triangle, &p.near)
-        .or_else(|| side_in(triangle, p.exact()))
-        .expect("fractions have a sign")
+pub(super) fn side([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> Ordering {
+    // (b − a) × (c − a) · (p − a)
+    let height = (b - a).cross(c - a).dot(p.near - a);
+    let size = size_of(&[a, b, c], p);
+    certain(height, SOLID_ROUNDING * size * size * size).unwrap_or_else(|| {
+        let (u, v, w) = (between(a, b), between(a, c), from(a, p));
+        let minor = |x: usize, y: usize| &u[x] * &v[y] - &u[y] * &v[x];
+        let height = minor(1, 2) * &w[0] + minor(2, 0) * &w[1] + minor(0, 1) * &w[2];
+        height.cmp(&Relaxed::ZERO)
+    })
+}
+
+/// Returns the sign of a rounded number, if it is certain.
+fn certain(x: f64, rounding: f64) -> Option<Ordering> {
+    (x.abs() > rounding + f64::MIN_POSITIVE).then(|| x.total_cmp(&0.0))
+}
+
+/// Returns the largest coordinate of some points and of those that a point combines.
+fn size_of(points: &[DVec3], p: &Spot<'_>) -> f64 {
+    let sizes = points.iter().map(|q| q.abs().max_element());
+    sizes.fold(p.size, greater)
+}
+
+fn between(a: DVec3, b: DVec3) -> [Relaxed; 3] {
+    [0, 1, 2].map(|k| exact(b[k]) - exact(a[k]))
+}
+
+fn from(a: DVec3, p: &Spot<'_>) -> [Relaxed; 3] {
+    [0, 1, 2].map(|k| &p.exact()[k] - exact(a[k]))
 }
 
 /// Returns true if a closed triangle, perhaps without area, contains a point.
@@ -44,29 +78,6 @@ pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
 
 /// Compares a number to a coordinate of a point.
 fn compare(x: f64, axis: usize, p: &Spot<'_>) -> Ordering {
-    p.near[axis]
-        .minus(&Interval::from_f64(x))
-        .sign()
-        .or_else(|| Number::sign(&p.exact()[axis].minus(&Number::from_f64(x))))
-        .expect("fractions have a sign")
-        .reverse()
-}
-
-fn turn_in<N: Number>([x, y]: [usize; 2], edge: [DVec3; 2], p: &[N; 3]) -> Option<Ordering> {
-    let [a, b] = edge.map(N::point);
-    // (b − a) × (p − a)
-    let forth = b[x].minus(&a[x]).times(&p[y].minus(&a[y]));
-    let back = b[y].minus(&a[y]).times(&p[x].minus(&a[x]));
-    forth.minus(&back).sign()
-}
-
-fn side_in<N: Number>(triangle: [DVec3; 3], p: &[N; 3]) -> Option<Ordering> {
-    let [a, b, c] = triangle.map(N::point);
-    let from_a = |q: &[N; 3]| [0, 1, 2].map(|k| q[k].minus(&a[k]));
-    let (u, v, w) = (from_a(&b), from_a(&c), from_a(p));
-    let minor = |x: usize, y: usize| u[x].times(&v[y]).minus(&u[y].times(&v[x]));
-    // (b − a) × (c − a) · (p − a)
-    let [yz, zx, xy] = [minor(1, 2), minor(2, 0), minor(0, 1)];
-    let sum = yz.times(&w[0]).plus(&zx.times(&w[1]));
-    sum.plus(&xy.times(&w[2])).sign()
+    let rounding = p.rounding() + f64::EPSILON * x.abs();
+    certain(x - p.near[axis], rounding).unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))
 }

@@ -1,8 +1,9 @@
 //! rapier in double precision: one step of its simulation over the whole query, with continuous collision detection.
 
+use crate::method::peer::contact_at;
 use crate::method::peer::parry::double::shapes::{pose, tri_mesh, vector};
-use crate::method::peer::{PeerError, contact_at};
 use crate::method::solver::{Claim, Reply, Solver};
+use anyhow::Result;
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
@@ -41,11 +42,9 @@ impl Simulated {
     ///
     /// # Errors
     /// If parry refuses a mesh.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Result<Self, PeerError> {
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
-        let parameters = &mut world.integration_parameters;
-        parameters.normalized_allowed_linear_error = tolerance / ERRORS_AT_HIT;
         let triangles = tri_mesh(a)?
             .triangles()
             .map(|t| (Pose::IDENTITY, SharedShape::triangle(t.a, t.b, t.c)))
@@ -58,9 +57,11 @@ impl Simulated {
         Ok(Simulated { world, a, b })
     }
 
-    /// Sets the start poses and velocities of both bodies.
-    fn pose(&mut self, query: &Motions) {
-        self.world.integration_parameters.dt = query.duration;
+    /// Sets the start poses and velocities of both bodies, and the allowed error.
+    fn pose(&mut self, query: &Motions, tolerance: f64) {
+        let parameters = &mut self.world.integration_parameters;
+        parameters.dt = query.duration;
+        parameters.normalized_allowed_linear_error = tolerance / ERRORS_AT_HIT;
         if let Some(b) = self.world.bodies.get_mut(self.b) {
             b.set_position(pose(&query.b, 0.0), true);
         }
@@ -78,13 +79,13 @@ impl Simulated {
 }
 
 impl Solver for Simulated {
-    fn answer(&mut self, query: &Motions) -> Reply {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
             let claim = Claim::Refused;
             return Reply::new(claim, 0);
         }
-        self.pose(query);
+        self.pose(query, tolerance);
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
             Some(a) => match share(query, a.position()) {

@@ -2,6 +2,7 @@
 
 use super::PeerKind;
 use crate::method::Method;
+use crate::method::name_of;
 use crate::method::solver::{Claim, Reply, TimedReply};
 use crate::method::wire::{format_query, format_reply, parse_query, parse_reply};
 use crate::scene::model::Board;
@@ -27,22 +28,22 @@ struct Exact {
 
 impl Exact {
     fn ask(&self, kind: PeerKind) -> Reply {
-        let mut peer = kind.solver(&self.a, &self.b, TOLERANCE).unwrap();
-        peer.answer(&self.query)
+        let mut peer = kind.solver(&self.a, &self.b).unwrap();
+        peer.answer(&self.query, TOLERANCE)
     }
 
     /// Asserts that a contact is reported within the error allowed for the peer.
     fn assert_right(&self, kind: PeerKind) {
         let reply = self.ask(kind);
         let Claim::Contact { time } = reply.claim else {
-            panic!("{}: {reply:?}", kind.name());
+            panic!("{}: {reply:?}", name_of(&kind));
         };
         let late = time - self.time;
         let (early_by, late_by) = allowed(kind);
         assert!(
             (-early_by / self.speed..=late_by).contains(&late),
             "{}: {late} late",
-            kind.name()
+            name_of(&kind)
         );
     }
 }
@@ -185,14 +186,14 @@ fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
 fn straight_motions_are_right_with_every_peer(
     #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: Exact,
 ) {
-    for kind in PeerKind::ALL {
+    for kind in PeerKind::all() {
         exact.assert_right(kind);
     }
 }
 
 #[rstest]
 fn half_a_turn_is_right_except_with_a_whole_step(#[values(0.5, 1.0)] turns: f64) {
-    for kind in PeerKind::ALL {
+    for kind in PeerKind::all() {
         if kind != PeerKind::RapierStepF64 {
             rod_on_wall(turns).assert_right(kind);
         }
@@ -212,9 +213,9 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
     for kind in [PeerKind::ParryF64, PeerKind::ParryF32] {
         let Claim::Contact { time } = exact.ask(kind).claim else {
-            panic!("{}: no contact", kind.name());
+            panic!("{}: no contact", name_of(&kind));
         };
-        assert!(time - exact.time > 0.1, "{}: {time}", kind.name());
+        assert!(time - exact.time > 0.1, "{}: {time}", name_of(&kind));
     }
 }
 
@@ -236,21 +237,31 @@ fn a_near_miss_is_free_with_every_peer() {
     let mut passing = face_on_face();
     let aside = Pose::new(DVec3::new(9.6, 0.0, 3.0), DQuat::IDENTITY).unwrap();
     passing.query.a = Motion::new(aside, -4.0 * DVec3::Z, DVec3::ZERO).unwrap();
-    for kind in PeerKind::ALL {
-        assert_eq!(passing.ask(kind).claim, Claim::Free, "{}", kind.name());
+    for kind in PeerKind::all() {
+        assert_eq!(passing.ask(kind).claim, Claim::Free, "{}", name_of(&kind));
     }
 }
 
 #[test]
 fn a_second_query_is_answered_as_the_first() {
     let exact = edge_on_edge();
-    for kind in PeerKind::ALL {
-        let mut peer = kind.solver(&exact.a, &exact.b, TOLERANCE).unwrap();
-        let first = peer.answer(&exact.query);
+    for kind in PeerKind::all() {
+        let mut peer = kind.solver(&exact.a, &exact.b).unwrap();
+        let first = peer.answer(&exact.query, TOLERANCE);
         let mut other = exact.query.clone();
         other.a = motion(9.0 * DVec3::X, DQuat::IDENTITY, DVec3::ONE, DVec3::ONE);
-        assert_eq!(peer.answer(&other).claim, Claim::Free, "{}", kind.name());
-        assert_eq!(peer.answer(&exact.query), first, "{}", kind.name());
+        assert_eq!(
+            peer.answer(&other, TOLERANCE).claim,
+            Claim::Free,
+            "{}",
+            name_of(&kind)
+        );
+        assert_eq!(
+            peer.answer(&exact.query, TOLERANCE),
+            first,
+            "{}",
+            name_of(&kind)
+        );
     }
 }
 
@@ -264,16 +275,16 @@ fn a_body_at_rest_in_rapier_does_not_turn() {
 #[test]
 fn tighter_tolerances_tighten_sweeps_alone() {
     let exact = ball_on_ball();
-    for kind in PeerKind::ALL {
+    for kind in PeerKind::all() {
         let at = |tolerance| {
-            let mut peer = kind.solver(&exact.a, &exact.b, tolerance).unwrap();
-            peer.answer(&exact.query).claim
+            let mut peer = kind.solver(&exact.a, &exact.b).unwrap();
+            peer.answer(&exact.query, tolerance).claim
         };
         assert_eq!(
             at(1e-2) != at(1e-4),
             kind.takes_tolerance(),
             "{}",
-            kind.name()
+            name_of(&kind)
         );
     }
 }

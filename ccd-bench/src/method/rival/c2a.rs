@@ -3,7 +3,7 @@
 use super::patience::Patience;
 use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
 use super::{Placement, RivalMotion};
-use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
 use closing::Closing;
@@ -32,7 +32,6 @@ mod tests;
 #[derive(Clone, Debug)]
 pub struct C2a {
     trees: Trees,
-    tolerance: f64,
     patience: Patience,
     closing: Closing,
     pairs: Vec<Candidate>,
@@ -64,6 +63,8 @@ struct DescentSetup<'a> {
     placement: &'a Placement,
     /// The time until the end of the duration.
     remaining: f64,
+    /// The distance at which triangles touch.
+    tolerance: f64,
     /// The allowed excess, as a fraction: an unopened pair may be nearer by it than the nearest triangles found.
     excess: f64,
 }
@@ -79,8 +80,8 @@ enum Descent {
 }
 
 impl C2a {
-    /// Builds both trees; the tolerance is a length.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
+    /// Builds both trees.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         let trees = Trees {
             a: SphereTree::new(a),
             b: SphereTree::new(b),
@@ -88,21 +89,14 @@ impl C2a {
         C2a {
             closing: Closing::new(&trees),
             trees,
-            tolerance,
             patience: Patience::default(),
             pairs: Vec::new(),
         }
     }
 }
 
-impl Adjustable for C2a {
-    fn set_tolerance(&mut self, tolerance: f64) {
-        self.tolerance = tolerance;
-    }
-}
-
 impl Solver for C2a {
-    fn answer(&mut self, query: &Motions) -> Reply {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         self.closing.begin(&a, &b);
         let mut pairs_left = self.patience.pairs;
@@ -113,7 +107,8 @@ impl Solver for C2a {
             let setup = DescentSetup {
                 placement: &b.at(time).seen_from(&frame),
                 remaining: query.duration - time,
-                excess: self.excess(steps, last.as_ref(), query.duration),
+                excess: excess(steps, last.as_ref(), query.duration, tolerance),
+                tolerance,
             };
             self.closing.look_from(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
@@ -139,29 +134,6 @@ impl Solver for C2a {
 }
 
 impl C2a {
-    /// Returns the excess allowed in a step, from the number of steps so far and the distance to
-    /// contact.
-    fn excess(&self, step: u64, last: Option<&DescentResult>, duration: f64) -> f64 {
-        /// The number of coarse steps at the start, and their excess.
-        const FIRST: (u64, f64) = (3, 3.0);
-        /// The number of steps after those, and their excess.
-        const THEN: (u64, f64) = (6, 0.5);
-        /// The step length below which all later steps are exact, as a fraction of the duration.
-        const SHORT: f64 = 0.005;
-        /// The distance below which all steps are exact, as a multiple of the tolerance.
-        const NEAR: f64 = 16.0;
-
-        let exact = last.is_some_and(|last| {
-            !(last.step > SHORT * duration && last.distance > NEAR * self.tolerance)
-        });
-        match step {
-            _ if exact => 0.0,
-            _ if step <= FIRST.0 => FIRST.1,
-            _ if step <= THEN.0 => THEN.1,
-            _ => 0.0,
-        }
-    }
-
     /// Descends both trees once, nearest pairs first.
     fn descend(
         &mut self,
@@ -184,7 +156,7 @@ impl C2a {
         let roots = self.candidate(roots);
         self.pairs.push(roots);
         loop {
-            if found.distance <= self.tolerance {
+            if found.distance <= setup.tolerance {
                 return Descent::Within;
             }
             let Some(candidate) = self.pairs.pop() else {
@@ -262,5 +234,27 @@ impl Candidate {
             found.step = self.step;
         }
         far
+    }
+}
+
+/// Returns the excess allowed in a step, from the number of steps so far and the distance to
+/// contact.
+fn excess(step: u64, last: Option<&DescentResult>, duration: f64, tolerance: f64) -> f64 {
+    /// The number of coarse steps at the start, and their excess.
+    const FIRST: (u64, f64) = (3, 3.0);
+    /// The number of steps after those, and their excess.
+    const THEN: (u64, f64) = (6, 0.5);
+    /// The step length below which all later steps are exact, as a fraction of the duration.
+    const SHORT: f64 = 0.005;
+    /// The distance below which all steps are exact, as a multiple of the tolerance.
+    const NEAR: f64 = 16.0;
+
+    let exact = last
+        .is_some_and(|last| !(last.step > SHORT * duration && last.distance > NEAR * tolerance));
+    match step {
+        _ if exact => 0.0,
+        _ if step <= FIRST.0 => FIRST.1,
+        _ if step <= THEN.0 => THEN.1,
+        _ => 0.0,
     }
 }

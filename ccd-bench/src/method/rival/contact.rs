@@ -12,7 +12,7 @@ use super::RivalMotion;
 use super::obb_tree::{Content, Crossing, ObbTree, crossing};
 use super::resolution::resolution;
 use super::screw::screw;
-use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use crate::method::solver::{Claim, Reply, Solver};
 use boxes::{Boxes, boxes};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
@@ -47,7 +47,6 @@ const SPREAD_TO_HALVE: f64 = 0.2;
 #[derive(Clone, Debug)]
 pub struct Contact {
     trees: [ObbTree; 2],
-    tolerance: f64,
     limits: Limits,
     stack: Vec<Pair>,
     static_stack: Vec<(u32, u32)>,
@@ -76,11 +75,10 @@ struct Pair {
 }
 
 impl Contact {
-    /// Builds both trees; the tolerance is a length.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
+    /// Builds both trees.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Contact {
             trees: [a, b].map(ObbTree::new),
-            tolerance,
             limits: LIMITS,
             stack: Vec::new(),
             static_stack: Vec::new(),
@@ -88,9 +86,9 @@ impl Contact {
     }
 
     /// Returns the first contact for the given motions, which need not be screws.
-    fn first_contact(&mut self, query: &Motions) -> Reply {
+    fn first_contact(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
-        let resolution = resolution(&courses, &self.trees, self.tolerance);
+        let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
         let start = courses[0].at(0.0).seen_from(&courses[1].at(0.0));
         if crossing(a, b, &start, &mut self.static_stack) == Crossing::Found {
@@ -117,17 +115,11 @@ impl Contact {
     }
 }
 
-impl Adjustable for Contact {
-    fn set_tolerance(&mut self, tolerance: f64) {
-        self.tolerance = tolerance;
-    }
-}
-
 impl Solver for Contact {
     /// Answers a query; steps are halvings of time.
-    fn answer(&mut self, query: &Motions) -> Reply {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         match screw(query) {
-            Ok(query) => self.first_contact(&query),
+            Ok(query) => self.first_contact(&query, tolerance),
             Err(_) => Reply::new(Claim::Unresolved { safe_until: 0.0 }, 0),
         }
     }

@@ -3,7 +3,7 @@
 use super::RivalMotion;
 use super::patience::Patience;
 use super::swept_spheres::{Pair, SphereTree, Trees, Under};
-use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
@@ -35,7 +35,6 @@ mod tests;
 #[derive(Clone, Debug)]
 pub struct DynamicChecker {
     trees: Trees,
-    tolerance: f64,
     patience: Patience,
     reach_a: Reach,
     reach_b: Reach,
@@ -80,6 +79,7 @@ struct Task {
     b: RivalMotion,
     /// A bound on the relative speed of any two points of the bodies.
     speed: f64,
+    tolerance: f64,
     /// The earliest time at which the bodies were found to touch.
     met: Option<f64>,
     steps: u64,
@@ -87,14 +87,13 @@ struct Task {
 }
 
 impl DynamicChecker {
-    /// Builds both trees; the tolerance is a length.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
+    /// Builds both trees.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         DynamicChecker {
             trees: Trees {
                 a: SphereTree::new(a),
                 b: SphereTree::new(b),
             },
-            tolerance,
             patience: Patience::default(),
             reach_a: Reach::default(),
             reach_b: Reach::default(),
@@ -104,14 +103,8 @@ impl DynamicChecker {
     }
 }
 
-impl Adjustable for DynamicChecker {
-    fn set_tolerance(&mut self, tolerance: f64) {
-        self.tolerance = tolerance;
-    }
-}
-
 impl Solver for DynamicChecker {
-    fn answer(&mut self, query: &Motions) -> Reply {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let speed =
             |course: &RivalMotion, reach: f64| course.velocity.length() + course.rate * reach;
@@ -120,6 +113,7 @@ impl Solver for DynamicChecker {
             b,
             speed: speed(&a, self.reach_a.radius_about(a.centre, &self.trees.a))
                 + speed(&b, self.reach_b.radius_about(b.centre, &self.trees.b)),
+            tolerance,
             met: None,
             steps: 0,
             pairs_left: self.patience.pairs,
@@ -183,7 +177,7 @@ impl DynamicChecker {
             return Some(gave_up);
         }
         let middle = from + 0.5 * (to - from);
-        if path <= self.tolerance || !(from < middle && middle < to) {
+        if path <= task.tolerance || !(from < middle && middle < to) {
             return match self.bound(from, Wanted::exactly(path - at_to), task) {
                 LowerBound::Apart(distance) if path < distance + at_to => None,
                 LowerBound::Apart(_) | LowerBound::Meet => Some(Claim::Contact { time: from }),

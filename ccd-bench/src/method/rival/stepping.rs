@@ -3,7 +3,7 @@
 use super::RivalMotion;
 use super::obb_tree::{Crossing, ObbTree, crossing};
 use super::resolution::resolution;
-use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use crate::method::solver::{Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
@@ -22,16 +22,14 @@ const MAX_SAMPLES: u64 = 1 << 20;
 #[derive(Clone, Debug)]
 pub struct Stepping {
     trees: [ObbTree; 2],
-    tolerance: f64,
     stack: Vec<(u32, u32)>,
 }
 
 impl Stepping {
-    /// Builds both trees; the tolerance is a length.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
+    /// Builds both trees.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Stepping {
             trees: [a, b].map(ObbTree::new),
-            tolerance,
             stack: Vec::new(),
         }
     }
@@ -43,17 +41,11 @@ impl Stepping {
     }
 }
 
-impl Adjustable for Stepping {
-    fn set_tolerance(&mut self, tolerance: f64) {
-        self.tolerance = tolerance;
-    }
-}
-
 impl Solver for Stepping {
     /// Answers a query; steps are samples, the last one at the end of the duration.
-    fn answer(&mut self, query: &Motions) -> Reply {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
-        let step = resolution(&courses, &self.trees, self.tolerance);
+        let step = resolution(&courses, &self.trees, tolerance);
         // Bodies at rest are tested twice. The cast saturates, and turns NaN into zero.
         let steps = ((query.duration / step).ceil() as u64).max(1);
         let mut before = 0.0;

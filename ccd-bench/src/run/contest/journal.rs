@@ -1,6 +1,7 @@
 //! Keeps measurements on disk, so that an interrupted evaluation resumes where it stopped.
 
 use crate::run::measured::{Cell, Trial, write};
+use anyhow::{Context, Result};
 use ccd_file::Claim;
 use rigid_ccd::command::complain;
 use serde::Serialize;
@@ -20,14 +21,6 @@ pub struct Journal {
     _claim: Option<Claim>,
 }
 
-/// A journal cannot be kept.
-#[derive(Debug, thiserror::Error)]
-#[error("{}: {source}", path.display())]
-pub struct JournalError {
-    path: PathBuf,
-    source: csv::Error,
-}
-
 /// The file that describes the program and settings of the measurements in a folder.
 const STAMP: &str = "measured-with.txt";
 const CHART: &str = "chart.csv";
@@ -41,18 +34,18 @@ impl Journal {
     /// otherwise moves it aside together with the files named in `others`.
     ///
     /// # Errors
-    /// [`JournalError`] if the folder cannot be written to, or another process writes to it.
-    pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self, JournalError> {
-        fs::create_dir_all(folder).map_err(|e| failed(folder)(e.into()))?;
+    /// If the folder cannot be written to, or another process writes to it.
+    pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self> {
+        fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         let chart = folder.join(CHART);
-        let claim = Claim::new(chart.clone()).map_err(|e| failed(&chart)(e.into()))?;
+        let claim = Claim::new(chart.clone()).with_context(|| chart.display().to_string())?;
         let stamp_file = folder.join(STAMP);
         if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
             for name in [CHART, TRIALS].iter().chain(others) {
                 let path = folder.join(name);
                 if path.exists() {
                     let aside = folder.join(format!("{name}.old"));
-                    fs::rename(&path, &aside).map_err(|e| failed(&path)(e.into()))?;
+                    fs::rename(&path, &aside).with_context(|| path.display().to_string())?;
                     let (path, aside) = (path.display(), aside.display());
                     complain(&format!(
                         "{path} is of another build, or of other settings: it is now {aside}"
@@ -60,7 +53,7 @@ impl Journal {
                 }
             }
             ccd_file::write(&stamp_file, |out| out.write_all(stamp.as_bytes()))
-                .map_err(|e| failed(&stamp_file)(e.into()))?;
+                .with_context(|| stamp_file.display().to_string())?;
         }
         let journal = Journal {
             _claim: Some(claim),
@@ -101,10 +94,9 @@ impl Journal {
     ///
     /// # Errors
     /// If they cannot be written.
-    pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<(), JournalError> {
-        let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
-        append(&trials_file, &trials).map_err(failed(&trials_file))?;
-        append(&chart_file, std::slice::from_ref(&cell)).map_err(failed(&chart_file))?;
+    pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<()> {
+        append(&self.folder.join(TRIALS), &trials)?;
+        append(&self.folder.join(CHART), std::slice::from_ref(&cell))?;
         self.done.insert(key(&cell));
         self.cells.push(cell);
         self.trials.extend(trials);
@@ -115,17 +107,16 @@ impl Journal {
     ///
     /// # Errors
     /// If the files cannot be written.
-    pub fn forget(&mut self, method: &str) -> Result<(), JournalError> {
+    pub fn forget(&mut self, method: &str) -> Result<()> {
         self.cells.retain(|cell| cell.method != method);
         self.trials.retain(|trial| trial.method != method);
         self.done = self.cells.iter().map(key).collect();
         self.write()
     }
 
-    fn write(&self) -> Result<(), JournalError> {
-        let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
-        write(&trials_file, &self.trials).map_err(failed(&trials_file))?;
-        write(&chart_file, &self.cells).map_err(failed(&chart_file))
+    fn write(&self) -> Result<()> {
+        write(&self.folder.join(TRIALS), &self.trials)?;
+        write(&self.folder.join(CHART), &self.cells)
     }
 
     /// Returns all cells so far, in the order of measurement.
@@ -164,16 +155,9 @@ fn whole_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
     reader.into_deserialize().map_while(Result::ok).collect()
 }
 
-fn failed(path: &Path) -> impl Fn(csv::Error) -> JournalError {
-    let path = path.to_owned();
-    move |source| JournalError {
-        path: path.clone(),
-        source,
-    }
-}
-
-fn append<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
-    let file = OpenOptions::new().append(true).open(path)?;
+fn append<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
+    let file = OpenOptions::new().append(true).open(path);
+    let file = file.with_context(|| path.display().to_string())?;
     let mut writer = csv::WriterBuilder::new()
         .has_headers(file.metadata()?.len() == 0)
         .from_writer(file);

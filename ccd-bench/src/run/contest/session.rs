@@ -2,8 +2,9 @@
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
-use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
+use crate::method::solver::{Solver, TimedReply, timed};
 use crate::method::{Method, Ours};
+use crate::run::evaluation::USUAL_TOLERANCE;
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
@@ -14,36 +15,21 @@ use std::time::{Duration, Instant};
 /// A method that is ready for queries about one scene.
 pub struct Session<'s> {
     method: Method,
-    tolerance: f64,
     runner: Runner<'s>,
 }
 
 /// The solver of a session, in this process or in a separate one that can be stopped.
 enum Runner<'s> {
-    InProcess(Box<dyn Adjustable + 's>),
+    InProcess(Box<dyn Solver + 's>),
     Guarded(Box<Guarded>),
-}
-
-/// The outcome of a query.
-pub(super) enum Answered {
-    InTime {
-        reply: Reply,
-        micros: f64,
-    },
-    /// The peer was stopped after this time.
-    CutOff {
-        patience: Duration,
-    },
-    Died,
 }
 
 impl<'s> Session<'s> {
     /// Opens a session, or returns `None` if the method does not support the scene.
-    pub(super) fn open(
-        method: Method,
-        scene: &'s Scene,
-        tolerance: f64,
-    ) -> io::Result<Option<Self>> {
+    ///
+    /// # Errors
+    /// If a peer cannot be prepared.
+    pub fn open(method: Method, scene: &'s Scene, programs: &Programs) -> io::Result<Option<Self>> {
         let runner = match method {
             Method::Ours(kind, pieces) => {
                 let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
@@ -51,31 +37,19 @@ impl<'s> Session<'s> {
                 let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                let config = Settings {
-                    tolerance,
-                    ..Settings::DEFAULT
-                };
-                Runner::InProcess(Box::new(Ours::new(kind, bodies, config)))
+                Runner::InProcess(Box::new(Ours::new(kind, bodies, Settings::DEFAULT.margin)))
             }
             Method::Rival(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
-                Runner::InProcess(kind.solver(a, b, tolerance))
+                Runner::InProcess(kind.solver(a, b))
             }
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
-                let setting = Setting::new(method, tolerance);
-                Runner::Guarded(Box::new(Guarded::start(
-                    &Programs::default(),
-                    setting,
-                    meshes,
-                )?))
+                let setting = Setting::new(method, USUAL_TOLERANCE);
+                Runner::Guarded(Box::new(Guarded::new(programs, setting, meshes)?))
             }
         };
-        Ok(Some(Session {
-            method,
-            tolerance,
-            runner,
-        }))
+        Ok(Some(Session { method, runner }))
     }
 
     /// Returns the method.
@@ -83,31 +57,12 @@ impl<'s> Session<'s> {
         self.method
     }
 
-    /// Returns the tolerance of the answers.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance
-    }
-
-    /// Sets the tolerance.
-    ///
-    /// # Errors
-    /// If a peer's process does not restart.
-    pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
-        self.tolerance = tolerance;
-        match &mut self.runner {
-            Runner::InProcess(solver) => {
-                solver.set_tolerance(tolerance);
-                Ok(())
-            }
-            Runner::Guarded(guarded) => guarded.restart_with(tolerance),
-        }
-    }
-
     /// Runs some queries for a limited time, for solvers that prepare pieces on first use. Returns the number of
     /// prepared queries.
     pub(super) fn prepare<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Motions>,
+        tolerance: f64,
         time: Duration,
     ) -> usize {
         let start = Instant::now();
@@ -116,7 +71,9 @@ impl<'s> Session<'s> {
                 if kind.schedule.uses_hull_trees() =>
             {
                 let prepared = queries.take_while(|_| start.elapsed() < time);
-                prepared.map(|query| solver.answer(query)).count()
+                prepared
+                    .map(|query| solver.answer(query, tolerance))
+                    .count()
             }
             _ => queries.len(),
         }
@@ -126,47 +83,21 @@ impl<'s> Session<'s> {
     ///
     /// # Errors
     /// If a peer's process does not restart.
-    pub(super) fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<Answered> {
-        Ok(match &mut self.runner {
+    pub(super) fn ask(
+        &mut self,
+        query: &Motions,
+        tolerance: f64,
+        patience: Duration,
+    ) -> io::Result<QueryOutcome> {
+        match &mut self.runner {
             Runner::InProcess(solver) => {
-                let TimedReply { reply, micros } = timed(solver.as_mut(), query);
-                Answered::InTime { reply, micros }
+                let TimedReply { reply, micros } = timed(solver.as_mut(), query, tolerance);
+                Ok(QueryOutcome::Answered { reply, micros })
             }
-            Runner::Guarded(guarded) => match guarded.ask(query, patience)? {
-                QueryOutcome::Answered { reply, micros } => Answered::InTime { reply, micros },
-                QueryOutcome::CutOff => Answered::CutOff { patience },
-                QueryOutcome::Died => Answered::Died,
-            },
-        })
-    }
-}
-
-impl Answered {
-    pub(super) fn is_refusal(&self) -> bool {
-        let refused = |reply: &Reply| reply.claim == Claim::Refused;
-        matches!(self, Answered::InTime { reply, .. } if refused(reply))
-    }
-
-    /// Returns the claimed time, or NaN.
-    pub(super) fn time(&self) -> f64 {
-        match self {
-            Answered::InTime { reply, .. } => reply.claim.time().unwrap_or(f64::NAN),
-            Answered::CutOff { .. } | Answered::Died => f64::NAN,
-        }
-    }
-
-    pub(super) fn micros(&self) -> f64 {
-        match *self {
-            Answered::InTime { micros, .. } => micros,
-            Answered::CutOff { patience } => patience.as_secs_f64() * 1e6,
-            Answered::Died => f64::NAN,
-        }
-    }
-
-    pub(super) fn steps(&self) -> u64 {
-        match self {
-            Answered::InTime { reply, .. } => reply.steps,
-            Answered::CutOff { .. } | Answered::Died => 0,
+            Runner::Guarded(guarded) => {
+                guarded.set_tolerance(tolerance);
+                guarded.ask(query, patience)
+            }
         }
     }
 }

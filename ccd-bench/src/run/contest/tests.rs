@@ -1,7 +1,10 @@
 use super::*;
+use crate::method::Method;
+use crate::method::guarded::Programs;
 use crate::method::solver::Claim;
 use crate::scene::model::Board;
 use crate::scene::{Models, Pieces, listings};
+use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
@@ -108,8 +111,10 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     );
     assert_eq!(found, scene.queries.len());
     let method = Method::Ours(SolverKind::default(), Pieces::Least);
-    let mut session = contest.session(method, 1e-6).unwrap().unwrap();
-    let measured = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
+    let session = Session::open(method, &scene, &Programs::default());
+    let mut session = session.unwrap().unwrap();
+    let measured = contest.run(&mut session, 1e-6, &EVERYTHING, &truths);
+    let measured = measured.unwrap();
     let (cell, trials) = measured.unwrap();
     assert_eq!(cell.rows, scene.queries.len());
     assert_eq!(trials.len(), cell.rows);
@@ -191,7 +196,7 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     std::fs::write(folder.join("trials.csv"), &trials[..=cut]).unwrap();
     // Two processes would mix their rows.
     let second = Journal::open(&folder, "one", &[]).unwrap_err();
-    assert!(second.to_string().contains("another run"), "{second}");
+    assert!(format!("{second:#}").contains("another run"), "{second:#}");
     drop(journal);
     let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     assert!(journal.has("santa", "C2A", 1e-3));

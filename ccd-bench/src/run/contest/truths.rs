@@ -2,13 +2,13 @@
 
 use super::Contest;
 use crate::method::MotionKind;
-use crate::truth::{Truth, TruthRow, read_truths, write_truths};
+use crate::run::measured::{read, write};
+use crate::truth::{Truth, TruthRow};
+use anyhow::{Context, Result};
 use ccd_decomp::TriangleMesh;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::Progress;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, Write};
 use std::path::Path;
 
 /// The known first contacts of all scenes, by scene, meshes and motions, and row.
@@ -17,25 +17,15 @@ pub struct Truths {
     known: BTreeMap<String, TruthRow>,
 }
 
-/// Truths cannot be read or written.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum TruthsError {
-    /// A file cannot be read or written, or is no table of truths.
-    #[error("truths: {0}")]
-    Table(#[from] csv::Error),
-}
-
 impl Truths {
     /// Reads the truths of a file, if it exists.
     ///
     /// # Errors
     /// If the file is no table of truths.
-    pub fn read(file: &Path) -> Result<Self, TruthsError> {
+    pub fn read(file: &Path) -> Result<Self> {
         let mut truths = Truths::default();
         if file.exists() {
-            let file = File::open(file).map_err(csv::Error::from)?;
-            truths.add(read_truths(file)?);
+            truths.add(read(file).context("truths")?);
         }
         Ok(truths)
     }
@@ -44,11 +34,9 @@ impl Truths {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn write(&self, file: &Path) -> Result<(), TruthsError> {
-        let write = |out: &mut dyn Write| {
-            write_truths(out, self.known.values().cloned()).map_err(io::Error::other)
-        };
-        Ok(ccd_file::write(file, write).map_err(csv::Error::from)?)
+    pub fn write(&self, file: &Path) -> Result<()> {
+        let rows: Vec<&TruthRow> = self.known.values().collect();
+        write(file, &rows).context("truths")
     }
 
     /// Finds the unknown truths of some rows of a scene, on all processors. Returns their number.

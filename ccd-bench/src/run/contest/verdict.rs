@@ -1,14 +1,16 @@
 //! Judges a claim against the truth.
 
 use crate::method::guarded::QueryOutcome;
+use crate::method::name_of;
 use crate::method::solver::{Claim, Reply};
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
+use clap::ValueEnum;
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// The judgement of a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Verdict {
     /// The claim is correct.
     Right,
@@ -25,12 +27,14 @@ pub enum Verdict {
     /// The method does not support the query or its bodies.
     Refused,
     /// The query exceeded the time limit and was stopped.
+    #[value(name = "cut off")]
     CutOff,
     /// The peer's process ended instead of answering.
     Died,
     /// The truth is not known well enough.
     Undecided,
     /// The reply is no answer to the query, such as a single distance measured for comparison.
+    #[value(name = "not judged")]
     NotJudged,
 }
 
@@ -84,6 +88,9 @@ pub fn judge(
 ) -> Judged {
     let near = |time: f64| is_near(referee, query, time, tolerance);
     let plain = Judged::plain;
+    if claim == Claim::Static {
+        return plain(Verdict::NotJudged);
+    }
     match truth {
         Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => plain(Verdict::Undecided),
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
@@ -91,7 +98,7 @@ pub fn judge(
             Claim::Contact { time } if near(time) => Verdict::Right,
             Claim::Contact { .. } => Verdict::False,
             Claim::Free => Verdict::Right,
-            Claim::Unresolved { .. } | Claim::Refused => Verdict::Unresolved,
+            Claim::Unresolved { .. } | Claim::Refused | Claim::Static => Verdict::Unresolved,
         }),
         Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => plain(Verdict::Undecided),
     }
@@ -119,6 +126,7 @@ pub fn judge_contact(
             return plain(Verdict::Late);
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
+        Claim::Static => return plain(Verdict::NotJudged),
     };
     let off = greater(0.0, greater(lo - time, time - hi)) / duration;
     // The comparison treats NaN as late.
@@ -138,18 +146,6 @@ pub fn judge_contact(
 
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Verdict::Right => "right",
-            Verdict::Late => "late",
-            Verdict::Missed => "missed",
-            Verdict::False => "false",
-            Verdict::Early => "early",
-            Verdict::Unresolved => "unresolved",
-            Verdict::Refused => "refused",
-            Verdict::CutOff => "cut off",
-            Verdict::Died => "died",
-            Verdict::Undecided => "undecided",
-            Verdict::NotJudged => "not judged",
-        })
+        f.pad(&name_of(self))
     }
 }

@@ -1,35 +1,27 @@
 //! Maps of stability, with families as rows and methods as columns: the reach of each method, and the growth of its
 //! cost.
 
-use super::sheet::{DrawError, INK, MARGIN, Rect, Sheet, TextFormat, Turn, WIDTH, text_width};
+use super::Drawing;
+use super::sheet::{INK, MARGIN, Sheet, Spot, TextFormat, WIDTH, rect, svg, text, text_width};
 use super::style::COLOURS;
-use super::{ChartError, Drawing, failed};
 use crate::run::contest::Verdict;
-use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{Color, RGBColor, WHITE};
+use anyhow::Result;
+use plotters::style::text_anchor::HPos;
+use plotters::style::{FontTransform, RGBColor, WHITE};
 
 /// A heat map of families and methods.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct HeatMap {
     /// The quantity of the map.
-    pub kind: HeatKind,
+    pub kind: &'static HeatKind,
     /// The names of the methods.
     pub methods: Vec<String>,
     /// The families.
     pub rows: Vec<HeatRow>,
 }
 
-/// The quantity of a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HeatKind {
-    /// The reach of each method in each family: cells [`HeatCell::Reach`].
-    Reach,
-    /// The growth of the cost: cells [`HeatCell::Growth`].
-    Growth,
-}
-
 /// One family.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct HeatRow {
     /// The name of the family.
     pub name: String,
@@ -39,35 +31,24 @@ pub struct HeatRow {
     pub cells: Vec<Option<HeatCell>>,
 }
 
-/// One method on one family.
-#[derive(Clone, Debug, PartialEq)]
-pub enum HeatCell {
-    /// The reach of the method.
-    Reach {
-        /// The worst verdict.
-        worst: Verdict,
-        /// The share of the values, from the easiest, before the first wrong one.
-        share: f64,
-        /// The first value with the worst verdict; empty if all are right.
-        limit: String,
-    },
-    /// The largest cost of a step, as a multiple of that of the easiest one.
-    Growth(f64),
-}
-
-/// The texts of a map.
-struct Words {
+/// The quantity of a map, in words.
+#[derive(Debug)]
+pub struct HeatKind {
     name: &'static str,
     title: &'static str,
-    remark: &'static str,
+    /// The lines of the remark.
+    remark: [&'static str; 2],
     legend: &'static [(&'static str, RGBColor)],
 }
 
-const REACH: Words = Words {
+/// The reach of each method in each family: cells of [`HeatCell::reach`].
+pub const REACH: &HeatKind = &HeatKind {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
-    remark: "A cell has the colour of the worst answer, and names the first value at which it came. \
-             The bar shows the share of the steps, from the easy ones, before the first that is not right.",
+    remark: [
+        "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the share of",
+        "the steps, from the easy ones, before the first that is not right.",
+    ],
     legend: &[
         ("right", RIGHT),
         ("unresolved or refused", GREY),
@@ -78,11 +59,14 @@ const REACH: Words = Words {
     ],
 };
 
-const GROWTH: Words = Words {
+/// The growth of the cost: cells of [`HeatCell::growth`].
+pub const GROWTH: &HeatKind = &HeatKind {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
-    remark: "The largest mean number of steps of a query and one for the query itself, as a multiple of that of \
-             the family's easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
+    remark: [
+        "The largest mean number of steps of a query and one for the query itself, as a multiple of that of the family's",
+        "easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
+    ],
     legend: &[
         ("up to 3 times", GROWN[0]),
         ("30", GROWN[1]),
@@ -122,58 +106,43 @@ const FALSE: RGBColor = COLOURS[4];
 const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
-/// The style of a cell.
-struct CellStyle {
+/// One method on one family: a colour, two lines of text, and a bar.
+#[derive(Clone, Debug)]
+pub struct HeatCell {
     fill: RGBColor,
     ink: RGBColor,
-    /// Two lines of text.
     lines: [String; 2],
     /// The length of the bar, as a share of the cell's width.
     bar: f64,
 }
 
-impl HeatKind {
-    fn words(self) -> &'static Words {
-        match self {
-            HeatKind::Reach => &REACH,
-            HeatKind::Growth => &GROWTH,
+impl HeatCell {
+    /// Returns the cell of the reach of a method: its worst verdict, the share of the values, from the easiest, before
+    /// the first wrong one, and the first value with the worst verdict, empty if all are right.
+    pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
+        let (fill, word, ink) = look_of(worst);
+        HeatCell {
+            fill,
+            ink,
+            lines: [word.to_owned(), limit],
+            bar: share,
         }
     }
-}
 
-impl HeatCell {
-    fn style(&self) -> CellStyle {
-        match self {
-            HeatCell::Reach {
-                worst,
-                share,
-                limit,
-            } => {
-                let (fill, word, ink) = look_of(*worst);
-                CellStyle {
-                    fill,
-                    ink,
-                    lines: [word.to_owned(), limit.clone()],
-                    bar: *share,
-                }
-            }
-            &HeatCell::Growth(factor) => {
-                let darkness = [3.0, 30.0, 1000.0]
-                    .iter()
-                    .filter(|&&most| factor > most)
-                    .count();
-                let number = match factor < 9.95 {
-                    true => format!("{factor:.1}"),
-                    false if factor < 99_999.0 => format!("{factor:.0}"),
-                    false => format!("{factor:.0e}"),
-                };
-                CellStyle {
-                    fill: GROWN[darkness],
-                    ink: if darkness < 2 { INK } else { WHITE },
-                    lines: [String::new(), number],
-                    bar: 0.0,
-                }
-            }
+    /// Returns the cell of the largest cost of a step, as a multiple of that of the easiest one.
+    pub fn growth(factor: f64) -> Self {
+        let steps = [3.0, 30.0, 1000.0].iter();
+        let darkness = steps.filter(|&&most| factor > most).count();
+        let number = match factor {
+            ..9.95 => format!("{factor:.1}"),
+            ..99_999.0 => format!("{factor:.0}"),
+            _ => format!("{factor:.0e}"),
+        };
+        HeatCell {
+            fill: GROWN[darkness],
+            ink: if darkness < 2 { INK } else { WHITE },
+            lines: [String::new(), number],
+            bar: 0.0,
         }
     }
 }
@@ -183,31 +152,25 @@ impl HeatMap {
     ///
     /// # Errors
     /// If the drawing library fails.
-    pub fn draw(&self) -> Result<Drawing, ChartError> {
+    pub fn draw(&self) -> Result<Drawing> {
         let height = TOP + ROW * self.rows.len() as f64 + MARGIN;
-        let words = self.kind.words();
-        let svg = Sheet::draw(words.title, (WIDTH, height), |sheet| {
-            head(sheet, words)?;
+        let svg = svg(self.kind.title, (WIDTH, height), |sheet| {
+            head(sheet, self.kind)?;
+            let format = TextFormat {
+                turn: FontTransform::Rotate270,
+                ..small()
+            };
             for (column, method) in self.methods.iter().enumerate() {
-                let format = TextFormat {
-                    size: SMALL,
-                    turn: Turn::Upwards,
-                    down: VPos::Center,
-                    ..TextFormat::default()
-                };
                 let middle = self.left(column) + 0.5 * self.column();
-                sheet.text(method, (middle, TOP - 6.0), format)?;
+                text(sheet, method, (middle, TOP - 6.0), &format)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
                 self.row(sheet, TOP + ROW * number as f64, row)?;
             }
             Ok(())
-        });
-        Ok(Drawing {
-            name: words.name.to_owned(),
-            title: words.title.to_owned(),
-            svg: svg.map_err(failed(words.name))?,
-        })
+        })?;
+        let name = self.kind.name.to_owned();
+        Ok(Drawing { name, svg })
     }
 
     /// The width of a column.
@@ -219,101 +182,63 @@ impl HeatMap {
         MARGIN + NAMES + self.column() * column as f64
     }
 
-    fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<(), DrawError> {
-        let small = TextFormat {
-            size: SMALL,
-            ..TextFormat::default()
-        };
+    fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         let smallest = TextFormat {
             size: SMALLEST,
-            ..small
+            ..small()
         };
-        sheet.text(&row.name, (MARGIN, top + 0.34 * ROW), small)?;
-        sheet.text(&row.parameter, (MARGIN, top + 0.76 * ROW), smallest)?;
+        text(sheet, &row.name, (MARGIN, top + 0.34 * ROW), &small())?;
+        text(sheet, &row.parameter, (MARGIN, top + 0.76 * ROW), &smallest)?;
         for (column, cell) in row.cells.iter().enumerate() {
-            let Some(cell) = cell else {
-                continue;
-            };
-            let place = Rect {
-                left: self.left(column) + 0.5,
-                top: top + 0.5,
-                width: self.column() - 1.0,
-                height: ROW - 1.0,
-            };
-            draw_cell(sheet, place, &cell.style())?;
+            if let Some(cell) = cell {
+                let corner = (self.left(column) + 0.5, top + 0.5);
+                draw_cell(sheet, corner, self.column() - 1.0, cell)?;
+            }
         }
         Ok(())
     }
 }
 
+fn small() -> TextFormat {
+    TextFormat {
+        size: SMALL,
+        ..TextFormat::default()
+    }
+}
+
 /// Draws title, remark and legend.
-fn head(sheet: &Sheet<'_>, words: &Words) -> Result<(), DrawError> {
-    let usual = TextFormat::default();
+fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
-        ..usual
+        ..small()
     };
-    sheet.text(words.title, (MARGIN, 18.0), title)?;
-    let small = TextFormat {
-        size: SMALL,
-        ..usual
-    };
-    for (line, text) in wrapped(words.remark, WIDTH - 2.0 * MARGIN)
-        .iter()
-        .enumerate()
-    {
-        sheet.text(text, (MARGIN, 38.0 + 14.0 * line as f64), small)?;
+    text(sheet, kind.title, (MARGIN, 18.0), &title)?;
+    for (line, words) in kind.remark.iter().enumerate() {
+        text(sheet, words, (MARGIN, 38.0 + 14.0 * line as f64), &small())?;
     }
     let (mut left, top) = (MARGIN, 72.0);
-    for &(kind, colour) in words.legend {
-        let square = Rect {
-            left,
-            top,
-            width: 12.0,
-            height: 12.0,
-        };
-        sheet.rect(square, colour.filled())?;
-        sheet.text(kind, (left + 17.0, top + 6.0), small)?;
-        left += 34.0 + text_width(kind, SMALL);
+    for &(name, colour) in kind.legend {
+        rect(sheet, (left, top), (12.0, 12.0), colour)?;
+        text(sheet, name, (left + 17.0, top + 6.0), &small())?;
+        left += 34.0 + text_width(name, SMALL);
     }
     Ok(())
 }
 
-/// Breaks a text into lines of a width.
-fn wrapped(text: &str, width: f64) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let last = lines.len() - 1;
-        let longer = format!("{} {word}", lines[last]);
-        if lines[last].is_empty() {
-            lines[last] = word.to_owned();
-        } else if text_width(&longer, SMALL) <= width {
-            lines[last] = longer;
-        } else {
-            lines.push(word.to_owned());
-        }
-    }
-    lines
-}
-
-fn draw_cell(sheet: &Sheet<'_>, place: Rect, style: &CellStyle) -> Result<(), DrawError> {
-    sheet.rect(place, style.fill.filled())?;
-    let bar = Rect {
-        top: place.bottom() - BAR,
-        width: place.width * style.bar,
-        height: BAR,
-        ..place
-    };
-    sheet.rect(bar, RIGHT.filled())?;
+/// Draws a cell, given by its upper left corner and its width.
+fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Result<()> {
+    let height = ROW - 1.0;
+    rect(sheet, (x, y), (width, height), cell.fill)?;
+    let bar = (width * cell.bar, BAR);
+    rect(sheet, (x, y + height - BAR), bar, RIGHT)?;
     let format = TextFormat {
         size: SMALLEST,
-        colour: style.ink,
+        colour: cell.ink,
         across: HPos::Center,
         ..TextFormat::default()
     };
-    let middle = place.left + 0.5 * place.width;
-    for (line, down) in style.lines.iter().zip([5.0, 13.5]) {
-        sheet.text(line, (middle, place.top + down), format)?;
+    for (line, down) in cell.lines.iter().zip([5.0, 13.5]) {
+        text(sheet, line, (x + 0.5 * width, y + down), &format)?;
     }
     Ok(())
 }

@@ -1,189 +1,127 @@
-//! Time against error: one panel for each scene, with a strip for unsafe methods.
+//! Time against error: one plane for each scene, with a strip for unsafe methods.
 
-use super::axis::Axis;
-use super::grid::Grid;
-use super::legend::Legend;
-use super::panel::{Kind, Panel, Point, mark, remark};
-use super::sheet::{DrawError, FRAME, Rect, Sheet, TextFormat};
-use super::style::{Fill, MethodStyle, WARNING};
-use super::{ChartError, Charts, Drawing, Family, MethodFacts, SAME_ROWS, SceneFacts, failed};
+use super::plane::{HEAD, Plane, Point, decades, foot, foot_height, head, marker, series};
+use super::sheet::{INK, Sheet, TEXT, WIDTH, font, svg, units};
+use super::style::WARNING;
+use super::{Charts, Drawing, Family, SAME_ROWS, SceneFacts, Shown};
 use crate::run::measured::Cell;
+use anyhow::Result;
 use ccd_core::order::greater;
-use plotters::style::Color;
-use plotters::style::text_anchor::HPos;
+use plotters::prelude::*;
 
-const NAME: &str = "pareto";
 /// The least error that is drawn; smaller ones are rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
-/// The width of a method's lane in the strip.
-const LANE: f64 = 10.0;
-/// The gap between a panel and its strip.
-const STRIP_GAP: f64 = 4.0;
-/// The least width of the strip, for its title.
-const LEAST_STRIP: f64 = 46.0;
-
-type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
+/// The number of planes side by side, and their height.
+const PANELS: (usize, f64) = (3, 260.0);
+/// The width of a method's lane in the strip, and the least width of the strip, for its title.
+const STRIP: (f64, f64) = (10.0, 50.0);
 
 /// Draws all scenes that were measured.
-pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
+pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
     let scenes = charts.measured_scenes();
-    let shown: Vec<_> = charts
-        .shown(&Family::COMPARED)
-        .into_iter()
-        .filter(|(method, _)| {
-            scenes
-                .iter()
-                .any(|scene| !charts.cells_of(scene.name, method.name).is_empty())
-        })
-        .collect();
-    let cells: Vec<_> = scenes
-        .iter()
-        .flat_map(|scene| {
-            shown.iter().flat_map(|(method, style)| {
-                let cells = charts.cells_of(scene.name, method.name);
-                cells.into_iter().map(|cell| (cell, style.fill))
-            })
-        })
-        .collect();
-    let Some((x, y)) = axes(&cells) else {
+    let shown = charts.shown(&Family::COMPARED);
+    let cells = |is_shown: fn(&Shown<'_>) -> bool| {
+        let methods = shown.iter().filter(move |method| is_shown(method));
+        let of = |(method, _): &Shown<'_>| {
+            let of_scene = |scene: &&SceneFacts<'_>| charts.cells_of(scene.name, method.name);
+            scenes.iter().flat_map(of_scene).collect::<Vec<_>>()
+        };
+        methods.flat_map(of).collect::<Vec<_>>()
+    };
+    let all = cells(|_| true);
+    let errors = cells(|(_, style)| !style.is_unsafe);
+    let errors = errors.iter().map(|cell| cell.mean_error);
+    // A plane without points is still drawn: the strip shows the methods.
+    let errors = decades(errors.filter(|error| *error > LEAST_ERROR));
+    let Some(times) = decades(all.iter().map(|cell| cell.median_us)) else {
         return Ok(None);
     };
-    let strip = strip_width(&shown);
-    let title = "Time against error: lower left is better";
-    let grid = Grid {
-        title,
-        subtitle: "One line per method, a marker for each tolerance; hollow in the strip beside: \
-                   late or missed contacts somewhere, so no accuracy to show",
-        remarks: remarks(&cells),
-        legend: Legend::of_methods(&shown),
-        x,
-        y,
-        columns: 3,
-        height: 190.0,
-        right_margin: strip,
+    let plane = Plane {
+        x: (
+            errors.unwrap_or(LEAST_ERROR..1.0),
+            "mean error, share of duration",
+        ),
+        y: (times, "time of a query, median, µs"),
     };
-    let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
-    let svg = grid.draw(&titles, |sheet, number, panel| {
-        draw_scene(charts, sheet, (scenes[number], panel), &shown)?;
-        if strip > 0.0 {
-            draw_strip(charts, sheet, (scenes[number], panel), &shown, strip)
-        } else {
-            Ok(())
-        }
-    });
-    Ok(Some(Drawing {
-        name: NAME.to_owned(),
-        title: format!("{title}. One panel for each scene."),
-        svg: svg.map_err(failed(NAME))?,
-    }))
-}
-
-fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
-    let times = cells.iter().map(|(cell, _)| cell.median_us);
-    let safe = cells.iter().filter(|(_, fill)| *fill == Fill::Solid);
-    let errors = safe
-        .map(|(cell, _)| cell.mean_error)
-        .filter(|error| *error > LEAST_ERROR);
-    let label = "mean error, share of duration";
-    // A plane without points is still drawn: the strip shows the methods.
-    let errors = Axis::logarithmic(label, errors)
-        .or_else(|| Axis::logarithmic(label, [LEAST_ERROR].into_iter()));
-    Some((
-        errors?,
-        Axis::logarithmic("time of a query, median, µs", times)?,
-    ))
-}
-
-/// Returns the width of the strip, or zero if nothing is unsafe.
-fn strip_width(shown: &[Shown<'_>]) -> f64 {
-    let lanes = shown.iter().filter(|(_, style)| style.fill == Fill::Hollow);
-    match lanes.count() {
-        0 => 0.0,
-        lanes => STRIP_GAP + greater(LEAST_STRIP, LANE * (lanes as f64 + 1.0)),
-    }
-}
-
-fn remarks(cells: &[(&Cell, Fill)]) -> Vec<String> {
     let mut remarks = vec![
-        "Errors are those of the time of contact; below 10⁻¹² they are rounding, and drawn at the left edge. \
-         A method that found nothing has no error and no marker."
-            .to_owned(),
-        SAME_ROWS.to_owned(),
+        "Errors are those of the time of contact; below 1e-12 they are rounding, and drawn at the left edge. A method that \
+         found nothing has no marker.",
+        SAME_ROWS,
     ];
-    if cells.iter().any(|(cell, _)| kind(cell) == Kind::AtLeast) {
+    if all.iter().any(|cell| is_lower_bound(cell)) {
         remarks.push(
-            "Arrow up: half of the queries or more were given up or cut off; the time is at least that."
-                .to_owned(),
+            "Arrow up: half of the queries or more were given up or cut off; the time is at least that.",
         );
     }
-    remarks
+    let title = "Time against error: lower left is better";
+    let rows = scenes.len().div_ceil(PANELS.0);
+    let bottom = HEAD + PANELS.1 * rows as f64;
+    let height = bottom + foot_height(&shown, &remarks);
+    let svg = svg(title, (WIDTH, height), |sheet| {
+        head(
+            sheet,
+            title,
+            "One line per method, a marker for each tolerance; hollow in the strip beside: late or missed contacts \
+             somewhere, so no accuracy to show",
+        )?;
+        let (panels, _) = sheet.split_vertically(units(bottom));
+        let (_, panels) = panels.split_vertically(units(HEAD));
+        let panels = panels.split_evenly((rows, PANELS.0));
+        for (scene, panel) in scenes.iter().zip(&panels) {
+            draw_scene(charts, panel, scene, &plane, &shown)?;
+        }
+        foot(sheet, &shown, &remarks, bottom)
+    })?;
+    let name = "pareto".to_owned();
+    Ok(Some(Drawing { name, svg }))
 }
 
 fn draw_scene(
     charts: &Charts<'_>,
-    sheet: &Sheet<'_>,
-    (scene, panel): (&SceneFacts<'_>, &Panel<'_>),
+    panel: &Sheet<'_>,
+    scene: &SceneFacts<'_>,
+    plane: &Plane,
     shown: &[Shown<'_>],
-) -> Result<(), DrawError> {
-    for (method, style) in shown.iter().filter(|(_, style)| style.fill == Fill::Solid) {
+) -> Result<()> {
+    let (hollow, solid): (Vec<_>, Vec<_>) = shown.iter().partition(|(_, style)| style.is_unsafe);
+    let strip = match hollow.len() {
+        0 => 0.0,
+        lanes => greater(STRIP.1, STRIP.0 * (lanes as f64 + 1.0)),
+    };
+    let width = panel.dim_in_pixel().0 as i32;
+    let (panel, strip) = panel.split_horizontally(width - units(strip));
+    let bold = font(TEXT, FontStyle::Bold);
+    let panel = panel.titled(scene.name, bold.color(&INK))?;
+    let mut drawn = plane.draw(&panel)?;
+    for (method, style) in &solid {
         let cells = charts.cells_of(scene.name, method.name);
-        let points: Vec<_> = cells
-            .iter()
-            .filter(|cell| !cell.mean_error.is_nan())
-            .map(|cell| Point {
-                x: greater(LEAST_ERROR, cell.mean_error),
-                y: cell.median_us,
-                kind: kind(cell),
-            })
-            .collect();
-        panel.series(sheet, &points, style)?;
+        let points = cells.iter().map(|cell| Point {
+            x: cell.mean_error,
+            y: cell.median_us,
+            is_lower_bound: is_lower_bound(cell),
+        });
+        series(&mut drawn, plane, &points.collect::<Vec<_>>(), style)?;
     }
-    Ok(())
-}
-
-/// Draws unsafe methods by their time alone, one lane for each.
-fn draw_strip(
-    charts: &Charts<'_>,
-    sheet: &Sheet<'_>,
-    (scene, panel): (&SceneFacts<'_>, &Panel<'_>),
-    shown: &[Shown<'_>],
-    width: f64,
-) -> Result<(), DrawError> {
-    let strip = Rect {
-        left: panel.rect.right() + STRIP_GAP,
-        width: width - STRIP_GAP,
-        ..panel.rect
-    };
-    sheet.rect(strip, WARNING.mix(0.08).filled())?;
-    sheet.frame(strip, FRAME)?;
-    let format = TextFormat {
-        colour: WARNING,
-        across: HPos::Center,
-        ..remark()
-    };
-    let middle = strip.left + 0.5 * strip.width;
-    sheet.text("unsafe", (middle, strip.top - 9.0), format)?;
-    let unsafe_ones: Vec<_> = shown
-        .iter()
-        .filter(|(_, style)| style.fill == Fill::Hollow)
-        .collect();
-    let lane = strip.width / (unsafe_ones.len() as f64 + 1.0);
-    for (number, (method, style)) in unsafe_ones.iter().enumerate() {
-        let x = strip.left + lane * (number as f64 + 1.0);
+    if hollow.is_empty() {
+        return Ok(());
+    }
+    // Unsafe methods have a time alone, and a lane each: at 10, 100 and so on of a logarithmic axis.
+    let lane = |number: usize| 10f64.powi(number as i32 + 1);
+    let strip = strip.titled("unsafe", bold.color(&WARNING))?;
+    let mut beside = plane.frame(&strip, 1.0..lane(hollow.len()))?;
+    beside.plotting_area().fill(&WARNING.mix(0.08))?;
+    for (number, (method, style)) in hollow.iter().enumerate() {
         for cell in charts.cells_of(scene.name, method.name) {
-            if let Some((_, y)) = panel.spot(LEAST_ERROR, cell.median_us) {
-                mark(sheet, (x, y), kind(cell), style)?;
+            if !cell.median_us.is_nan() {
+                let at = (lane(number), cell.median_us);
+                marker(&mut beside, at, is_lower_bound(cell), style)?;
             }
         }
     }
     Ok(())
 }
 
-/// Returns `AtLeast` if the median of a cell is the time of queries without a complete answer.
-pub(super) fn kind(cell: &Cell) -> Kind {
-    if cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
-        Kind::AtLeast
-    } else {
-        Kind::Measured
-    }
+/// Returns true if the median of a cell is the time of queries without a complete answer.
+pub(super) fn is_lower_bound(cell: &Cell) -> bool {
+    cell.rows > 0 && 2 * cell.unresolved >= cell.rows
 }

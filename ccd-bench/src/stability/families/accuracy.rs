@@ -1,63 +1,25 @@
 //! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
 
-use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
 use super::{family, tenths};
+use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
 pub(super) fn families() -> Vec<Family> {
     vec![
-        family(
-            "face onto face",
-            "angle to parallel",
-            tenths(1..=15),
-            face_onto_face,
-        ),
-        family(
-            "edge across edge",
-            "angle to parallel",
-            tenths(1..=15),
-            edge_across_edge,
-        ),
-        family(
-            "flat approach",
-            "angle to the face",
-            tenths(1..=12),
-            flat_approach,
-        ),
-        family(
-            "cubes that hardly meet",
-            "overlap",
-            tenths(1..=15),
-            hardly_meeting,
-        ),
-        family(
-            "rod that hardly reaches",
-            "share of its reach",
-            tenths(1..=12),
-            hardly_reaching,
-        ),
-        family(
-            "linked rings",
-            "way to contact",
-            tenths(1..=12),
-            linked_rings,
-        ),
-        family(
-            "corner onto face",
-            "angle to its diagonal",
-            tenths(1..=15),
-            corner_onto_face,
-        ),
-        family(
-            "peg turning in a hole",
-            "clearance",
-            tenths(1..=12),
-            peg_in_a_hole,
-        ),
-        family("hardly turning", "radians", tenths(1..=15), hardly_turning),
+        family("face onto face", face_onto_face).over("angle to parallel", tenths(1..=15)),
+        family("edge across edge", edge_across_edge).over("angle to parallel", tenths(1..=15)),
+        family("flat approach", flat_approach).over("angle to the face", tenths(1..=12)),
+        family("cubes that hardly meet", hardly_meeting).over("overlap", tenths(1..=15)),
+        family("rod that hardly reaches", hardly_reaching)
+            .over("share of its reach", tenths(1..=12)),
+        family("linked rings", linked_rings).over("way to contact", tenths(1..=12)),
+        family("corner onto face", corner_onto_face).over("angle to its diagonal", tenths(1..=15)),
+        family("peg turning in a hole", peg_in_a_hole).over("clearance", tenths(1..=12)),
+        family("hardly turning", hardly_turning).over("radians", tenths(1..=15)),
     ]
 }
 
@@ -65,72 +27,51 @@ pub(super) fn families() -> Vec<Family> {
 const SLACK: f64 = 1e-14;
 
 /// T1, tilted: a face falls onto a face.
-fn face_onto_face(angle: f64) -> Result<Step, StepError> {
+fn face_onto_face(angle: f64) -> Result<Step> {
     let reach = 0.5 * (angle.sin() + angle.cos());
-    let falling = BodyMotion {
-        turned: DQuat::from_rotation_y(angle),
-        ..BodyMotion::FALLING
-    };
+    let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_y(angle));
     let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
     let step = Step::new(cube()?, slab()?);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
 /// T8 with nearly parallel rods: an edge meets an edge.
-fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
+fn edge_across_edge(angle: f64) -> Result<Step> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
-    let falling = BodyMotion {
-        turned: DQuat::from_rotation_z(angle) * on_edge,
-        ..BodyMotion::FALLING
-    };
-    let lying = BodyMotion {
-        turned: on_edge,
-        ..BodyMotion::STILL
-    };
+    let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_z(angle) * on_edge);
+    let lying = BodyMotion::STILL.oriented(on_edge);
     let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, SLACK);
     let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
-    Ok(step.turned_too(falling, lying, expected)?)
+    step.turned_too(falling, lying, expected)
 }
 
 /// T8: a cube falls onto a slab, nearly upright on a corner.
-fn corner_onto_face(angle: f64) -> Result<Step, StepError> {
+fn corner_onto_face(angle: f64) -> Result<Step> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
-    let falling = BodyMotion {
-        turned,
-        ..BodyMotion::FALLING
-    };
+    let falling = BodyMotion::FALLING.oriented(turned);
     let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
     let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
     let step = Step::new(cube()?, slab()?);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
 /// T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
-fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
+fn peg_in_a_hole(clearance: f64) -> Result<Step> {
     let half = 0.5;
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
-    let turning = BodyMotion {
-        spin: 2.0 * angle * DVec3::Z,
-        ..BodyMotion::STILL
-    };
-    let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?);
-    let step = Step {
-        tolerance: greater(0.1 * clearance, 1e-11),
-        ..step
-    };
+    let turning = BodyMotion::STILL.spinning(2.0 * angle * DVec3::Z);
+    let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
+        .within(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
     let expected = Expected::at(0.5, 1e-15 / clearance);
-    Ok(step.turned_too(turning, BodyMotion::STILL, expected)?)
+    step.turned_too(turning, BodyMotion::STILL, expected)
 }
 
 /// T25: a cube falls flat onto a slab, and rotates very little.
-fn hardly_turning(turn: f64) -> Result<Step, StepError> {
-    let falling = BodyMotion {
-        spin: turn * DVec3::Y,
-        ..BodyMotion::FALLING
-    };
+fn hardly_turning(turn: f64) -> Result<Step> {
+    let falling = BodyMotion::FALLING.spinning(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
     for _ in 0..40 {
@@ -139,66 +80,49 @@ fn hardly_turning(turn: f64) -> Result<Step, StepError> {
     }
     let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(time, SLACK);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
 /// A cube comes down on a slab at a small angle, halfway through its flight.
-fn flat_approach(angle: f64) -> Result<Step, StepError> {
+fn flat_approach(angle: f64) -> Result<Step> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = Expected::at(0.5, 1e-15 / sin);
-    let step = Step::new(cube()?, slab()?);
-    let step = Step {
-        tolerance: greater(1e-3 * height, 1e-11),
-        ..step
-    };
-    Ok(step.turned_too(flying, BodyMotion::UNDER, expected)?)
+    let step = Step::new(cube()?, slab()?).within(greater(1e-3 * height, 1e-11));
+    step.turned_too(flying, BodyMotion::UNDER, expected)
 }
 
-fn hardly_meeting(overlap: f64) -> Result<Step, StepError> {
+fn hardly_meeting(overlap: f64) -> Result<Step> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = Expected::at(1.0 / 3.0, SLACK);
     let step = Step::new(cube()?, cube()?);
-    Ok(if overlap > 1e-12 {
-        step.turned_too(flying, BodyMotion::STILL, expected)?
-    } else {
-        step.exactly(flying, BodyMotion::STILL, expected)?
-    })
+    step.turned_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
 
 /// T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
-fn hardly_reaching(share: f64) -> Result<Step, StepError> {
+fn hardly_reaching(share: f64) -> Result<Step> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
-    let turning = BodyMotion {
-        spin: PI * DVec3::Y,
-        ..BodyMotion::STILL
-    };
+    let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = Expected::at(time, 1e-15 / share.sqrt());
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
-    Ok(step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)?)
+    step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
 /// T17: two linked rings, a small distance apart.
-fn linked_rings(way: f64) -> Result<Step, StepError> {
+fn linked_rings(way: f64) -> Result<Step> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner
     // rims are a small way apart.
     let rim = radius - 2.0 * tube;
     let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
-    let hanging = BodyMotion {
-        turned: upright,
-        ..BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X)
-    };
-    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?);
-    let step = Step {
-        tolerance: greater(0.1 * way, 1e-11),
-        ..step
-    };
+    let hanging = BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).oriented(upright);
+    let step =
+        Step::new(torus(radius, tube)?, torus(radius, tube)?).within(greater(0.1 * way, 1e-11));
     let expected = Expected::at(way, SLACK);
-    Ok(step.exactly(hanging, BodyMotion::STILL, expected)?)
+    step.exactly(hanging, BodyMotion::STILL, expected)
 }

@@ -1,46 +1,34 @@
 //! Bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus, turned};
+use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus};
 use super::{family, tenths};
-use ccd_core::glam::{DQuat, DVec3, dvec3};
+use anyhow::Result;
+use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub(super) fn families() -> Vec<Family> {
     vec![
-        family("hooks pulled apart", "slack", tenths(1..=12), hooks),
-        family(
-            "ring onto a ring",
-            "way to contact",
-            tenths(1..=12),
-            ring_onto_ring,
-        ),
-        family(
-            "screw in its nut",
-            "turns",
-            vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0],
-            screw,
-        ),
-        family(
-            "screw with little play",
+        family("hooks pulled apart", hooks).over("slack", tenths(1..=12)),
+        family("ring onto a ring", ring_onto_ring).over("way to contact", tenths(1..=12)),
+        family("screw in its nut", screw)
+            .over("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
+        family("screw with little play", tight_screw).over(
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
-            tight_screw,
         ),
-        family("sheet between two sheets", "gap", tenths(1..=12), between),
-        family("plate through a slit", "gap", tenths(1..=12), through_slit),
-        family(
-            "turned frames",
+        family("sheet between two sheets", between).over("gap", tenths(1..=12)),
+        family("plate through a slit", through_slit).over("gap", tenths(1..=12)),
+        family("turned frames", turned_frame).over(
             "degrees",
             vec![0.0, 1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 90.0, 120.0, 180.0],
-            turned_frame,
         ),
     ]
 }
 
 /// T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
-fn hooks(slack: f64) -> Result<Step, StepError> {
+fn hooks(slack: f64) -> Result<Step> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
     let hook = extruded(
@@ -50,28 +38,19 @@ fn hooks(slack: f64) -> Result<Step, StepError> {
         |x, z| z == 0 || x != 1,
     )?;
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
-    let holding = BodyMotion {
-        turned: DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI),
-        ..BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
-    };
-    let step = Step::new(hook.clone(), hook);
-    let step = Step {
-        tolerance: greater(0.1 * slack, 1e-11),
-        ..step
-    };
-    Ok(step.turned_too(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))?)
+    let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
+        .oriented(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
+    let step = Step::new(hook.clone(), hook).within(greater(0.1 * slack, 1e-11));
+    step.turned_too(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))
 }
 
 /// A ring falls flat onto an equal one; they meet all around.
-fn ring_onto_ring(way: f64) -> Result<Step, StepError> {
+fn ring_onto_ring(way: f64) -> Result<Step> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?);
-    let step = Step {
-        tolerance: greater(0.1 * way, 1e-11),
-        ..step
-    };
-    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))?)
+    let step =
+        Step::new(torus(radius, tube)?, torus(radius, tube)?).within(greater(0.1 * way, 1e-11));
+    step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
 }
 
 /// The pitch of the threads.
@@ -80,50 +59,42 @@ const PITCH: f64 = 0.2;
 const THREAD: [f64; 2] = [0.9, 1.0];
 
 /// T18: the flank of a screw rotates between those of its nut at their common pitch.
-fn screw(turns: f64) -> Result<Step, StepError> {
+fn screw(turns: f64) -> Result<Step> {
     threads(turns, 0.5)
 }
 
 /// T18, with one turn, and one flank close to the other.
-fn tight_screw(play: f64) -> Result<Step, StepError> {
+fn tight_screw(play: f64) -> Result<Step> {
     threads(1.0, play)
 }
 
-fn threads(turns: f64, play: f64) -> Result<Step, StepError> {
+fn threads(turns: f64, play: f64) -> Result<Step> {
     // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = ribbon(THREAD, PITCH, sides, 3)?;
-    let turning = BodyMotion {
-        spin: TAU * turns * DVec3::Z,
-        ..BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
-    };
-    let step = Step::new(flank.clone(), flank);
-    let step = Step {
-        tolerance: 0.1 * play * PITCH,
-        ..step
-    };
-    Ok(step.turned_too(turning, BodyMotion::STILL, Expected::Free)?)
+    let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
+        .spinning(TAU * turns * DVec3::Z);
+    let step = Step::new(flank.clone(), flank).within(0.1 * play * PITCH);
+    step.turned_too(turning, BodyMotion::STILL, Expected::Free)
 }
 
 /// A sheet slides between two others.
-fn between(gap: f64) -> Result<Step, StepError> {
+fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free(
-        Step::new(sheet(1.0)?, stacked(1.0, [-gap, gap])?),
+        Step::new(sheet(1.0)?, stacked(&sheet(1.0)?, [-gap, gap].into_iter())?),
         gap,
         sliding,
     )
 }
 
 /// T16: a tilted plate moves through a slit that is wider than its edges by a gap.
-fn through_slit(gap: f64) -> Result<Step, StepError> {
+fn through_slit(gap: f64) -> Result<Step> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
-    let moving = BodyMotion {
-        turned: DQuat::from_rotation_y(tilt),
-        ..BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
-    };
+    let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
+        .oriented(DQuat::from_rotation_y(tilt));
     free(
         Step::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
@@ -131,30 +102,19 @@ fn through_slit(gap: f64) -> Result<Step, StepError> {
     )
 }
 
-fn free(step: Step, gap: f64, moving: BodyMotion) -> Result<Step, StepError> {
-    let step = Step {
-        tolerance: greater(0.25 * gap, 1e-11),
-        ..step
-    };
-    Ok(if gap >= 1e-12 {
-        step.turned_too(moving, BodyMotion::STILL, Expected::Free)?
-    } else {
-        step.exactly(moving, BodyMotion::STILL, Expected::Free)?
-    })
+fn free(step: Step, gap: f64, moving: BodyMotion) -> Result<Step> {
+    let step = step.within(greater(0.25 * gap, 1e-11));
+    step.turned_if(gap >= 1e-12, moving, BodyMotion::STILL, Expected::Free)
 }
 
 /// T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
-fn turned_frame(degrees: f64) -> Result<Step, StepError> {
+fn turned_frame(degrees: f64) -> Result<Step> {
     let (long, thin, wall) = (2.0f64, 0.05, 1.2);
-    let rod = cuboid(thin, 0.3, long)?;
     let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
-    let turning = BodyMotion {
-        turned: frame,
-        spin: PI * DVec3::Y,
-        ..BodyMotion::STILL
-    };
-    let step = Step::new(turned(&rod, frame.inverse())?, cuboid(1.0, 3.0, 3.0)?);
+    let rod = cuboid(thin, 0.3, long)?.transformed(DAffine3::from_quat(frame.inverse()))?;
+    let turning = BodyMotion::STILL.oriented(frame).spinning(PI * DVec3::Y);
+    let step = Step::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / PI, 1e-14);
-    Ok(step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)?)
+    step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }

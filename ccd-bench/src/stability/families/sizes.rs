@@ -1,8 +1,9 @@
 //! Sizes, distances and units far from 1.
 
-use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cone, cube, cuboid, slab};
 use super::{family, tens, tenths};
+use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
 
@@ -13,57 +14,17 @@ pub(super) fn families() -> Vec<Family> {
             .collect()
     };
     vec![
-        family(
-            "small against large",
-            "size against size",
-            sizes(1..=9),
-            size_against_size,
-        ),
-        family(
-            "unit of length",
-            "size of the scene",
-            sizes(2..=9),
-            unit_of_length,
-        ),
-        family(
-            "far from the origin",
-            "distance in sizes",
-            tens(0..=12),
-            far_from_the_origin,
-        ),
-        family(
-            "slender triangles",
-            "length against width",
-            tens(0..=12),
-            slender,
-        ),
-        family(
-            "bullet and paper",
-            "way against thickness",
-            tens(0..=9),
-            bullet_and_paper,
-        ),
-        family("margin", "margin against size", margins(), margin),
-        family(
-            "one inside the other",
-            "size against size",
-            tenths(0..=9),
-            inside,
-        ),
-        family("unit of time", "duration", sizes(1..=9), unit_of_time),
-        family(
-            "moving together",
-            "common travel",
-            tens(0..=9),
-            moving_together,
-        ),
-        family(
-            "far centre of rotation",
-            "distance in sizes",
-            tens(0..=9),
-            far_centre,
-        ),
-        family("needle tip first", "width", tenths(0..=12), needle),
+        family("small against large", size_against_size).over("size against size", sizes(1..=9)),
+        family("unit of length", unit_of_length).over("size of the scene", sizes(2..=9)),
+        family("far from the origin", far_from_the_origin).over("distance in sizes", tens(0..=12)),
+        family("slender triangles", slender).over("length against width", tens(0..=12)),
+        family("bullet and paper", bullet_and_paper).over("way against thickness", tens(0..=9)),
+        family("margin", margin).over("margin against size", margins()),
+        family("one inside the other", inside).over("size against size", tenths(0..=9)),
+        family("unit of time", unit_of_time).over("duration", sizes(1..=9)),
+        family("moving together", moving_together).over("common travel", tens(0..=9)),
+        family("far centre of rotation", far_centre).over("distance in sizes", tens(0..=9)),
+        family("needle tip first", needle).over("width", tenths(0..=12)),
     ]
 }
 
@@ -75,52 +36,45 @@ fn margins() -> Vec<f64> {
 }
 
 /// A cube falls onto a larger or smaller one, which it meets halfway.
-fn size_against_size(size: f64) -> Result<Step, StepError> {
+fn size_against_size(size: f64) -> Result<Step> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
-    let step = Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?);
-    let step = Step {
-        tolerance: 1e-6 * way,
-        ..step
-    };
-    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))?)
+    let step = Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?).within(1e-6 * way);
+    step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
 }
 
 /// T1 in other units of length.
-fn unit_of_length(size: f64) -> Result<Step, StepError> {
+fn unit_of_length(size: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
     let step = Step::new(
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
-    );
-    let step = Step {
-        tolerance: 1e-6 * size,
-        ..step
-    };
+    )
+    .within(1e-6 * size);
     let slab = BodyMotion::rest(-size * DVec3::Z);
-    Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
+    step.turned_too(falling, slab, Expected::at(0.625, 1e-14))
 }
 
 /// T1 in other units of time.
-fn unit_of_time(duration: f64) -> Result<Step, StepError> {
+fn unit_of_time(duration: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING;
     let step = Step::new(cube()?, slab()?);
     let step = Step { duration, ..step };
     let slab = BodyMotion::UNDER;
-    Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
+    step.turned_too(falling, slab, Expected::at(0.625, 1e-14))
 }
 
 /// A cube falls onto another one, and both travel far to the side.
-fn moving_together(travel: f64) -> Result<Step, StepError> {
+fn moving_together(travel: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = Step::new(cube()?, cube()?);
-    Ok(step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))?)
+    step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))
 }
 
 /// A cube rotates about a centre far below it, and so moves nearly straight to a wall.
-fn far_centre(distance: f64) -> Result<Step, StepError> {
+fn far_centre(distance: f64) -> Result<Step> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
         spin: spin * DVec3::Y,
@@ -132,65 +86,62 @@ fn far_centre(distance: f64) -> Result<Step, StepError> {
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = Step::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-14);
-    Ok(step.exactly(turning, BodyMotion::rest(2.0 * DVec3::X), expected)?)
+    step.exactly(turning, BodyMotion::rest(2.0 * DVec3::X), expected)
 }
 
 /// A cone falls onto a slab on its tip; its sides are long and thin triangles.
-fn needle(width: f64) -> Result<Step, StepError> {
+fn needle(width: f64) -> Result<Step> {
     let step = Step::new(cone(8, 0.5 * width)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
 /// T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
-fn far_from_the_origin(distance: f64) -> Result<Step, StepError> {
+fn far_from_the_origin(distance: f64) -> Result<Step> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = Step::new(cube()?, cube()?);
-    Ok(step.exactly(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))?)
+    step.exactly(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))
 }
 
 /// A needle falls onto a slab; its sides are long and thin triangles.
-fn slender(ratio: f64) -> Result<Step, StepError> {
+fn slender(ratio: f64) -> Result<Step> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
-    let falling = BodyMotion {
-        turned: DQuat::from_rotation_x(0.3),
-        ..BodyMotion::FALLING
-    };
+    let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_x(0.3));
     let reach = thin * (sin + cos);
     let expected = Expected::at((3.0 - reach) / 4.0, 1e-14);
     let step = Step::new(cuboid(1.0, thin, thin)?, slab()?);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
 /// T13: a bullet travels distance 1; a thin sheet stands halfway.
-fn bullet_and_paper(ratio: f64) -> Result<Step, StepError> {
+fn bullet_and_paper(ratio: f64) -> Result<Step> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
     let paper = BodyMotion::rest(0.5 * DVec3::X);
     let step = Step::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = Expected::at(0.5 - half - bullet, 1e-14);
-    Ok(step.turned_too(flying, paper, expected)?)
+    step.turned_too(flying, paper, expected)
 }
 
 /// A cube falls onto a slab, and comes as near as the margin halfway.
-fn margin(margin: f64) -> Result<Step, StepError> {
+fn margin(margin: f64) -> Result<Step> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
     let step = Step { margin, ..step };
     let slab = BodyMotion::UNDER;
-    Ok(step.turned_too(falling, slab, Expected::at(0.5, 1e-14))?)
+    step.turned_too(falling, slab, Expected::at(0.5, 1e-14))
 }
 
 /// T24: a cube inside another one, both closed.
-fn inside(size: f64) -> Result<Step, StepError> {
+fn inside(size: f64) -> Result<Step> {
     let half = 0.9 * size;
     let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
-    Ok(step.turned_too(moving, BodyMotion::STILL, Expected::Start)?)
+    step.turned_too(moving, BodyMotion::STILL, Expected::Start)
 }

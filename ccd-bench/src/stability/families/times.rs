@@ -1,18 +1,14 @@
 //! Contacts close to the start and close to the end.
 
-use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
+use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, sheet, slab};
-use super::tenths;
+use super::{family, tenths};
+use anyhow::Result;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, values, make| Family {
-        name,
-        parameter: "time to the limit",
-        values,
-        make,
-    };
+    let family = |name, values, make| family(name, make).over("time to the limit", values);
     vec![
         family("contact after the start", tenths(1..=12), after_the_start),
         family("contact before the end", tenths(1..=14), before_the_end),
@@ -22,7 +18,7 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Returns a cube that falls at speed 1 onto a slab, and reaches it at a given time.
-fn falling(time: f64) -> Result<(Step, BodyMotion), StepError> {
+fn falling(time: f64) -> Result<(Step, BodyMotion)> {
     let step = Step::new(cube()?, slab()?);
     Ok((
         step,
@@ -30,43 +26,29 @@ fn falling(time: f64) -> Result<(Step, BodyMotion), StepError> {
     ))
 }
 
-fn after_the_start(time: f64) -> Result<Step, StepError> {
+fn after_the_start(time: f64) -> Result<Step> {
     let (step, falling) = falling(time)?;
-    let step = Step {
-        tolerance: greater(0.1 * time, 1e-11),
-        ..step
-    };
+    let step = step.within(greater(0.1 * time, 1e-11));
     let expected = Expected::at(time, 1e-14);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-fn before_the_end(before: f64) -> Result<Step, StepError> {
+fn before_the_end(before: f64) -> Result<Step> {
     let (step, falling) = falling(1.0 - before)?;
     let expected = Expected::at(1.0 - before, 1e-14);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-fn after_the_end(after: f64) -> Result<Step, StepError> {
+fn after_the_end(after: f64) -> Result<Step> {
     let (step, falling) = falling(1.0 + after)?;
-    let step = Step {
-        tolerance: greater(0.25 * after, 1e-11),
-        ..step
-    };
+    let step = step.within(greater(0.25 * after, 1e-11));
     let slab = BodyMotion::UNDER;
-    Ok(if after > 1e-12 {
-        step.turned_too(falling, slab, Expected::Free)?
-    } else {
-        step.exactly(falling, slab, Expected::Free)?
-    })
+    step.turned_if(after > 1e-12, falling, slab, Expected::Free)
 }
 
 /// Two flat sheets without thickness, a small distance apart, meet face to face.
-fn sheets(way: f64) -> Result<Step, StepError> {
+fn sheets(way: f64) -> Result<Step> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(sheet(1.0)?, sheet(1.0)?);
-    let step = Step {
-        tolerance: greater(0.1 * way, 1e-11),
-        ..step
-    };
-    Ok(step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))?)
+    let step = Step::new(sheet(1.0)?, sheet(1.0)?).within(greater(0.1 * way, 1e-11));
+    step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
 }

@@ -1,43 +1,28 @@
 //! Rotations, from very small ones to thousands of turns.
 
-use super::super::family::{BodyMotion, Expected, Family, Step, StepError};
-use super::super::shapes::{cube, cuboid, moved, slab};
-use super::tens;
-use ccd_core::glam::DVec3;
+use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::shapes::{cube, cuboid, slab};
+use super::{family, tens};
+use anyhow::Result;
+use ccd_core::glam::{DAffine3, DVec3};
 use std::f64::consts::{PI, TAU};
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, values, make| Family {
-        name,
-        parameter: "turns",
-        values,
-        make,
-    };
-    let mace = Family {
-        parameter: "radians",
-        ..family(
-            "mace",
-            vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0],
-            mace,
-        )
-    };
+    let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
-        mace,
-        family("drilling cube", tens(-2..=4), drilling),
-        family("rod turning into a wall", tens(0..=4), rod_into_a_wall),
-        family("rods turning against each other", tens(0..=4), rods),
+        family("mace", mace).over("radians", spins),
+        family("drilling cube", drilling).over("turns", tens(-2..=4)),
+        family("rod turning into a wall", rod_into_a_wall).over("turns", tens(0..=4)),
+        family("rods turning against each other", rods).over("turns", tens(0..=4)),
     ]
 }
 
 /// A cube falls flat onto a slab while it rotates about the vertical.
-fn drilling(turns: f64) -> Result<Step, StepError> {
-    let falling = BodyMotion {
-        spin: TAU * turns * DVec3::Z,
-        ..BodyMotion::FALLING
-    };
+fn drilling(turns: f64) -> Result<Step> {
+    let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, BodyMotion::UNDER, expected)?)
+    step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
 /// The half length of a rod.
@@ -46,48 +31,40 @@ const LONG: f64 = 2.0;
 const THIN: f64 = 0.05;
 
 /// T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
-fn rod_into_a_wall(turns: f64) -> Result<Step, StepError> {
+fn rod_into_a_wall(turns: f64) -> Result<Step> {
     let wall = 1.2;
     let spin = TAU * turns;
     let angle = (wall / LONG.hypot(THIN)).asin() - THIN.atan2(LONG);
-    let turning = BodyMotion {
-        spin: spin * DVec3::Y,
-        ..BodyMotion::STILL
-    };
+    let turning = BodyMotion::STILL.spinning(spin * DVec3::Y);
     let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-15);
-    Ok(step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)?)
+    step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
 /// T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip moves along the
 /// wall, so that a bound on the speeds of that moment finds no approach.
-fn mace(spin: f64) -> Result<Step, StepError> {
+fn mace(spin: f64) -> Result<Step> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
-    let hanging = moved(&cuboid(THIN, 0.5 * arm, THIN)?, -0.5 * arm * DVec3::Y)?;
-    let swinging = BodyMotion {
-        spin: spin * DVec3::Z,
-        ..BodyMotion::STILL
-    };
+    let hanging = cuboid(THIN, 0.5 * arm, THIN)?;
+    let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
+    let swinging = BodyMotion::STILL.spinning(spin * DVec3::Z);
     let angle = arm.atan2(THIN) + (wall / arm.hypot(THIN)).asin();
     let step = Step::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-15);
-    Ok(step.turned_too(
+    step.turned_too(
         swinging,
         BodyMotion::rest((wall + 1.0) * DVec3::Y),
         expected,
-    )?)
+    )
 }
 
 /// T14: two rods rotate against each other, as mirror images.
-fn rods(turns: f64) -> Result<Step, StepError> {
+fn rods(turns: f64) -> Result<Step> {
     let (apart, spin) = (3.0, TAU * turns);
-    let turning = |spin: f64, x: f64| BodyMotion {
-        spin: spin * DVec3::Y,
-        ..BodyMotion::rest(x * DVec3::X)
-    };
+    let turning = |spin: f64, x: f64| BodyMotion::rest(x * DVec3::X).spinning(spin * DVec3::Y);
     let angle = (0.5 * apart / LONG.hypot(THIN)).asin() - THIN.atan2(LONG);
     debug_assert!(angle < PI);
     let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(THIN, 0.3, LONG)?);
     let expected = Expected::at(angle / spin, 1e-15);
-    Ok(step.turned_too(turning(spin, 0.0), turning(-spin, apart), expected)?)
+    step.turned_too(turning(spin, 0.0), turning(-spin, apart), expected)
 }

@@ -1,6 +1,6 @@
 //! Tables that are written and read back.
 
-use super::super::{Truth, TruthRow, read_truths, write_truths};
+use super::super::{Truth, TruthRow};
 
 const TABLE: &str = "id,status,lo,hi\n\
                      a,hit,0.1,0.30000000000000004\n\
@@ -23,13 +23,24 @@ const TRUTHS: [(&str, Truth); 5] = [
     ("e", Truth::Undecided { lo: 0.25 }),
 ];
 
+fn read(table: &str) -> Result<Vec<TruthRow>, csv::Error> {
+    csv::Reader::from_reader(table.as_bytes())
+        .deserialize()
+        .collect()
+}
+
 #[test]
 fn a_written_table_is_read_back() {
     let row = |&(id, truth): &(&str, Truth)| TruthRow::new(id.to_owned(), 2.0, truth);
-    let mut table = Vec::new();
-    write_truths(&mut table, TRUTHS.iter().map(row)).unwrap();
-    assert_eq!(String::from_utf8(table).unwrap(), TABLE);
-    let read = read_truths(TABLE.as_bytes()).unwrap();
+    let mut table = csv::Writer::from_writer(Vec::new());
+    TRUTHS
+        .iter()
+        .for_each(|truth| table.serialize(row(truth)).unwrap());
+    assert_eq!(
+        String::from_utf8(table.into_inner().unwrap()).unwrap(),
+        TABLE
+    );
+    let read = read(TABLE).unwrap();
     let read: Vec<_> = read
         .iter()
         .map(|row| (row.id.as_str(), row.truth()))
@@ -41,6 +52,6 @@ fn a_written_table_is_read_back() {
 fn invalid_rows_are_refused() {
     for row in ["a,sure,0,1", "a,hit,x,1", "a,hit,0"] {
         let table = format!("id,status,lo,hi\n{row}\n");
-        assert!(read_truths(table.as_bytes()).is_err(), "{row}");
+        assert!(read(&table).is_err(), "{row}");
     }
 }

@@ -14,7 +14,7 @@ use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{RATE_F64, RESTING};
 use crate::shortcuts::Shortcut;
-use crate::shortcuts::sweeping_piece::{MovingPiece, SweepingPiece};
+use crate::shortcuts::turning_pieces::{MovingPiece, TurningPiece};
 use crate::tuning::{
     ASSUMED_STEPS, FIRST_VISIT_FREE_TIME, MAX_NEWTON_STEPS, RESTED, ROTATION_GAP_SHARE,
 };
@@ -283,7 +283,7 @@ impl<'p> Snapshot<'p> {
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
-                let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
+                let sweep = TurningPiece::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.time_left());
                 self.count_evaluations(sweep.looks.get());
                 longest = greater(longest, free?);

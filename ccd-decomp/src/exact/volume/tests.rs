@@ -25,9 +25,7 @@ fn rod(cells: u32) -> Vec<[DVec3; 3]> {
 fn the_sign_of_a_long_solids_volume_is_certain() {
     let triangles = rod(20_000);
     let sign = |triangles: &mut dyn Iterator<Item = [DVec3; 3]>| {
-        let mut volume = SignedVolume::default();
-        triangles.for_each(|triangle| volume.add(triangle, DVec3::ZERO));
-        volume.is_positive()
+        SignedVolume::of(triangles, DVec3::ZERO).is_positive()
     };
     let turned = |[a, b, c]: [DVec3; 3]| [a, c, b];
     let outward = sign(&mut triangles.iter().copied()).expect("a volume");

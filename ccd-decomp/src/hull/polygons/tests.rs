@@ -16,24 +16,6 @@ fn the_squares_of_a_box_are_polygons() {
     }
 }
 
-#[test]
-fn a_flat_surface_has_two_sides() {
-    for corners in 3..8 {
-        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(corners);
-        let points: Vec<DVec3> = (0..corners)
-            .map(|k| dvec3(angle(k).cos(), angle(k).sin(), 0.0))
-            .collect();
-        let all: Vec<u32> = (0..corners).collect();
-        let sides = polygons(&points, ExactHull::polygon(&all).facets());
-        assert_eq!(sides.len(), 2);
-        let mut back = sides[1].corners.clone();
-        back.reverse();
-        let first = back.iter().position(|&v| v == sides[0].corners[0]).unwrap();
-        back.rotate_left(first);
-        assert_eq!(sides[0].corners, back);
-    }
-}
-
 proptest! {
     /// Every triangle is in one polygon, no two polygons are coplanar neighbours, and all of a polygon's
     /// corners are strict.

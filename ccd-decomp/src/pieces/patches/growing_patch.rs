@@ -4,6 +4,7 @@ use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
+use crate::hull::polygons::polygons;
 use crate::search::region::Region;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::Manifold;
@@ -50,6 +51,20 @@ impl GrowingPatch {
 
     pub(super) fn hull(&self) -> &ExactHull {
         &self.hull
+    }
+
+    /// Returns the facets of the hull, without coplanar neighbours; a flat hull has two.
+    pub(super) fn facets(&self, points: &[DVec3]) -> Vec<Vec<u32>> {
+        if self.has_volume {
+            let polygons = polygons(points, self.hull.facets()).into_iter();
+            return polygons.map(|polygon| polygon.corners).collect();
+        }
+        let mut front = self.hull.corners().to_vec();
+        let least = (0..front.len()).min_by_key(|&k| front[k]);
+        front.rotate_left(least.unwrap_or(0));
+        let mut back = front.clone();
+        back[1..].reverse();
+        vec![front, back]
     }
 
     /// Adds a polygon if the result is a valid patch. The result is meaningful only if work is left.

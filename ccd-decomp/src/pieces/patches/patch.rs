@@ -2,7 +2,6 @@
 
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
-use crate::hull::polygons::polygons;
 use crate::pieces::polytope::{CoveredFacet, polytope};
 use crate::solid::flats::{Flat, Flats};
 use crate::solid::manifold::Manifold;
@@ -29,10 +28,8 @@ impl Patch {
             .flat_map(|f| f.faces.iter().copied())
             .collect();
         faces.sort_unstable();
-        let polygons = polygons(manifold.mesh().vertices(), region.hull().facets());
-        let facets = polygons
-            .into_iter()
-            .map(|polygon| covered(manifold, &members, polygon.corners));
+        let facets = region.facets(manifold.mesh().vertices()).into_iter();
+        let facets = facets.map(|corners| covered(manifold, &members, corners));
         let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
         Patch { faces, polytope }
     }

@@ -3,10 +3,10 @@
 mod part_planes;
 mod under;
 
-use super::part::Part;
 use super::target::{Location, Target};
 use crate::tolerance::{EXCESS_BOXES, EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
 use crate::work::Work;
+use ccd_core::Hull;
 use ccd_core::glam::{BVec3, DVec3};
 use ccd_core::order::{greater, lesser};
 use part_planes::PartPlanes;
@@ -19,7 +19,7 @@ use std::collections::BinaryHeap;
 /// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
 /// [`under`] gives a better bound. Boxes around the parts are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
-pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
+pub(super) fn bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
     let floor = EXCESS_FLOOR * target.reach();
     let parts: Vec<PartPlanes<'_>> = parts
         .iter()
@@ -88,8 +88,8 @@ impl Search<'_> {
             bounds,
             ..
         } = &self.parts[number];
-        let stride = part.corners.len().div_ceil(CORNERS);
-        for &point in part.corners.iter().step_by(stride) {
+        let stride = part.points.len().div_ceil(CORNERS);
+        for &point in part.points.iter().step_by(stride) {
             if let Location::Outside { distance } = self.target.locate(point, &Work::unbounded()) {
                 self.found = greater(self.found, distance);
             }

@@ -3,7 +3,6 @@
 use super::extremes::{farthest, without_inner};
 use crate::bounds::Bounds;
 use crate::hull::exact_hull::ExactHull;
-use crate::hull::likely_triangles;
 use crate::tolerance::PRICED_POINTS;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
@@ -110,7 +109,7 @@ impl Measured {
     fn price_with(&self, other: &Measured) -> f64 {
         let common = || {
             let points = [&self.priced[..], &other.priced].concat();
-            let triangles = likely_triangles(&points)?;
+            let triangles = ExactHull::facets_of(&points)?;
             Some(volume(&points, triangles.into_iter()))
         };
         let meet = self.bounds.meets(&other.bounds);

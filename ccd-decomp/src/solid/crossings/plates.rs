@@ -1,6 +1,6 @@
 //! Plates: convex polygons of many slivers, whose triangles are tested only if another face enters the polygon.
 
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, BoundsTree};
 use crate::exact::predicates::{Projection, side};
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
@@ -9,7 +9,6 @@ use crate::solid::manifold::Manifold;
 use crate::tolerance::FAN_TRIANGLES;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
@@ -22,7 +21,7 @@ pub(super) struct Plates<'a, 'm> {
     /// The plate of every face, or [`NONE`].
     plate_of: Vec<u32>,
     /// The boxes of the plates.
-    bvh: Bvh,
+    bounds: BoundsTree,
     /// The faces outside all plates.
     rest: Group,
 }
@@ -31,7 +30,6 @@ const NONE: u32 = u32::MAX;
 
 /// A convex polygon: triangles, plane, and rim.
 struct Plate {
-    number: u32,
     faces: Vec<u32>,
     plane: [DVec3; 3],
     projection: Projection,
@@ -82,17 +80,16 @@ impl<'a, 'm> Plates<'a, 'm> {
             for &face in &plate.faces {
                 plate_of[face as usize] = number;
             }
-            plates.push(Plate { number, ..plate });
+            plates.push(plate);
         }
         if plates.is_empty() {
             return None;
         }
         let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
         let rest = Group::new(manifold, rest.map(|(face, _)| face).collect());
-        let boxes: Vec<_> = plates.iter().map(|plate| plate.bounds.as_aabb()).collect();
         Some(Plates {
             manifold,
-            bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+            bounds: BoundsTree::new(plates.iter().map(|plate| plate.bounds).collect()),
             plates,
             plate_of,
             rest,
@@ -117,19 +114,17 @@ impl<'a, 'm> Plates<'a, 'm> {
                 return false;
             }
         }
-        let aabb = region.bounds().as_aabb();
-        let near = self.bvh.intersect_aabb(&aabb);
-        let mut near = near.map(|plate| &self.plates[plate as usize]);
-        near.all(|plate| {
-            if plate.number == own || !plate.bounds.meets(region.bounds()) {
+        self.bounds.all_meeting(region.bounds(), |number| {
+            if number == own {
                 return true;
             }
             if !work.spend(BESIDE) {
                 return false;
             }
-            if self.is_beside(face, plate) {
+            if self.is_beside(face, number) {
                 return true;
             }
+            let plate = &self.plates[number as usize];
             let group = plate
                 .group
                 .get_or_init(|| Group::new(self.manifold, plate.faces.clone()));
@@ -145,7 +140,8 @@ impl<'a, 'm> Plates<'a, 'm> {
     ///
     /// The part of the face in the plate's plane is then outside the plate's box, or beyond a line along the rim with
     /// only a shared corner or edge on that line.
-    fn is_beside(&self, face: u32, plate: &Plate) -> bool {
+    fn is_beside(&self, face: u32, number: u32) -> bool {
+        let plate = &self.plates[number as usize];
         let (corners, points) = (
             self.manifold.faces()[face as usize],
             self.manifold.triangle(face),
@@ -168,7 +164,7 @@ impl<'a, 'm> Plates<'a, 'm> {
                 [Some(k), Some(l), None] => {
                     let start = if (k + 1) % 3 == l { k } else { l };
                     let twin = self.manifold.twin(3 * face + start as u32);
-                    self.plate_of[twin as usize / 3] == plate.number
+                    self.plate_of[twin as usize / 3] == number
                 }
                 _ => false,
             }
@@ -206,7 +202,6 @@ impl Plate {
             .collect();
         rim.sort_unstable_by_key(|rim_vertex| rim_vertex.at);
         Some(Plate {
-            number: NONE,
             projection: Projection::new(plane)?,
             bounds: Bounds::enclosing(starts().map(|v| manifold.point(v))),
             faces: flat.faces.clone(),

@@ -73,6 +73,18 @@ fn a_fold_is_found() {
 }
 
 #[test]
+fn a_two_sided_sheet_is_found() {
+    let sheet = mesh(
+        vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        &[[0, 1, 2], [0, 2, 1]],
+    );
+    let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&sheet).map(|_| ()) else {
+        panic!("it holds no volume");
+    };
+    assert_eq!(pairs.first(), [Crossing { face: 0, other: 1 }]);
+}
+
+#[test]
 fn stairs_do_not_meet_themselves() {
     let stairs = cubes(&[
         [0, 0, 0],

@@ -1,7 +1,6 @@
 //! Shells within shells of random orientation, compared with windings counted one shell at a time.
 
 use super::around_middle;
-use super::shell_boxes::ShellBoxes;
 use crate::rational::Exact3;
 use crate::test_meshes::CUBE;
 use crate::tolerance::FACE_ROUNDING;
@@ -10,8 +9,6 @@ use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
 use ccd_core::Volume;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::lesser;
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::TestRunner;
 
 /// Cubes by middle, half the side and whether they are inside out, as one mesh.
 fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
@@ -173,34 +170,4 @@ fn worst_middle() {
         Some(share(meant - lesser(ahead, -behind), meant))
     });
     found.is_within(1e4);
-}
-
-#[test]
-fn boxes_about_a_point_are_those_of_the_twin() {
-    let mut runner = TestRunner::deterministic();
-    let (mut about, mut alone) = (0, 0);
-    for round in 0..200 {
-        // Along one axis or all, on a grid: ends coincide.
-        let long = [[30, 2, 2], [2, 2, 30], [6, 6, 6]][round % 3];
-        let drawn = [0..long[0], 0..long[1], 0..long[2]];
-        let mut corner = || {
-            let corner = drawn.new_tree(&mut runner).unwrap().current();
-            DVec3::from_array(corner.map(f64::from))
-        };
-        let shells: Vec<[DVec3; 2]> = (0..12).map(|_| [corner(), corner()]).collect();
-        let points: Vec<DVec3> = (0..40).map(|_| corner()).collect();
-        let boxes = ShellBoxes::new(shells.iter().map(|ends| ends.iter().copied()));
-        for point in points {
-            let between = |a: f64, b: f64, x: f64| a <= x && x <= b || b <= x && x <= a;
-            let holds = |[a, b]: &[DVec3; 2]| (0..3).all(|k| between(a[k], b[k], point[k]));
-            let held: Vec<bool> = shells.iter().map(holds).collect();
-            for own in 0..12 {
-                assert_eq!(boxes.is_about(own, point), held[own as usize]);
-                let other = held.iter().zip(0..).any(|(&held, k)| held && k != own);
-                assert_eq!(boxes.any_other_about(own, point), other);
-                *(if other { &mut about } else { &mut alone }) += 1;
-            }
-        }
-    }
-    assert!(about > 10_000 && alone > 10_000, "{about} {alone}");
 }

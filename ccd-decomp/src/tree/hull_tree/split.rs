@@ -1,6 +1,6 @@
 //! Splits pieces in two.
 
-use crate::hull::likely_triangles;
+use crate::hull::exact_hull::ExactHull;
 use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
@@ -57,8 +57,7 @@ impl Splitter {
         }
         // Scaled to avoid underflow.
         let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
-        // Any axis gives a correct tree: no proof is needed.
-        let spread = match likely_triangles(&unit) {
+        let spread = match ExactHull::facets_of(&unit) {
             Some(triangles) => of_surface(&unit, &triangles),
             None => of_points(&unit),
         };

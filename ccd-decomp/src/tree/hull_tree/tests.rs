@@ -36,7 +36,7 @@ fn piece() -> impl Strategy<Value = Polytope> {
 
 /// The hull of points, with virtual facets.
 fn polytope(points: &[DVec3]) -> Polytope {
-    let hull = joint_hull(points).unwrap();
+    let hull = hull(points).unwrap();
     let facet = |corners: &[u32]| ccd_core::Facet {
         origin: ccd_core::Origin::Virtual,
         corners: corners.to_vec(),

@@ -24,7 +24,6 @@ pub(super) struct Statistics {
     exact: bool,
     sticks_out: f64,
     inflated_by: f64,
-    rebuilt_hulls: usize,
     volume: &'static str,
     remarks: String,
 }
@@ -56,7 +55,6 @@ impl Statistics {
             exact: report.is_exact(),
             sticks_out: report.sticks_out,
             inflated_by: report.inflated_by,
-            rebuilt_hulls: report.rebuilt_hulls,
             volume: match report.volume {
                 Volume::Solid => "solid",
                 Volume::Surface => "surface",
@@ -80,10 +78,6 @@ impl fmt::Display for Statistics {
         line(f, "why", &self.why)?;
         line(f, "virtual faces", &count(self.virtual_faces).to_string())?;
         line(f, "tree nodes", &self.tree_text())?;
-        match self.rebuilt_hulls {
-            0 => {}
-            rebuilt => line(f, "rebuilt hulls", &count(rebuilt).to_string())?,
-        }
         line(f, "build", &format!("{:.1} ms", self.build_ms))?;
         line(f, "memory", &format!("{:.1} MB", self.bytes as f64 / 1e6))?;
         write!(f, "{:<14}{}", "error", self.error_text())

@@ -163,7 +163,8 @@ impl QueryArgs {
         let bound = bound.map(|bound| bound.to_string());
         let deadline = deadline.map(|time| Number(time.as_secs_f64()).to_string());
         let contacts = contacts.as_ref().map(|path| path.display().to_string());
-        let without: Vec<_> = without.iter().map(|it| name_of(SHORTCUTS, it)).collect();
+        let names: Vec<_> = without.iter().map(|it| name_of(SHORTCUTS, it)).collect();
+        let without = (!names.is_empty()).then(|| names.join(","));
         let or_not = |value: Option<String>| value.unwrap_or_else(|| NOT_GIVEN.to_owned());
         let mut recorded = vec![
             ("--a", a.clone()),
@@ -178,7 +179,7 @@ impl QueryArgs {
             ("--start", name_of(STARTS, start)),
             ("--budget", budget.to_string()),
             ("--deadline", or_not(deadline)),
-            ("--without", without.join(",")),
+            ("--without", or_not(without)),
             ("--rows", rows.to_string()),
             ("--repeat", repeat.to_string()),
             ("--contacts", or_not(contacts)),

@@ -20,8 +20,9 @@ use super::library::math::Real;
 use super::library::query::cast_shapes_nonlinear;
 use super::library::shape::TriMesh;
 use super::shapes::{rigid_motion, tri_mesh};
-use crate::method::peer::{PeerError, contact_at};
+use crate::method::peer::contact_at;
 use crate::method::solver::{Claim, Reply, Solver};
+use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
@@ -37,7 +38,7 @@ impl Cast {
     ///
     /// # Errors
     /// If the library refuses a mesh.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self, PeerError> {
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         Ok(Cast {
             a: tri_mesh(a)?,
             b: tri_mesh(b)?,
@@ -46,7 +47,7 @@ impl Cast {
 }
 
 impl Solver for Cast {
-    fn answer(&mut self, query: &Motions) -> Reply {
+    fn answer(&mut self, query: &Motions, _: f64) -> Reply {
         // `true`: bodies that penetrate at the start are reported at once.
         let hit = cast_shapes_nonlinear(
             &rigid_motion(&query.a),

@@ -3,17 +3,15 @@
 use super::library::math::{Pose, Real, Rotation, Vector};
 use super::library::query::NonlinearRigidMotion;
 use super::library::shape::TriMesh;
-use crate::method::peer::PeerError;
+use anyhow::{Context, Result};
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
 
 /// Converts a mesh, with the same triangles in the same order.
-pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
+pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
     let vertices = mesh.vertices().iter().map(|&v| vector(v)).collect();
-    TriMesh::new(vertices, mesh.faces().to_vec()).map_err(|error| PeerError {
-        why: error.to_string(),
-    })
+    TriMesh::new(vertices, mesh.faces().to_vec()).context("the peer refuses the mesh")
 }
 
 /// Converts a motion exactly: the body rotates about a centre that moves straight, both at constant rates.

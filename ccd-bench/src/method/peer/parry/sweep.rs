@@ -25,8 +25,9 @@ use super::library::math::{Pose, Real};
 use super::library::query::sweep_toi::{Sweep, SweepToiStatus, ToiProxy, sweep_time_of_impact};
 use super::library::shape::TriMesh;
 use super::shapes::{pose, tri_mesh, vector};
-use crate::method::peer::{PeerError, contact_at};
+use crate::method::peer::contact_at;
 use crate::method::solver::{Claim, Reply, Solver};
+use anyhow::Result;
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -39,7 +40,6 @@ use std::f64::consts::FRAC_PI_4;
 pub struct SweptPairs {
     a: Swept,
     b: Swept,
-    tolerance: f64,
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
@@ -58,20 +58,19 @@ impl SweptPairs {
     ///
     /// # Errors
     /// If the library refuses a mesh.
-    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Result<Self, PeerError> {
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         Ok(SweptPairs {
             a: Swept::new(a)?,
             b: Swept::new(b)?,
-            tolerance,
         })
     }
 
     /// Returns the number of segments of a query, or `None` if there are too many.
-    fn segments(&self, query: &Motions) -> Option<u64> {
+    fn segments(&self, query: &Motions, tolerance: f64) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
-            turn / self.turn_within(body.reach(motion))
+            turn / turn_within(body.reach(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
         let travel =
@@ -80,23 +79,15 @@ impl SweptPairs {
         (count <= MOST_SEGMENTS).then_some(count as u64)
     }
 
-    /// Returns the largest rotation of a body in a segment.
-    fn turn_within(&self, reach: f64) -> f64 {
-        // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
-        // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
-        let off = SHARE_OF_TURN * self.tolerance / (0.2567 * 1.1 * reach);
-        lesser(LARGEST_TURN, 4.0 * off.cbrt())
-    }
-
     /// Returns the time in a segment at which triangles first meet, as a fraction of it.
-    fn first_hit(&self, query: &Motions, from: f64, to: f64) -> Option<Real> {
+    fn first_hit(&self, query: &Motions, tolerance: f64, [from, to]: [f64; 2]) -> Option<Real> {
         let a = self.a.segment(&query.a, from, to);
         let b = self.b.segment(&query.b, from, to);
         // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];
-        let slack = a.bulge + b.bulge + self.tolerance as Real;
+        let slack = a.bulge + b.bulge + tolerance as Real;
         let swept_a = |aabb: Aabb| boxed(&aabb, &in_frame_a).loosened(slack);
         let swept_b = |aabb: Aabb| {
             if still {
@@ -112,7 +103,7 @@ impl SweptPairs {
             .leaf_pairs(self.b.mesh.bvh(), |node_a, node_b| {
                 swept_a(node_a.aabb()).intersects(&swept_b(node_b.aabb()))
             });
-        let slop = (self.tolerance / SLOPS_AT_HIT) as Real;
+        let slop = (tolerance / SLOPS_AT_HIT) as Real;
         let mut first = None;
         for (i, j) in pairs {
             let before = first.unwrap_or(1.0);
@@ -127,15 +118,15 @@ impl SweptPairs {
 }
 
 impl Solver for SweptPairs {
-    fn answer(&mut self, query: &Motions) -> Reply {
-        let Some(count) = self.segments(query) else {
+    fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
+        let Some(count) = self.segments(query, tolerance) else {
             let claim = Claim::Unresolved { safe_until: 0.0 };
             return Reply::new(claim, 0);
         };
         let time = |k: u64| query.duration * (k as f64 / count as f64);
         for k in 0..count {
             let (from, to) = (time(k), time(k + 1));
-            if let Some(share) = self.first_hit(query, from, to) {
+            if let Some(share) = self.first_hit(query, tolerance, [from, to]) {
                 let time = from + f64::from(share) * (to - from);
                 let claim = contact_at(time, query.duration);
                 return Reply::new(claim, k + 1);
@@ -163,13 +154,8 @@ struct Segment {
 }
 
 impl Swept {
-    fn new(mesh: &TriangleMesh) -> Result<Self, PeerError> {
-        let corners = mesh
-            .vertices()
-            .iter()
-            .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], v| {
-                [low.min(*v), high.max(*v)]
-            });
+    fn new(mesh: &TriangleMesh) -> Result<Self> {
+        let corners = mesh.bounding_box();
         Ok(Swept {
             mesh: tri_mesh(mesh)?,
             corners,
@@ -199,6 +185,14 @@ impl Swept {
         let t = self.mesh.triangle(triangle);
         ToiProxy::from_array([t.a, t.b, t.c], 0.0)
     }
+}
+
+/// Returns the largest rotation of a body in a segment.
+fn turn_within(reach: f64, tolerance: f64) -> f64 {
+    // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
+    // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
+    let off = SHARE_OF_TURN * tolerance / (0.2567 * 1.1 * reach);
+    lesser(LARGEST_TURN, 4.0 * off.cbrt())
 }
 
 /// Returns the box that contains a box at the start and at the end.

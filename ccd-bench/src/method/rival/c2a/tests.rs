@@ -6,22 +6,19 @@ use crate::method::rival::tests::trials::{
 #[test]
 fn exact_times_are_met() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        assert_exact_scenes(tolerance, |a, b| C2a::new(a, b, tolerance));
+        assert_exact_scenes(tolerance, C2a::new);
     }
 }
 
 #[test]
 fn shots_are_neither_missed_nor_late_nor_early() {
     for tolerance in [1e-2, 1e-5] {
-        let mut rival = C2a::new(&knot_216(), &knot_216(), tolerance);
+        let mut rival = C2a::new(&knot_216(), &knot_216());
         assert_shots(tolerance, &mut rival);
     }
 }
 
 #[test]
 fn work_without_end_is_given_up() {
-    assert_gives_up(
-        |a, b| C2a::new(a, b, 1e-6),
-        |rival, patience| rival.patience = patience,
-    );
+    assert_gives_up(C2a::new, |rival, patience| rival.patience = patience);
 }

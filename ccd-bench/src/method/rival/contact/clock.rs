@@ -96,21 +96,21 @@ impl Clock {
 
     /// Returns the enclosure of all placements over an interval.
     pub(super) fn placements(&mut self, slice: Slice) -> &Enclosure {
-        let kept = &mut self.placements[slice.level];
-        if kept.span != slice.span {
-            kept.span = slice.span;
-            kept.enclosure = self.relative.over(slice.span);
-        }
-        &kept.enclosure
+        self.placements[slice.level].of(slice.span, |span| self.relative.over(span))
     }
 
     /// Returns the enclosure of all rates of change over an interval.
     pub(super) fn rates(&mut self, slice: Slice) -> &Enclosure {
-        let kept = &mut self.rates[slice.level];
-        if kept.span != slice.span {
-            kept.span = slice.span;
-            kept.enclosure = self.relative.rates_over(slice.span);
+        self.rates[slice.level].of(slice.span, |span| self.relative.rates_over(span))
+    }
+}
+
+impl CachedEnclosure {
+    fn of(&mut self, span: Span, enclosure: impl FnOnce(Span) -> Enclosure) -> &Enclosure {
+        if self.span != span {
+            self.span = span;
+            self.enclosure = enclosure(span);
         }
-        &kept.enclosure
+        &self.enclosure
     }
 }

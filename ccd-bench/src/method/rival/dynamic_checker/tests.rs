@@ -11,24 +11,23 @@ use rigid_ccd::table::motions::Motions;
 #[test]
 fn exact_times_are_met() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        assert_exact_scenes(tolerance, |a, b| DynamicChecker::new(a, b, tolerance));
+        assert_exact_scenes(tolerance, DynamicChecker::new);
     }
 }
 
 #[test]
 fn shots_are_neither_missed_nor_late_nor_early() {
     for tolerance in [1e-2, 1e-5] {
-        let mut rival = DynamicChecker::new(&knot_216(), &knot_216(), tolerance);
+        let mut rival = DynamicChecker::new(&knot_216(), &knot_216());
         assert_shots(tolerance, &mut rival);
     }
 }
 
 #[test]
 fn work_without_end_is_given_up() {
-    assert_gives_up(
-        |a, b| DynamicChecker::new(a, b, 1e-6),
-        |rival, patience| rival.patience = patience,
-    );
+    assert_gives_up(DynamicChecker::new, |rival, patience| {
+        rival.patience = patience;
+    });
 }
 
 #[test]
@@ -36,7 +35,7 @@ fn motions_beyond_numbers_are_given_up() {
     let (a, b, mut query) = hovering();
     query.a = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1e308 * DVec3::Z).unwrap();
     query.duration = 1e10;
-    let reply = DynamicChecker::new(&a, &b, 1e-3).answer(&query);
+    let reply = DynamicChecker::new(&a, &b).answer(&query, 1e-3);
     assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
 }
 
@@ -47,7 +46,7 @@ fn a_touch_at_a_halving_is_a_contact() {
         half_extents: DVec3::new(x, y, z),
     };
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
-    let mut rival = DynamicChecker::new(&cube.mesh().unwrap(), &slab.mesh().unwrap(), 1e-6);
+    let mut rival = DynamicChecker::new(&cube.mesh().unwrap(), &slab.mesh().unwrap());
     for k in 0..20 {
         let world = DQuat::from_rotation_x(0.1 * f64::from(k)) * DQuat::from_rotation_y(0.7);
         let pose = |z: f64| Pose::new(world * (z * DVec3::Z), world).unwrap();
@@ -57,7 +56,7 @@ fn a_touch_at_a_halving_is_a_contact() {
             b: Motion::still(pose(-1.0)),
             duration: 1.0,
         };
-        let Claim::Contact { time } = rival.answer(&query).claim else {
+        let Claim::Contact { time } = rival.answer(&query, 1e-6).claim else {
             panic!("turned {k} times");
         };
         assert!((0.5 - 1e-6..=0.5 + 1e-12).contains(&time), "{time}");

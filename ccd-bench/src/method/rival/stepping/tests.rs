@@ -13,14 +13,14 @@ fn fall() -> Motions {
     query(a, still(-0.5 * DVec3::Z))
 }
 
-fn stepping(tolerance: f64) -> Stepping {
-    Stepping::new(&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5), tolerance)
+fn stepping() -> Stepping {
+    Stepping::new(&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5))
 }
 
 #[test]
 fn contacts_are_reported_at_the_next_sample() {
     for tolerance in [0.3, 0.01, 0.000_7] {
-        let reply = stepping(tolerance).answer(&fall());
+        let reply = stepping().answer(&fall(), tolerance);
         let Claim::Contact { time } = reply.claim else {
             panic!("{reply:?}")
         };
@@ -37,27 +37,27 @@ fn contacts_are_reported_at_the_next_sample() {
 fn a_contact_between_samples_is_missed() {
     let mut query = fall();
     let (a, b) = (cuboid(0.5, 0.5, 0.01), cuboid(3.0, 3.0, 0.01));
-    let ask = |tolerance: f64| Stepping::new(&a, &b, tolerance).answer(&query);
+    let ask = |tolerance: f64| Stepping::new(&a, &b).answer(&query, tolerance);
     let missed = ask(2.0);
     assert_eq!((missed.claim, missed.steps), (Claim::Free, 3));
     assert!(matches!(ask(0.01).claim, Claim::Contact { .. }));
     query.duration = 0.5;
-    let before = Stepping::new(&a, &b, 0.01).answer(&query);
+    let before = Stepping::new(&a, &b).answer(&query, 0.01);
     assert_eq!((before.claim, before.steps), (Claim::Free, 201));
 }
 
 #[test]
 fn bodies_at_rest_are_tested() {
     let apart = query(still(1.1 * DVec3::Z), still(DVec3::ZERO));
-    assert_eq!(stepping(1e-3).answer(&apart).claim, Claim::Free);
+    assert_eq!(stepping().answer(&apart, 1e-3).claim, Claim::Free);
     let across = query(still(0.9 * DVec3::Z), still(DVec3::ZERO));
     let contact = Claim::Contact { time: 0.0 };
-    assert_eq!(stepping(1e-3).answer(&across).claim, contact);
+    assert_eq!(stepping().answer(&across, 1e-3).claim, contact);
 }
 
 #[test]
 fn the_number_of_samples_is_limited() {
-    let reply = stepping(1e-9).answer(&fall());
+    let reply = stepping().answer(&fall(), 1e-9);
     assert_eq!(reply.steps, MAX_SAMPLES);
     let Claim::Unresolved { safe_until } = reply.claim else {
         panic!("{reply:?}")
@@ -65,7 +65,7 @@ fn the_number_of_samples_is_limited() {
     let expected = (MAX_SAMPLES - 1) as f64 * 1e-9 / 4.0;
     assert!((safe_until - expected).abs() < 1e-12, "{safe_until}");
     for tolerance in [0.0, -1.0, f64::NAN] {
-        let reply = stepping(tolerance).answer(&fall());
+        let reply = stepping().answer(&fall(), tolerance);
         assert!(reply.steps <= MAX_SAMPLES, "{tolerance}: {reply:?}");
     }
 }

@@ -4,8 +4,8 @@ use crate::method::rival::patience::Patience;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
 use crate::method::rival::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Solver};
-use crate::scene::Shots;
 use crate::scene::model::Model;
+use crate::scene::tests::shots::Shots;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Motion, Pose};
@@ -190,7 +190,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     const ROUNDING: f64 = 1e-12;
 
     for scene in falling_boxes().into_iter().chain(turning_rods()) {
-        let reply = rival(&scene.a, &scene.b).answer(&scene.query);
+        let reply = rival(&scene.a, &scene.b).answer(&scene.query, tolerance);
         let Claim::Contact { time } = reply.claim else {
             panic!("{}: {reply:?}, not {}", scene.name, scene.time);
         };
@@ -277,7 +277,7 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
     for query in shots.queries().unwrap() {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let apart = |time: f64| brute_force.distance(&b.at(time).seen_from(&a.at(time)));
-        let until = match rival.answer(&query).claim {
+        let until = match rival.answer(&query, tolerance).claim {
             Claim::Contact { time } => {
                 let distance = apart(time);
                 assert!(
@@ -316,7 +316,7 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
 ) {
     let (a, b, query) = hovering();
     let mut rival = rival(&a, &b);
-    assert_eq!(rival.answer(&query).claim, Claim::Free);
+    assert_eq!(rival.answer(&query, 1e-6).claim, Claim::Free);
     let short = [
         Patience {
             steps: 20,
@@ -329,7 +329,7 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
     ];
     for patience in short {
         give(&mut rival, patience);
-        let Claim::Unresolved { safe_until } = rival.answer(&query).claim else {
+        let Claim::Unresolved { safe_until } = rival.answer(&query, 1e-6).claim else {
             panic!("{patience:?} was enough");
         };
         let within = 0.0 < safe_until && safe_until < query.duration;

@@ -1,6 +1,6 @@
 use super::*;
 
-fn map(kind: HeatKind, cells: Vec<Option<HeatCell>>) -> String {
+fn map(kind: &'static HeatKind, cells: Vec<Option<HeatCell>>) -> String {
     let map = HeatMap {
         kind,
         methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
@@ -19,19 +19,9 @@ fn count(svg: &str, colour: &str) -> usize {
 
 #[test]
 fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
-    let cell = |worst, share, limit: &str| {
-        let limit = limit.to_owned();
-        Some(HeatCell::Reach {
-            worst,
-            share,
-            limit,
-        })
-    };
+    let cell = |worst, share, limit: &str| Some(HeatCell::reach(worst, share, limit.to_owned()));
     let right = cell(Verdict::Right, 1.0, "");
-    let svg = map(
-        HeatKind::Reach,
-        vec![right, cell(Verdict::Missed, 0.25, "1e5"), None],
-    );
+    let svg = map(REACH, vec![right, cell(Verdict::Missed, 0.25, "1e5"), None]);
     for text in [
         "bullet and paper",
         "way against thickness",
@@ -51,18 +41,12 @@ fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
 
 #[test]
 fn costs_that_grow_are_darker() {
-    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::Growth(factor)));
-    let svg = map(HeatKind::Growth, cells.into_iter().chain([None]).collect());
+    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::growth(factor)));
+    let svg = map(GROWTH, cells.into_iter().chain([None]).collect());
     assert_eq!(
         (count(&svg, "#EAF2F8"), count(&svg, "#102F54")),
         (2, 2),
         "{svg}"
     );
     assert!(svg.contains("1.0") && svg.contains("2000"));
-}
-
-#[test]
-fn long_remarks_are_wrapped() {
-    let lines = wrapped("one two three", text_width("one two", SMALL));
-    assert_eq!(lines, ["one two", "three"]);
 }

@@ -1,15 +1,15 @@
 //! The facet planes of a part.
 
-use super::super::part::Part;
 use super::super::target::Target;
 use crate::bounds::Bounds;
 use crate::tolerance::WELL_SHAPED;
+use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
 /// A part and the planes of its facets.
 pub(super) struct PartPlanes<'a> {
-    pub(super) part: &'a Part,
+    pub(super) part: &'a Hull,
     /// The planes of well-shaped facets, which are accurate to within the slack.
     pub(super) planes: Vec<Plane>,
     pub(super) bounds: Bounds,
@@ -34,7 +34,7 @@ pub(super) struct Meeting {
 }
 
 impl<'a> PartPlanes<'a> {
-    pub(super) fn new(part: &'a Part, target: &Target<'_>) -> Self {
+    pub(super) fn new(part: &'a Hull, target: &Target<'_>) -> Self {
         PartPlanes {
             part,
             planes: part
@@ -42,7 +42,7 @@ impl<'a> PartPlanes<'a> {
                 .iter()
                 .filter_map(|facet| Plane::of_facet(part, facet))
                 .collect(),
-            bounds: Bounds::enclosing(part.corners.iter().copied()),
+            bounds: Bounds::enclosing(part.points.iter().copied()),
             slack: target.slack(),
         }
     }
@@ -74,8 +74,8 @@ impl<'a> PartPlanes<'a> {
 
 impl Plane {
     /// Computes the plane of a facet; `None` if the facet is not well shaped.
-    fn of_facet(part: &Part, facet: &[u32]) -> Option<Self> {
-        let at = |k: usize| part.corners[facet[k] as usize];
+    fn of_facet(part: &Hull, facet: &[u32]) -> Option<Self> {
+        let at = |k: usize| part.points[facet[k] as usize];
         // The triangle of the fan with the largest area.
         let last = facet.len() - 1;
         let sides = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));

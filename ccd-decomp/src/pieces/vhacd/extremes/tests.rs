@@ -21,15 +21,8 @@ fn removed_points_are_no_corners() {
         let points: Vec<DVec3> = points.iter().map(place).collect();
         let corners = |points: &[DVec3]| {
             let hull = hull(points).unwrap();
-            let mut corners: Vec<[u64; 3]> = hull
-                .vertices
-                .iter()
-                .map(|&v| {
-                    (points[v as usize] + DVec3::ZERO)
-                        .to_array()
-                        .map(f64::to_bits)
-                })
-                .collect();
+            let bits = |&p: &DVec3| (p + DVec3::ZERO).to_array().map(f64::to_bits);
+            let mut corners: Vec<[u64; 3]> = hull.points.iter().map(bits).collect();
             corners.sort_unstable();
             corners
         };

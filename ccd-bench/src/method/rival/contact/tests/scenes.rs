@@ -11,7 +11,7 @@ const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
 fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> Claim {
-    Contact::new(a, b, tolerance).answer(query).claim
+    Contact::new(a, b).answer(query, tolerance).claim
 }
 
 /// Asserts at three tolerances that the answer is not late, and not earlier than the time to close the tolerance.
@@ -196,9 +196,9 @@ fn work_is_limited() {
     };
     let pairs = Limits { pairs: 5, ..LIMITS };
     for (limits, slab, query, end) in [(halvings, tilted, slide, 1.0), (pairs, slab, fall, 0.625)] {
-        let mut contact = Contact::new(&cube, &slab, 1e-9);
+        let mut contact = Contact::new(&cube, &slab);
         contact.limits = limits;
-        let reply = contact.answer(&query);
+        let reply = contact.answer(&query, 1e-9);
         let Claim::Unresolved { safe_until } = reply.claim else {
             panic!("{reply:?}")
         };

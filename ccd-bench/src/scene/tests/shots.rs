@@ -1,0 +1,104 @@
+//! Bodies shot at resting ones.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::table::motions::Motions;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::Range;
+
+/// Straight flights from somewhere around a resting body to the far side of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Shots {
+    /// The number of flights.
+    pub(crate) count: usize,
+    /// The number of the first flights, which do not turn.
+    pub(crate) translations: usize,
+    /// The range of starting distances from the resting body's origin.
+    pub(crate) distance: Range<f64>,
+    /// The largest distance of a flight's path from that origin.
+    pub(crate) aside: f64,
+    /// The random seed.
+    pub(crate) seed: u64,
+}
+
+impl Shots {
+    /// Returns the motions, of duration 1; B rests at the origin.
+    ///
+    /// # Errors
+    /// If a distance is not finite.
+    pub(crate) fn queries(&self) -> Result<Vec<Motions>, InputError> {
+        let mut rng = Pcg64::seed_from_u64(self.seed);
+        (0..self.count)
+            .map(|row| {
+                let from = rng.random_range(self.distance.clone()) * unit_vector(&mut rng);
+                let target = self.aside * in_unit_ball(&mut rng);
+                let start = Pose::new(from, orientation(&mut rng))?;
+                let velocity = 2.0 * (target - from);
+                let spin = if row < self.translations {
+                    DVec3::ZERO
+                } else {
+                    rng.random_range(0.0..FRAC_PI_2) * unit_vector(&mut rng)
+                };
+                at_rest(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
+            })
+            .collect()
+    }
+}
+
+/// Returns drops of a body of radius 1 from height 5 to −5 with 3/8 of a turn. A board that reaches
+/// 1.5 to either side lies across its way, each time a little lower, or in one of four drops so far
+/// aside that the body hardly passes it.
+///
+/// # Errors
+/// None: all motions are finite.
+pub(crate) fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, InputError> {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    (0..count)
+        .map(|row| {
+            let start = Pose::new(5.0 * DVec3::Z, orientation(&mut rng))?;
+            let spin = 0.75 * PI * unit_vector(&mut rng);
+            let motion = Motion::new(start, -10.0 * DVec3::Z, spin)?;
+            let height = 3.5 - 7.0 * row as f64 / count as f64;
+            let aside = match row % 4 {
+                0 => rng.random_range(2.45..2.6),
+                _ => 0.0,
+            };
+            let board = DVec3::new(aside, 0.0, height);
+            at_rest(row, motion, board)
+        })
+        .collect()
+}
+
+fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
+    Ok(Motions {
+        id: row.to_string(),
+        a,
+        b: Motion::still(Pose::at(b)?),
+        duration: 1.0,
+    })
+}
+
+/// Returns a uniformly distributed point of the unit sphere.
+fn unit_vector(rng: &mut impl Rng) -> DVec3 {
+    let z: f64 = rng.random_range(-1.0..1.0);
+    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * cos, radius * sin, z)
+}
+
+/// Returns a uniformly distributed point of the unit ball.
+fn in_unit_ball(rng: &mut impl Rng) -> DVec3 {
+    let radius = rng.random_range(0.0f64..1.0).cbrt();
+    radius * unit_vector(rng)
+}
+
+/// Returns a uniformly distributed rotation: a point of the sphere in four dimensions.
+fn orientation(rng: &mut impl Rng) -> DQuat {
+    let share: f64 = rng.random_range(0.0..1.0);
+    let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();
+    let (sin_b, cos_b) = rng.random_range(0.0..TAU).sin_cos();
+    let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
+    DQuat::from_xyzw(a * sin_a, a * cos_a, b * sin_b, b * cos_b)
+}

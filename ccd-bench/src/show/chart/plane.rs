@@ -1,0 +1,194 @@
+//! A plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
+
+use super::MethodFacts;
+use super::sheet::{INK, MARGIN, Sheet, TEXT, TextFormat, font, text, units};
+use super::style::{MARKER, MethodStyle};
+use anyhow::Result;
+use ccd_core::order::{greater, lesser};
+use plotters::coord::combinators::LogCoord;
+use plotters::element::{ComposedElement, DashedPathElement};
+use plotters::prelude::*;
+use std::ops::Range;
+
+/// The height of a line of text.
+pub(super) const LINE: f64 = 18.0;
+/// The height of the chart's title and of the line below it.
+pub(super) const HEAD: f64 = 50.0;
+/// The columns of the legend, and the width of each.
+const LEGEND: (usize, f64) = (2, 400.0);
+/// The colour of lines under the data.
+const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
+
+/// The axes of a plane, with their labels.
+#[derive(Clone)]
+pub(super) struct Plane {
+    pub(super) x: (Range<f64>, &'static str),
+    pub(super) y: (Range<f64>, &'static str),
+}
+
+/// A plane on a sheet.
+type Drawn<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
+
+/// A value to draw. The quantity of `y` is at least this if the measurement was cut off.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) is_lower_bound: bool,
+}
+
+/// A method that is shown, with its style.
+pub(super) type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
+
+/// Returns the whole decades around positive values, at least one; `None` without values.
+pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
+    let exponents = values.map(f64::log10).filter(|value| value.is_finite());
+    let exponents: Vec<f64> = exponents.collect();
+    let low = exponents.iter().copied().reduce(lesser)?.floor();
+    let high = exponents.iter().copied().reduce(greater)?.ceil();
+    Some(10f64.powf(low)..10f64.powf(greater(high, low + 1.0)))
+}
+
+impl Plane {
+    /// Draws the axes.
+    pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
+        let mut drawn = self.frame(sheet, self.x.0.clone())?;
+        drawn
+            .configure_mesh()
+            .max_light_lines(1)
+            .bold_line_style(RULE.stroke_width(10))
+            .axis_style(INK.stroke_width(10))
+            .set_all_tick_mark_size(units(4.0))
+            .x_labels(4)
+            .y_labels(6)
+            .x_desc(self.x.1)
+            .y_desc(self.y.1)
+            .x_label_formatter(&|value| format!("{value:.0e}"))
+            .y_label_formatter(&|value| format!("{value:.0e}"))
+            .label_style(font(TEXT, FontStyle::Normal))
+            .draw()?;
+        Ok(drawn)
+    }
+
+    /// Prepares a plane of the same height without numbers and lines, such as a strip beside this one.
+    pub(super) fn frame<'a, 's>(
+        &self,
+        sheet: &'a Sheet<'s>,
+        x: Range<f64>,
+    ) -> Result<Drawn<'a, 's>> {
+        let narrow = x != self.x.0;
+        Ok(ChartBuilder::on(sheet)
+            .margin_top(units(MARGIN))
+            .margin_bottom(units(MARGIN))
+            .margin_right(units(MARGIN))
+            .x_label_area_size(units(38.0))
+            .y_label_area_size(if narrow { 0 } else { units(66.0) })
+            .build_cartesian_2d(x.log_scale(), self.y.0.clone().log_scale())?)
+    }
+}
+
+/// Draws a line through values, with a marker on each. Values beyond the axes are at the edge.
+pub(super) fn series(
+    drawn: &mut Drawn<'_, '_>,
+    plane: &Plane,
+    points: &[Point],
+    style: &MethodStyle,
+) -> Result<()> {
+    let within = |value: f64, range: &Range<f64>| value.clamp(range.start, range.end);
+    let known = points.iter().filter(|point| !(point.x * point.y).is_nan());
+    let at = |point: &Point| (within(point.x, &plane.x.0), within(point.y, &plane.y.0));
+    let spots: Vec<(f64, f64)> = known.clone().map(at).collect();
+    match style.dash {
+        None => drawn.draw_series(LineSeries::new(spots, style.pen(14)))?,
+        Some((dash, gap)) => {
+            drawn.draw_series(DashedLineSeries::new(spots, dash, gap, style.pen(14)))?
+        }
+    };
+    for point in known {
+        marker(drawn, at(point), point.is_lower_bound, style)?;
+    }
+    Ok(())
+}
+
+/// Draws a marker, with an arrow upwards if the value is a lower bound.
+pub(super) fn marker(
+    drawn: &mut Drawn<'_, '_>,
+    at: (f64, f64),
+    is_lower_bound: bool,
+    style: &MethodStyle,
+) -> Result<()> {
+    drawn.draw_series([glyph(at, style)])?;
+    if is_lower_bound {
+        let arrow = [
+            (0.0, MARKER),
+            (0.0, 12.0),
+            (-3.0, 8.0),
+            (3.0, 8.0),
+            (0.0, 12.0),
+        ];
+        let arrow = arrow.map(|(x, up)| (units(x), -units(up)));
+        drawn.draw_series([EmptyElement::at(at) + PathElement::new(arrow, style.pen(13))])?;
+    }
+    Ok(())
+}
+
+/// Returns the marker of a method at a position.
+fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
+    let corners = style.corners();
+    let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
+    let inside = if style.is_unsafe { WHITE } else { style.colour };
+    EmptyElement::at(at)
+        + Polygon::new(corners, inside.filled())
+        + PathElement::new(closed, style.pen(13))
+}
+
+/// A marker, its corners relative to its position.
+type Glyph<'s, C> =
+    ComposedElement<C, SVGBackend<'s>, Polygon<(i32, i32)>, PathElement<(i32, i32)>>;
+
+/// Draws a chart's title, and the line below it.
+pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()> {
+    let format = TextFormat {
+        size: 16.0,
+        weight: FontStyle::Bold,
+        ..TextFormat::default()
+    };
+    text(sheet, title, (MARGIN, 16.0), &format)?;
+    text(sheet, subtitle, (MARGIN, 36.0), &TextFormat::default())
+}
+
+/// Returns the height of legend and remarks.
+pub(super) fn foot_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
+    LINE * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + MARGIN
+}
+
+/// Draws the legend, and remarks below it.
+pub(super) fn foot(
+    sheet: &Sheet<'_>,
+    shown: &[Shown<'_>],
+    remarks: &[&str],
+    top: f64,
+) -> Result<()> {
+    let (columns, width) = LEGEND;
+    for (index, (method, style)) in shown.iter().enumerate() {
+        let left = MARGIN + width * (index % columns) as f64;
+        let middle = top + LINE * ((index / columns) as f64 + 0.5);
+        let (from, at, to) = (units(left), units(left + 15.0), units(left + 30.0));
+        let line = vec![(from, units(middle)), (to, units(middle))];
+        let (dash, gap) = style.dash.unwrap_or((300, 0));
+        sheet.draw(&DashedPathElement::new(line, dash, gap, style.pen(15)))?;
+        sheet.draw(&glyph((at, units(middle)), style))?;
+        let mark = if style.is_unsafe { " (unsafe)" } else { "" };
+        let label = format!("{}: {}{mark}", method.family.title(), method.name);
+        text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;
+    }
+    let top = top + LINE * (shown.len().div_ceil(columns) as f64 + 0.5);
+    for (line, remark) in remarks.iter().enumerate() {
+        let format = TextFormat {
+            size: TEXT - 1.0,
+            ..TextFormat::default()
+        };
+        text(sheet, remark, (MARGIN, top + LINE * line as f64), &format)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,46 @@
+//! Inserts tables into a README, between markers.
+
+use crate::show::tables::TextTable;
+use anyhow::{Context, Result, ensure};
+use std::fs;
+use std::path::Path;
+
+/// Replaces the text between `<!-- ccd chart: NAME -->` and the next `<!-- end -->` by the table of
+/// that name, for every table that the file has a marker for.
+///
+/// # Errors
+/// If the file cannot be read or written, has no marker of any table, or has a marker without an end.
+pub fn splice(file: &Path, tables: &[TextTable]) -> Result<()> {
+    let text = fs::read_to_string(file)?;
+    let spliced = spliced(&text, tables)?;
+    Ok(ccd_file::write(file, |out| {
+        out.write_all(spliced.as_bytes())
+    })?)
+}
+
+fn spliced(text: &str, tables: &[TextTable]) -> Result<String> {
+    let mut text = text.to_owned();
+    let mut found = false;
+    for table in tables {
+        let begin = format!("<!-- ccd chart: {} -->\n", table.name);
+        let Some(from) = text.find(&begin).map(|at| at + begin.len()) else {
+            continue;
+        };
+        let length = text[from..]
+            .find(END)
+            .with_context(|| format!("no `{END}` after `{}`", begin.trim_end()))?;
+        let body = format!("{}:\n\n{}\n", table.title, table.as_markdown());
+        text.replace_range(from..from + length, &body);
+        found = true;
+    }
+    ensure!(
+        found,
+        "there is no marker such as `<!-- ccd chart: usual -->`"
+    );
+    Ok(text)
+}
+
+const END: &str = "<!-- end -->";
+
+#[cfg(test)]
+mod tests;

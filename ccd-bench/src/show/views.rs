@@ -1,0 +1,74 @@
+//! A few motions of each scene, to view in three dimensions on a page.
+
+use crate::method::first_contact;
+use crate::scene::Scene;
+use anyhow::Result;
+use ccd_core::{Instructions, Outcome, Settings};
+use ccd_view::{Group, Meshes, View};
+use rigid_ccd::batch::{Question, SolverKind};
+use rigid_ccd::picture::{Asked, Claim, Painter, drawn};
+use rigid_ccd::table::courses::Course;
+use rigid_ccd::table::results::{Compared, ResultRow};
+
+/// The views of all scenes; equal meshes are stored once.
+#[derive(Clone, Debug, Default)]
+pub struct Views {
+    /// The meshes.
+    pub meshes: Meshes,
+    /// The views, by scene.
+    pub groups: Vec<Group>,
+}
+
+/// The numbers of contacts and of other motions of a scene to view.
+const MOST: [usize; 2] = [6, 2];
+
+impl Views {
+    /// Draws the first contacts of each scene, and the first other motions.
+    ///
+    /// # Errors
+    /// If a query of a scene is invalid.
+    pub fn new(scenes: &[Scene]) -> Result<Self> {
+        let mut views = Views::default();
+        for scene in scenes {
+            let group = Group {
+                name: scene.name.clone(),
+                views: views.of(scene)?,
+            };
+            views.groups.push(group);
+        }
+        Ok(views)
+    }
+
+    fn of(&mut self, scene: &Scene) -> Result<Vec<View>> {
+        let bodies = scene.bodies();
+        let asked = Asked {
+            claim: Claim::First,
+            margin: Settings::DEFAULT.margin,
+            clearance: None,
+        };
+        let mut painter = Painter::new(bodies, asked);
+        // The painter numbers the meshes of one pair; the page has those of all.
+        let meshes = [bodies.a, bodies.b].map(|body| self.meshes.add(&drawn(body)));
+        let mut solver = SolverKind::default().solver(Instructions::Best);
+        let mut found = [const { Vec::new() }; 2];
+        for query in &scene.queries {
+            let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;
+            let kind = usize::from(!matches!(answer.outcome, Outcome::Contact { .. }));
+            if found[kind].len() < MOST[kind] {
+                let course = Course::Motions(query.clone());
+                let answer = (Question::FirstContact, &answer);
+                let row = ResultRow::new(&course, answer, 0.0, Compared::of(bodies, None));
+                let mut view = painter.view(&course, &row)?;
+                for (body, mesh) in view.bodies.iter_mut().zip(meshes) {
+                    body.mesh = mesh;
+                }
+                found[kind].push(view);
+            }
+            if found.each_ref().map(Vec::len) == MOST {
+                break;
+            }
+        }
+        // A scene opens with a contact, where there is one.
+        Ok(found.concat())
+    }
+}

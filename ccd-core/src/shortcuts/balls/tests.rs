@@ -1,0 +1,98 @@
+//! Compares bodies proven apart with samples of their distance, and with exact balls.
+
+use super::keep_apart;
+use crate::body::Body;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::settings::Settings;
+use crate::shortcuts::boxes;
+use crate::tests::scene::{
+    Passage, RngExt, SoupKind, body, direction, distance, magnitude, rng, rotation, soup, within,
+};
+use glam::DVec3;
+
+#[test]
+fn bodies_told_apart_by_balls_keep_their_gap_at_all_sampled_times() {
+    told_apart_keep_their_gap(keep_apart);
+}
+
+#[test]
+fn bodies_told_apart_by_boxes_keep_their_gap_at_all_sampled_times() {
+    told_apart_keep_their_gap(boxes::keep_apart);
+}
+
+fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
+    let mut rng = rng(1);
+    let (mut told, mut near) = (0, 0);
+    for _ in 0..2_000 {
+        let (count, size) = (rng.random_range(1..6), magnitude(&mut rng, -2.0, 1.0));
+        let bodies = [0, 1].map(|_| body(&soup(&mut rng, SoupKind::Plump, count, size)));
+        let turn = magnitude(&mut rng, -3.0, 1.5);
+        let motions = [0, 1].map(|_| {
+            let passage = Passage {
+                clock: rng.random_range(0.0..1.0),
+                rotation: rotation(&mut rng),
+                place: within(&mut rng, 6.0 * size),
+                middle: within(&mut rng, size),
+                velocity: within(&mut rng, 3.0),
+                spin: direction(&mut rng) * if rng.random_bool(0.3) { 0.0 } else { turn },
+                centre: within(&mut rng, 2.0 * size),
+            };
+            passage.motion()
+        });
+        let [a, b] = [(&bodies[0], motions[0]), (&bodies[1], motions[1])];
+        let pulls = [0, 1].map(|_| {
+            if rng.random_bool(0.5) {
+                within(&mut rng, 20.0)
+            } else {
+                DVec3::ZERO
+            }
+        });
+        let bodies = [a, b];
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).unwrap();
+        if !tells(&problem) {
+            near += 1;
+            continue;
+        }
+        told += 1;
+        for s in (0..=64).map(|k| f64::from(k) / 64.0) {
+            assert!(distance(&problem, s) > problem.contact_distance());
+        }
+    }
+    assert!(told > 200 && near > 200, "{told} {near}");
+}
+
+#[test]
+fn balls_are_told_apart_up_to_the_gap() {
+    let mut rng = rng(2);
+    for _ in 0..1_000 {
+        let radii = [0, 1].map(|_| magnitude(&mut rng, -3.0, 1.0));
+        let balls = radii.map(|radius| Body::ball(radius).unwrap());
+        let config = Settings {
+            margin: magnitude(&mut rng, -6.0, 0.0),
+            tolerance: 1e-6,
+            ..Settings::DEFAULT
+        };
+        let nearest = direction(&mut rng);
+        let along = nearest.any_orthonormal_vector() * magnitude(&mut rng, -3.0, 2.0);
+        // The balls are nearest at the start, within the duration, at its end, or always.
+        let (before, after) =
+            [(0.0, 1.0), (0.3, 0.7), (1.0, 0.0), (0.0, 0.0)][rng.random_range(0..4)];
+        let gap = radii[0] + radii[1] + config.margin + config.tolerance;
+        for (excess, expected) in [(-0.5, false), (0.5, true)] {
+            // The radii of balls are rounded outward in f32.
+            let rounded = 1e-6 * gap + config.tolerance;
+            let place = nearest * (gap + excess * 4.0 * rounded);
+            let pose = Pose::at(place - along * before).unwrap();
+            let motion = Motion::new(pose, along * (before + after), DVec3::ZERO).unwrap();
+            let problem = Problem::about(
+                (&balls[0], motion),
+                (&balls[1], Motion::STILL),
+                1.0,
+                &config,
+            );
+            assert_eq!(keep_apart(&problem.unwrap()), expected);
+        }
+    }
+}

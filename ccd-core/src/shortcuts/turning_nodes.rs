@@ -1,0 +1,108 @@
+//! Free times of pairs of nodes by planes that turn with one of the bodies.
+//!
+//! For a fixed plane the full speed of a turning body's far rim counts, however small the other body is. For a plane
+//! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only
+//! the other node sweeps towards the plane.
+//!
+//! With `n' = ω×n` and `d` from the turning body's centre to a point of the other node, the height
+//! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
+//! H) + 2|ḋ|) + |d̈|`. Where the centres accelerate, that is part of `d̈`.
+
+use crate::engine::nodes::axis::Axis;
+use crate::engine::nodes::clock;
+use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
+use crate::engine::nodes::shape::{Children, OtherNode};
+use crate::math::lanes::{Vec3x8, splat};
+use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::tuning::MAX_TURNING_PLANE_TIME;
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+/// A node of one body in the frame of a plane that turns with the other body.
+struct TurningNode<L: Simd> {
+    /// The rate `n·(v_S − v_O)` at the node's centre, with both velocities taken at that point, plus a bound for the
+    /// points around it.
+    rate: f32x8<L>,
+    /// The largest distance of the node's points from the turning body's centre.
+    distance: f32x8<L>,
+    /// An upper bound of the speeds of the node's points due to its own body's rotation.
+    speed: f32x8<L>,
+    /// The angular speed `|ω|` of the node's own body.
+    own_rate: f32,
+}
+
+impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
+    /// Returns the times for which planes that turn with the split body keep the pairs apart.
+    #[inline(always)]
+    pub(crate) fn free_with_split(&self, axis: Axis<L>) -> f32x8<L> {
+        let (motion, other) = (self.motion, self.other);
+        let level = axis.n.level();
+        let at = Vec3x8::splat(level, other.centre());
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        let velocity = velocity + motion.split.velocity(at) - self.other_turning;
+        let across = motion.split.cross_spin(axis.n);
+        let own = motion.other.cross_spin(axis.n);
+        self.free_attached(
+            axis,
+            second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
+            motion.split.rate,
+            &TurningNode {
+                rate: axis.n.dot(velocity) + other.extent_along(own - across),
+                distance: motion.split.distances_from_centre(at) + other.radius(),
+                speed: self.other_speed,
+                own_rate: motion.other.rate,
+            },
+        )
+    }
+
+    /// Returns the times for which planes that turn with the other body keep the pairs apart.
+    #[inline(always)]
+    pub(crate) fn free_with_other(&self, axis: Axis<L>) -> f32x8<L> {
+        let (motion, children) = (self.motion, self.children);
+        let level = axis.n.level();
+        let at = children.centre(level);
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
+        let across = motion.other.cross_spin(axis.n);
+        let own = motion.split.cross_spin(axis.n);
+        self.free_attached(
+            axis,
+            second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
+            motion.other.rate,
+            &TurningNode {
+                rate: axis.n.dot(velocity) + children.extent_along(own - across),
+                distance: motion.other.distances_from_centre(at) + children.radius(level),
+                speed: self.speed,
+                own_rate: motion.split.rate,
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn free_attached(
+        &self,
+        axis: Axis<L>,
+        across: f32x8<L>,
+        spin: f32,
+        sweep: &TurningNode<L>,
+    ) -> f32x8<L> {
+        let motion = self.motion;
+        let change = match motion.acceleration {
+            Some(acceleration) => acceleration.length() * BEND_F32,
+            None => 0.0,
+        };
+        let straight = motion.velocity.length() + change + motion.rate_slack;
+        let speed = sweep.speed + straight;
+        let far = sweep.distance + speed * MAX_TURNING_PLANE_TIME;
+        let second_derivative =
+            across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
+        // Each sweep happens at the distance of its node from the turning body's centre.
+        let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
+        let free = clock::free_time(
+            axis.gap - motion.slack,
+            motion.closed,
+            sweep.rate + rate_slack,
+            second_derivative * BEND_F32 + LEAST_BEND_F32,
+        );
+        free.min(MAX_TURNING_PLANE_TIME)
+    }
+}

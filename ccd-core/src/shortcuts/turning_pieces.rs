@@ -1,0 +1,248 @@
+//! Free times of pairs of pieces by a plane that turns with one of the bodies.
+//!
+//! For a fixed plane the full speed of a turning piece's far rim counts, however small the other piece is. For a
+//! plane that turns with the body it does not count: the heights of the body's own piece are constant, and only the
+//! other piece sweeps towards the plane.
+//!
+//! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
+//! reference that moves at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
+//! and `Δ = ω − ω_s`, the height `f = n·(D + r)` has `f' = (ω×n)·D + n·V + (Δ×n)·r` and `|f''| ≤
+//! |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r| + |V'|`, where `u` is the direction of `ω`.
+
+use crate::body::piece::Piece;
+use crate::math::order::lesser;
+use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::pose::Frame;
+use crate::motion::track::{Angle, RotatingVector};
+use crate::problem::Side;
+use crate::rounding::{RATE_F64, attached_rounding};
+use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
+use glam::DVec3;
+use std::cell::Cell;
+
+/// A piece with the pose and the motion of its body at a clock.
+pub(crate) struct MovingPiece<'p> {
+    pub(crate) side: &'p Side<'p>,
+    pub(crate) frame: &'p Frame,
+    pub(crate) piece: Piece<'p>,
+    pub(crate) clock: f64,
+    /// An upper bound of the rate at which any point moves relative to the first one, along any fixed axis.
+    pub(crate) relative_speed: f64,
+}
+
+impl<'p> MovingPiece<'p> {
+    pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
+        let relative_speed = if side.path.turns() {
+            side.path.rate * piece.max_distance_from(piece.points[0])
+        } else {
+            0.0
+        };
+        MovingPiece {
+            side,
+            frame,
+            piece,
+            clock,
+            relative_speed,
+        }
+    }
+
+    /// Returns the upper bound `relative_speed` for one axis.
+    pub(crate) fn relative_speed_along(&self, normal: DVec3) -> f64 {
+        let path = &self.side.path;
+        self.relative_speed * path.spin.cross(normal).length() / path.rate
+    }
+}
+
+/// A piece of one body in the frame of a plane that turns with the other body.
+pub(crate) struct TurningPiece<'p> {
+    /// The plane's normal `n`, which turns at `ω`.
+    normal: RotatingVector,
+    unit: DVec3,
+    angular_speed: f64,
+    /// The vector `D` at the present time.
+    offset: DVec3,
+    velocity: DVec3,
+    speed: f64,
+    /// The derivative `V'` of `V`, which is constant.
+    acceleration: DVec3,
+    /// The direction of the angular velocity `ω_s` of the piece's own body.
+    own_axis: DVec3,
+    own_angular_speed: f64,
+    /// The relative angular velocity `Δ`.
+    relative: DVec3,
+    piece: Piece<'p>,
+    frame: &'p Frame,
+    /// The point at the end of `D`, in the frame of the piece's body.
+    reference: DVec3,
+    radius: f64,
+    /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
+    reach: f64,
+    /// A bound of the displacement of points by rounding, for both bodies together.
+    rounding_displacement: f64,
+    /// The number of evaluations of the plane against a point.
+    pub(crate) looks: Cell<u64>,
+}
+
+/// The terms of heights and rates after some time. A point with the vector `arm` in its body's frame has the height
+/// `height + axis·arm` and the rate `rate + closing·arm`.
+struct Turned {
+    height: f64,
+    axis: DVec3,
+    rate: f64,
+    closing: DVec3,
+}
+
+impl<'p> TurningPiece<'p> {
+    /// Creates the view of a piece that moves past a plane which turns with the body of `holder`. The `normal` points
+    /// from that body to the piece, and `rounding` is the problem's.
+    pub(crate) fn new(
+        holder: &MovingPiece<'_>,
+        other: &MovingPiece<'p>,
+        normal: DVec3,
+        rounding: f64,
+    ) -> Self {
+        let (path, own) = (&holder.side.path, &other.side.path);
+        // All points of a body that does not turn move alike, and one of the piece's own points is nearest.
+        let reference = if own.turns() {
+            own.centre
+        } else {
+            other.piece.points[0]
+        };
+        let offset = other.frame.point(reference) - holder.frame.point(path.centre);
+        let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
+        let acceleration = own.acceleration - path.acceleration;
+        let speed = velocity.length() + acceleration.length();
+        let radius = other.piece.max_distance_from(reference);
+        TurningPiece {
+            normal: RotatingVector::new(path.axis, normal),
+            unit: path.axis,
+            angular_speed: path.rate,
+            offset,
+            velocity,
+            speed,
+            acceleration,
+            own_axis: own.axis,
+            own_angular_speed: own.rate,
+            relative: path.spin - own.spin,
+            piece: other.piece,
+            frame: other.frame,
+            reference,
+            radius,
+            reach: offset.length() + speed + radius,
+            rounding_displacement: rounding,
+            looks: Cell::new(0),
+        }
+    }
+
+    /// Returns a time for which the plane certainly keeps the required gap; `None` if it does up to the horizon.
+    /// `slack` is the present excess over that gap.
+    pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
+        let (height, rate) = self.allowances();
+        let apart = slack - height - self.least_start_height();
+        first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
+            self.looks
+                .set(self.looks.get() + self.piece.evaluations_per_search());
+            let turned = self.turned(tau);
+            let second_derivative = self.second_derivative(tau);
+            let free = |axis: f64, closing: f64| {
+                let gap = Gap {
+                    gap: apart + (turned.height + axis),
+                    rate: rate - (turned.rate + closing),
+                    second_derivative,
+                };
+                gap.free_time()
+            };
+            let least = match self.piece.bounding_ball() {
+                Some(_) => free(
+                    self.least_height_along(turned.axis),
+                    self.least_height_along(turned.closing),
+                ),
+                None => self
+                    .arms()
+                    .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
+                    .fold(f64::INFINITY, lesser),
+            };
+            // The bound of the second derivative holds for that long only.
+            lesser(f64::from(MAX_TURNING_PLANE_TIME), least)
+        })
+    }
+
+    /// Returns bounds of the rounding of height changes, and of rates.
+    fn allowances(&self) -> (f64, f64) {
+        let turns = self.angular_speed + self.own_angular_speed;
+        let rounding = attached_rounding(turns);
+        let fastest =
+            self.angular_speed * self.reach + self.speed + self.own_angular_speed * self.radius;
+        (
+            2.0 * self.rounding_displacement + rounding * self.reach,
+            turns * self.rounding_displacement + rounding * fastest,
+        )
+    }
+
+    /// Returns the least height of the points at the start.
+    fn least_start_height(&self) -> f64 {
+        let Turned { height, axis, .. } = self.turned(0.0);
+        height + self.least_height_along(axis)
+    }
+
+    /// Returns the least height along a direction over the vectors to the points.
+    fn least_height_along(&self, direction: DVec3) -> f64 {
+        if self.piece.bounding_ball().is_some() {
+            let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
+            return direction.dot(lowest - self.reference);
+        }
+        let heights = self.arms().map(|arm| direction.dot(arm));
+        heights.fold(f64::INFINITY, lesser)
+    }
+
+    /// Returns the vectors from the point `reference` to the piece's points.
+    fn arms(&self) -> impl Iterator<Item = DVec3> {
+        let reference = self.reference;
+        self.piece.points.iter().map(move |&y| y - reference)
+    }
+
+    fn turned(&self, tau: f64) -> Turned {
+        let angle = Angle::new(self.angular_speed * tau);
+        let own = Angle::new(self.own_angular_speed * tau);
+        let axis = self.normal.at(angle);
+        let (offset, velocity) = self.offset_and_velocity_after(tau);
+        let turning = self.normal.derivative_at(angle) * self.angular_speed;
+        // The vectors that multiply the arms are rotated backwards, rather than every arm.
+        let back = |v| {
+            let turned = RotatingVector::new(-self.own_axis, v).at(own);
+            self.frame.inverse_vector(turned)
+        };
+        Turned {
+            height: axis.dot(offset),
+            axis: back(axis),
+            rate: turning.dot(offset) + axis.dot(velocity),
+            closing: back(self.relative.cross(axis)),
+        }
+    }
+
+    /// Returns the vectors `D` and `V` after a time `tau`.
+    fn offset_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
+        let velocity = self.velocity + self.acceleration * (0.5 * tau);
+        (
+            self.offset + velocity * tau,
+            self.velocity + self.acceleration * tau,
+        )
+    }
+
+    /// Returns a bound of the second derivative of heights, for [`MAX_TURNING_PLANE_TIME`] from `tau` on.
+    fn second_derivative(&self, tau: f64) -> f64 {
+        let (offset, _) = self.offset_and_velocity_after(tau);
+        let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
+        let across = self.angular_speed * (self.normal.derivative_length() + RATE_F64);
+        let relative =
+            self.relative.length() + RATE_F64 * (self.angular_speed + self.own_angular_speed);
+        let second_derivative = across
+            * (self.angular_speed * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+            + relative * (across + self.own_angular_speed) * self.radius
+            + self.acceleration.length();
+        second_derivative * (1.0 + RATE_F64)
+    }
+}
+
+#[cfg(test)]
+mod tests;

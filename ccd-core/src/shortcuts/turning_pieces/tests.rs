@@ -1,0 +1,264 @@
+//! Compares planes that turn with a body with samples, and their rounding with double-double arithmetic.
+
+mod worst;
+
+use super::*;
+use crate::body::Body;
+use crate::body::polytope::Polytope;
+use crate::distance::oracle::PiecePair;
+use crate::distance::separation::support_gap;
+use crate::engine::pieces::snapshot::{Plane, Snapshot};
+use crate::math::order::greater;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::query::Moving;
+use crate::settings::Settings;
+use crate::tests::double::{Double, Double3, place};
+use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng, scene, within};
+
+const SAMPLES: u32 = 48;
+
+/// Counters of the sampled cases.
+#[derive(Debug, Default)]
+struct Seen {
+    some: usize,
+    forever: usize,
+    /// The number of free times at whose end most of the slack was used up.
+    used: usize,
+    /// The number of samples in which both bodies turn.
+    both: usize,
+    fast: usize,
+    many: usize,
+}
+
+#[test]
+fn a_plane_that_turns_separates_for_as_long_as_it_says() {
+    let mut rng = rng(1);
+    let mut seen = Seen::default();
+    for number in 0..12_000 {
+        let kind = [Kind::Any, Kind::Rim][number % 2];
+        let scene = crowded(&mut rng, kind).at_times_accelerating(&mut rng);
+        let problem = scene.problem();
+        let clock = scene.clock * rng.random_range(0.0..1.0);
+        for holder in [0, 1] {
+            check(&mut rng, &problem, clock, holder, &mut seen);
+        }
+    }
+    assert!(seen.some > 10_000 && seen.forever > 1_000, "{seen:?}");
+    assert!(seen.both > 3_000 && seen.fast > 1_000, "{seen:?}");
+    assert!(seen.many > 3_000, "{seen:?}");
+    assert!(4 * seen.used > seen.some, "{seen:?}");
+}
+
+/// Draws a scene with pieces of 1 to 300 points, some of them rounded, with rotations of up to a thousand radians.
+fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
+    let mut scene = scene(rng, kind, 2);
+    for (body, motion) in scene.bodies.iter_mut().zip(&mut scene.motions) {
+        let [a, b, c] = body.pieces().triangle(0);
+        let spread = b.distance(c) * magnitude(rng, -3.0, 0.0);
+        let mut points = vec![a, b, c];
+        points.truncate(rng.random_range(1..=3));
+        if rng.random_bool(0.4) {
+            let more = magnitude(rng, 0.0, 2.5) as usize;
+            points.extend((0..more).map(|_| {
+                let at = a.lerp(b, rng.random_range(0.0..1.0));
+                at.lerp(c, rng.random_range(0.0..1.0)) + within(rng, spread)
+            }));
+        }
+        *body = Body::polytope(Polytope {
+            points,
+            radius: if rng.random_bool(0.3) { spread } else { 0.0 },
+            ..Polytope::default()
+        })
+        .unwrap();
+        if rng.random_bool(0.2) {
+            let faster = motion.spin() * magnitude(rng, 0.0, 2.0);
+            let (start, centre) = (motion.start(), motion.centre());
+            *motion = Motion::about(start, motion.velocity(), faster, centre).unwrap();
+        }
+    }
+    scene
+}
+
+fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen: &mut Seen) {
+    let snapshot = Snapshot::new(problem, 0, 0, clock);
+    let members = snapshot.moving_pieces();
+    let (own, other) = (&members[holder], &members[1 - holder]);
+    if !own.side.path.turns() {
+        return;
+    }
+    // The axis is constant in its body's frame.
+    let towards = if rng.random_bool(0.5) {
+        direction(rng)
+    } else {
+        (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
+            .normalize()
+    };
+    let local = own.frame.inverse_vector(towards);
+    let gap_at = |s: f64| {
+        let PiecePair { a, b, b_to_a } = Snapshot::new(problem, 0, 0, s).pieces;
+        let in_a = match holder {
+            0 => local,
+            _ => -(b_to_a.rotation * local),
+        };
+        support_gap(&PiecePair { a, b, b_to_a }, in_a, a.points[0])
+    };
+    let gap = gap_at(clock);
+    let slack = gap.abs() * magnitude(rng, -3.0, 0.0);
+    let free =
+        TurningPiece::new(own, other, towards, problem.rounding).free_time(slack, 1.0 - clock);
+    let until = free.map_or(1.0, |free| clock + free);
+    // Both gaps are rounded.
+    let least = gap - slack - 2.0 * problem.rounding;
+    for k in 0..=SAMPLES {
+        let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLES);
+        let found = gap_at(s);
+        assert!(
+            found >= least,
+            "{found:e} < {least:e} at {s} of {until} from {clock}"
+        );
+    }
+    let turns = own.side.path.rate + other.side.path.rate;
+    match free {
+        None => seen.forever += 1,
+        Some(free) if free > 0.0 => {
+            seen.some += 1;
+            seen.used += usize::from(gap_at(until) < gap - 0.5 * slack);
+        }
+        Some(_) => {}
+    }
+    seen.both += usize::from(other.side.path.turns());
+    seen.fast += usize::from(turns > 50.0);
+    seen.many += usize::from(other.piece.points.len() > 3);
+}
+
+#[test]
+fn rounding_along_an_axis_that_turns_is_allowed_for() {
+    let mut rng = rng(2);
+    let (mut height, mut rate) = (0.0f64, 0.0f64);
+    for number in 0..3_000 {
+        let scene = crowded(&mut rng, [Kind::Any, Kind::Rim][number % 2]);
+        let problem = scene.problem();
+        // Sums of these numbers are exact.
+        let grain = f64::from(1 << 20);
+        let [clock, tau] =
+            [0.5, 0.5].map(|most| (rng.random_range(0.0..most) * grain).floor() / grain);
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let members = snapshot.moving_pieces();
+        for holder in [0, 1] {
+            let (own, other) = (&members[holder], &members[1 - holder]);
+            if !own.side.path.turns() {
+                continue;
+            }
+            let normal = direction(&mut rng);
+            let sweep = TurningPiece::new(own, other, normal, problem.rounding);
+            let motions = [&scene.motions[holder], &scene.motions[1 - holder]];
+            let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
+            let rises = |tau: f64| {
+                let turned = sweep.turned(tau);
+                let arm = point - sweep.reference;
+                let height = turned.height + turned.axis.dot(arm);
+                (height, turned.rate + turned.closing.dot(arm))
+            };
+            let exact = |tau: f64| exact(motions, normal, point, clock, tau);
+            let (first, second) = (rises(0.0), rises(tau));
+            let (start, end) = (exact(0.0), exact(tau));
+            let off = Double::from(second.0) - Double::from(first.0) - (end.0 - start.0);
+            let (allowed_height, fastest) = sweep.allowances();
+            height = greater(height, off.get().abs() / allowed_height);
+            let off = (Double::from(second.1) - end.1).get();
+            rate = greater(rate, off.abs() / fastest);
+        }
+    }
+    assert!(height < 1.0 && rate < 1.0, "{height} {rate}");
+    // An allowance that no sample comes near would be too large.
+    assert!(height > 1e-3 && rate > 1e-3, "{height} {rate}");
+}
+
+/// Returns the exact height of a point of the second body along an axis that turns with the first body, from that
+/// body's centre, and the rate of that height.
+fn exact(
+    motions: [&Motion; 2],
+    normal: DVec3,
+    point: DVec3,
+    clock: f64,
+    tau: f64,
+) -> (Double, Double) {
+    let s = clock + tau;
+    let [own, other] = motions;
+    let spin = Double3::from(own.spin());
+    let normal = Double3::from(normal).turned(spin.unit(), spin.length() * Double::from(tau));
+    let at = place(other, 1.0, s, point);
+    let way = at - place(own, 1.0, s, own.centre());
+    let arm = at - place(other, 1.0, s, other.centre());
+    let velocity = Double3::from(other.velocity()) - Double3::from(own.velocity());
+    let passing = velocity + Double3::from(other.spin()).cross(arm);
+    let rate = spin.cross(normal).dot(way) + normal.dot(passing);
+    (normal.dot(way), rate)
+}
+
+/// Tests a plate of size 200 that turns about an axis along one of its edges, past a ball near that axis. Its rim is
+/// fast, but stays far away.
+#[test]
+fn a_large_plate_turns_past_a_small_ball_at_once() {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let plate = Body::polytope(Polytope {
+        points: vec![
+            corner(-100.0, -100.0),
+            corner(100.0, -100.0),
+            corner(100.0, 100.0),
+            corner(-100.0, 100.0),
+        ],
+        ..Polytope::default()
+    })
+    .unwrap();
+    let ball = Body::ball(0.1).unwrap();
+    let above = Pose::at(DVec3::new(0.0, 3.0, 0.5)).unwrap();
+    let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, DVec3::Y).unwrap();
+    let moving = |body, motion| Moving::from((body, motion));
+    let (plate, ball) = (moving(&plate, spin), moving(&ball, Motion::still(above)));
+    for swapped in [false, true] {
+        let (a, b) = if swapped {
+            (ball, plate)
+        } else {
+            (plate, ball)
+        };
+        let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let normal = if swapped { -DVec3::Z } else { DVec3::Z };
+        let plane = Plane { normal, slack: 0.3 };
+        let still = snapshot.fixed_axis_time(plane.normal, plane.slack).unwrap();
+        assert!(still < 0.01, "{still}");
+        // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
+        assert_eq!(
+            snapshot.turning_plane_time(&snapshot.moving_pieces(), &plane, still),
+            None
+        );
+        let closer = Plane { normal, slack: 0.1 };
+        let free = snapshot
+            .turning_plane_time(&snapshot.moving_pieces(), &closer, still)
+            .unwrap();
+        let exact = 0.8f64.acos();
+        assert!(free <= exact && free > 0.9 * exact, "{free} {exact}");
+    }
+}
+
+/// Tests that no slack, and invalid numbers, give no free time.
+#[test]
+fn no_slack_is_no_time() {
+    let mut rng = rng(3);
+    for _ in 0..500 {
+        let scene = crowded(&mut rng, Kind::Rim);
+        let problem = scene.problem();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
+        let [a, b] = snapshot.moving_pieces();
+        for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+            let free = TurningPiece::new(&a, &b, direction(&mut rng), problem.rounding)
+                .free_time(slack, 0.5);
+            assert_eq!(free, Some(0.0), "{slack}");
+        }
+        let free = TurningPiece::new(&a, &b, DVec3::NAN, problem.rounding).free_time(1.0, 0.5);
+        assert_eq!(free, Some(0.0));
+    }
+}

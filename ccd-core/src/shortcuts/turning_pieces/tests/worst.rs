@@ -1,0 +1,156 @@
+//! Searches for the worst errors of heights and rates along an axis that turns with a body.
+//!
+//! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
+//! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
+
+use super::super::{Turned, TurningPiece};
+use crate::engine::pieces::snapshot::Snapshot;
+use crate::math::vector::unit;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::rounding::attached_rounding;
+use crate::settings::Settings;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::{body, rotation};
+use crate::tests::worst::{Tape, Worst, share};
+use crate::tuning::MAX_TURNING_PLANE_TIME;
+use glam::DVec3;
+
+/// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
+fn motion(tape: &mut Tape) -> Option<Motion> {
+    let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
+    let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
+    Motion::about(Pose::new(at, rotation(tape)).ok()?, velocity, spin, centre).ok()
+}
+
+/// A point and a turning plane, as computed and exact.
+struct Setting<'s> {
+    sweep: &'s TurningPiece<'s>,
+    motions: [Motion; 2],
+    normal: DVec3,
+    point: DVec3,
+}
+
+impl Setting<'_> {
+    /// Returns the computed height of the point, and its rate.
+    fn found(&self, tau: f64) -> [Double; 2] {
+        let Turned {
+            height,
+            axis,
+            rate,
+            closing,
+        } = self.sweep.turned(tau);
+        let arm = self.point - self.sweep.reference;
+        [height + axis.dot(arm), rate + closing.dot(arm)].map(Double::from)
+    }
+
+    fn exact(&self, tau: f64) -> [Double; 2] {
+        let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
+        let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
+        let turned = |v: Double3, spin: Double3| {
+            if spin.length().get() > 0.0 {
+                v.turned(spin.unit(), spin.length() * Double::from(tau))
+            } else {
+                v
+            }
+        };
+        let normal = turned(Double3::from(self.normal), spin);
+        let local = Double3::from(self.point) - Double3::from(self.sweep.reference);
+        let rotation = self.sweep.frame.rotation;
+        let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(Double3::from);
+        let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
+        let arm = turned(x + y + z, own);
+        let passing = velocity - away;
+        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau)) + arm;
+        let rate = spin.cross(normal).dot(way) + normal.dot(passing + own.cross(arm));
+        [normal.dot(way), rate]
+    }
+
+    /// Returns the bound of the second derivative, exact and as computed without allowances.
+    fn second_derivatives(&self, tau: f64) -> [Double; 2] {
+        let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
+        let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));
+        let (passing, time) = (
+            velocity - away,
+            Double::from(f64::from(MAX_TURNING_PLANE_TIME)),
+        );
+        let way = Double3::from(self.sweep.offset) + passing.scale(Double::from(tau));
+        let arm = spin.unit().cross(way).length() + passing.length() * time;
+        let across = spin.cross(Double3::from(self.normal)).length();
+        let two = Double::from(2.0);
+        let exact = across * (spin.length() * arm + two * passing.length())
+            + (spin - own).length() * (across + own.length()) * Double::from(self.sweep.radius);
+        let sweep = self.sweep;
+        let arm = sweep
+            .unit
+            .cross(sweep.offset + sweep.velocity * tau)
+            .length()
+            + sweep.speed * f64::from(MAX_TURNING_PLANE_TIME);
+        let across = sweep.angular_speed * sweep.normal.derivative_length();
+        let plain = across * (sweep.angular_speed * arm + 2.0 * sweep.speed)
+            + sweep.relative.length() * (across + sweep.own_angular_speed) * sweep.radius;
+        [exact, Double::from(plain)]
+    }
+}
+
+/// Returns the errors of a height change, a rate and a second derivative, as shares of their allowances.
+fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
+    let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
+    let bodies = triangles.map(|triangle| body(&[triangle]));
+    let motions = [motion(tape)?, motion(tape)?];
+    let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
+    let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).ok()?;
+    let snapshot = Snapshot::new(&problem, 0, 0, tape.fraction());
+    let [own, other] = snapshot.moving_pieces();
+    let normal = unit(tape.vector(-40..=0).into())?;
+    if !own.side.path.turns() {
+        return None;
+    }
+    let sweep = TurningPiece::new(&own, &other, normal, problem.rounding);
+    let setting = Setting {
+        sweep: &sweep,
+        motions,
+        normal,
+        point: other.piece.points[tape.pick(3)],
+    };
+    let tau = tape.fraction();
+    let rounding = attached_rounding(sweep.angular_speed + sweep.own_angular_speed);
+    let [start, end, from, to] = [
+        setting.found(0.0),
+        setting.found(tau),
+        setting.exact(0.0),
+        setting.exact(tau),
+    ];
+    let height = ((end[0] - start[0]) - (to[0] - from[0])).get().abs();
+    let rate = (end[1] - to[1]).get().abs();
+    let fastest =
+        sweep.angular_speed * sweep.reach + sweep.speed + sweep.own_angular_speed * sweep.radius;
+    let [exact, plain] = setting.second_derivatives(tau);
+    let allowed = (Double::from(sweep.second_derivative(tau)) - plain).get();
+    Some([
+        share(height, rounding * sweep.reach),
+        share(rate, rounding * fastest),
+        share((exact - plain).get(), allowed),
+    ])
+}
+
+#[test]
+fn worst_height() {
+    let found =
+        Worst::of("attached_rounding, heights", 10_000).search(|tape| Some(shares(tape)?[0]));
+    found.is_within(60.0);
+}
+
+#[test]
+fn worst_rate() {
+    let found = Worst::of("attached_rounding, rates", 10_000).search(|tape| Some(shares(tape)?[1]));
+    found.is_within(60.0);
+}
+
+#[test]
+fn worst_bend() {
+    let found = Worst::of("RATE_F64, bends past a turning plane", 10_000)
+        .search(|tape| Some(shares(tape)?[2]));
+    found.is_within(40.0);
+}

@@ -1,0 +1,39 @@
+//! Slots of subtrees in the list of all nodes of a binary tree, which is filled from the root.
+
+/// The slot of a subtree.
+pub(super) struct Slot<'n, N> {
+    pub(super) node: &'n mut N,
+    /// The descendants: the two children, those of the second, those of the first.
+    pub(super) below: &'n mut [N],
+    /// The index of the first descendant.
+    pub(super) first: u32,
+}
+
+impl<'n, N> Slot<'n, N> {
+    /// Returns the slot of the whole tree; `None` for a tree without nodes.
+    pub(super) fn whole(nodes: &'n mut [N]) -> Option<Self> {
+        let (node, below) = nodes.split_first_mut()?;
+        let first = 1;
+        Some(Slot { node, below, first })
+    }
+
+    /// Returns the slots of both children, the second over `leaves` leaves; `None` if there are none.
+    pub(super) fn children(&mut self, leaves: usize) -> Option<[Slot<'_, N>; 2]> {
+        let [left, right, below @ ..] = &mut *self.below else {
+            return None;
+        };
+        let (below_right, below_left) = below.split_at_mut(2 * (leaves - 1));
+        let first = self.first + 2;
+        let of_left = Slot {
+            node: left,
+            first: first + below_right.len() as u32,
+            below: below_left,
+        };
+        let of_right = Slot {
+            node: right,
+            first,
+            below: below_right,
+        };
+        Some([of_left, of_right])
+    }
+}
