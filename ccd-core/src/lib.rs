@@ -23,7 +23,7 @@
 //!     }
 //! }
 //!
-//! let ball = Body::ball(0.5)?;
+//! let ball = Body::sphere(0.5)?;
 //! let flying = |from: DVec3, velocity: DVec3| Motion::new(Pose::at(from)?, velocity, DVec3::ZERO);
 //! let a = flying(DVec3::new(-3.0, 0.6, 0.0), 2.0 * DVec3::X)?;
 //! let b = flying(DVec3::new(3.0, 0.0, 0.0), -2.0 * DVec3::X)?;

@@ -17,7 +17,7 @@ use std::time::Duration;
 ///
 /// ```
 /// use ccd_core::{Body, Motion, Moving};
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let resting: Moving = (&ball, Motion::STILL).into();
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```

@@ -31,7 +31,7 @@ pub use crate::shortcuts::{Shortcut, Shortcuts};
 /// fn outcome(mut schedule: impl Schedule<Balls>, query: &Query<'_>) -> Result<Outcome, InputError> {
 ///     Ok(schedule.first_contact(query, &mut Balls)?.outcome)
 /// }
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
 /// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 1.0, &Settings::DEFAULT)?;
 /// assert!(matches!(outcome(BestFirst::default(), &query)?, Outcome::Free { .. }));

@@ -160,7 +160,7 @@ pub enum Instructions {
 /// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
 /// #     }
 /// # }
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// // Two balls touch, and fly apart.
 /// let leaving = Motion::new(Pose::at(DVec3::X)?, DVec3::X, DVec3::ZERO)?;
 /// let outcome = |start| -> Result<Outcome, InputError> {

@@ -20,7 +20,7 @@ use glam::DVec3;
 ///
 /// ```
 /// use ccd_core::{Body, Motion, Moving, Pose, Settings};
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let flies = Motion::new(Pose::IDENTITY, [3.0, 0.0, 0.0], [0.0; 3])?;
 /// let swept = Moving::from((&ball, flies)).swept_box(1.0, &Settings::DEFAULT)?;
 /// assert!((swept.max.x - 3.5).abs() < 1e-3 && (swept.max.y - 0.5).abs() < 1e-3);

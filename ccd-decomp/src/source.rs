@@ -38,7 +38,7 @@ pub enum BodySource {
         /// Half the length of each side.
         half_extents: DVec3,
     },
-    /// `sphere:r`, see [`Body::ball`].
+    /// `sphere:r`, see [`Body::sphere`].
     Sphere {
         /// Its radius.
         radius: f64,
@@ -114,7 +114,7 @@ impl BodySource {
     ) -> Result<Prepared, BodyError> {
         let prepared = match *self {
             BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
-            BodySource::Sphere { radius } => Prepared::primitive(Body::ball(radius)?),
+            BodySource::Sphere { radius } => Prepared::primitive(Body::sphere(radius)?),
             BodySource::Capsule {
                 radius,
                 half_height,

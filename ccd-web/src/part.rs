@@ -96,7 +96,7 @@ impl Part {
         let body = if half > 0.0 {
             Body::capsule(radius, half)?
         } else {
-            Body::ball(radius)?
+            Body::sphere(radius)?
         };
         let surface = shapes::capsule(radius, half);
         Ok(Part { body, surface })

@@ -201,7 +201,7 @@ impl PyBody {
     #[classmethod]
     fn sphere(_class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
         let report = format!("ball of radius {radius}");
-        PyBody::shape("sphere", [radius], Body::ball(radius), report)
+        PyBody::shape("sphere", [radius], Body::sphere(radius), report)
     }
 
     /// Makes a capsule along z; half its height is from its middle to the centre of either cap.

@@ -48,7 +48,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let capsule = Body::capsule(0.2, 0.5)?;
     let start = Pose::at([-3.0, 0.0, 0.1])?;
     let flies = Motion::new(start, [4.0, 0.0, 0.0], [1.0, 2.0, 3.0])?;
-    for (name, other) in [("ball", Body::ball(0.5)?), ("box", Body::cuboid([0.5; 3])?)] {
+    for (name, other) in [
+        ("ball", Body::sphere(0.5)?),
+        ("box", Body::cuboid([0.5; 3])?),
+    ] {
         let (a, b) = ((&capsule, flies), (&other, Motion::STILL));
         let by_default = Solver::new()
             .first_contact(a, b, 1.0)?

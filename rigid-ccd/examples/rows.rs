@@ -27,7 +27,7 @@ fn main() -> Result<()> {
             MotionTable::read(File::open(motions).context(motions.clone())?)?,
         ),
         _ => {
-            let (ball, wall) = (Body::ball(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
+            let (ball, wall) = (Body::sphere(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
             (ball, wall, MotionTable::read(SHOWN.as_bytes())?)
         }
     };

@@ -7,7 +7,7 @@ use std::error::Error;
 fn main() -> Result<(), Box<dyn Error>> {
     // Half extents.
     let body = Body::cuboid([0.5, 0.5, 0.5])?;
-    let ball = Body::ball(0.3)?;
+    let ball = Body::sphere(0.3)?;
 
     let start = Pose::at([-3.0, 0.0, 0.0])?;
     let fast = Motion::new(start, [4.0, 0.0, 0.0], [0.0, 0.0, 20.0])?;

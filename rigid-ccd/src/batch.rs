@@ -19,6 +19,7 @@ pub(crate) use timed::{Timed, Timing, time};
 
 use crate::ParallelSolver;
 use crate::table::courses::Course;
+use crate::table::results::Compared;
 use ccd_core::{Body, InputError, Query, Settings};
 use std::num::NonZeroUsize;
 
@@ -49,6 +50,16 @@ impl<'q> Bodies<'q> {
         }
         let [course_a, course_b] = course.trajectories();
         Query::new((a, course_a), (b, course_b), course.duration(), settings)
+    }
+}
+
+impl Bodies<'_> {
+    /// Returns what distances of the bodies are compared with.
+    pub fn compared(self, clearance: Option<f64>) -> Compared {
+        Compared {
+            clearance,
+            excess: self.a.excess() + self.b.excess(),
+        }
     }
 }
 

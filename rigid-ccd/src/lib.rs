@@ -7,7 +7,7 @@
 //! use rigid_ccd::{Body, Motion, Pose, first_contact, load};
 //!
 //! let part = load("examples/bracket.obj")?;
-//! let ball = Body::ball(0.5)?;
+//! let ball = Body::sphere(0.5)?;
 //! let falls = Motion::new(Pose::at([0.0, 0.0, 3.0])?, [0.0, 0.0, -2.0], [0.0; 3])?;
 //! if let Some(hit) = first_contact((&ball, falls), (&part, Motion::STILL), 1.0)?.hit()? {
 //!     println!("contact at {} in {}", hit.time, hit.witness_b());
@@ -27,7 +27,7 @@
 //! | answer many one after another | [`Solver`] |
 //! | move many bodies, and find who touches whom first, or at all | [`Scene`] |
 //! | set a tolerance, a margin, a budget or a deadline | [`Settings`], [`Solver::with_settings`] |
-//! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
+//! | make a body | [`Body::sphere`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
 //! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in`], [`load_adjusted`], [`mesh::MeshFile`] |
 //! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |

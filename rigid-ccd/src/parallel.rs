@@ -21,7 +21,7 @@ use std::thread::{self, Builder, available_parallelism};
 ///
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, first_contacts};
-/// let (ball, wall) = (Body::ball(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
+/// let (ball, wall) = (Body::sphere(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
 /// let left = Pose::at([-3.0, 0.0, 0.0])?;
 /// let mut queries = Vec::new();
 /// for speed in [1.0, 2.0, 4.0] {
@@ -71,7 +71,7 @@ pub struct QueryError {
 /// });
 ///
 /// // The edges of a planner, against both links of an arm.
-/// let (gripper, forearm) = (Body::ball(0.2)?, Body::capsule(0.1, 0.6)?);
+/// let (gripper, forearm) = (Body::sphere(0.2)?, Body::capsule(0.1, 0.6)?);
 /// let shelf = Body::cuboid([1.0, 0.3, 0.05])?;
 /// let mut queries = Vec::new();
 /// for height in [0.0, 0.2, 0.4] {
@@ -157,7 +157,7 @@ impl<S: Send> ParallelSolver<S> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Outcome, ParallelSolver, Pose, Solver};
-    /// let ball = Body::ball(0.5)?;
+    /// let ball = Body::sphere(0.5)?;
     /// let flies = |speed| Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3]);
     /// let speeds: Vec<f64> = (1..100).map(f64::from).collect();
     /// let answers = ParallelSolver::new(Solver::new).map(&speeds, |solver, &speed| {
@@ -200,7 +200,7 @@ impl<S: Send> ParallelSolver<S> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, ParallelSolver, Pose, Solver};
-    /// let ball = Body::ball(0.5)?;
+    /// let ball = Body::sphere(0.5)?;
     /// let flies = |speed| Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3]);
     /// let speeds = std::iter::successors(Some(1.0), |speed| Some(2.0 * speed)).take(10);
     /// let hits = ParallelSolver::new(Solver::new).map_iter(speeds, |solver, speed| {

@@ -15,7 +15,7 @@ use std::fmt;
 /// ```
 /// use rigid_ccd::{Body, Remark};
 /// // A part in metres, and a tolerance as for millimetres.
-/// let (part, wall) = (Body::ball(0.0005)?, Body::cuboid([1.0; 3])?);
+/// let (part, wall) = (Body::sphere(0.0005)?, Body::cuboid([1.0; 3])?);
 /// let sizes = [&part, &wall].map(Remark::size);
 /// let remark = Remark::of_tolerance(0.001, sizes).expect("it is as large as the part");
 /// assert!(remark.to_string().starts_with("the tolerance is large against the smaller body"));

@@ -36,7 +36,7 @@ pub use stops::Stop;
 ///
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, Scene};
-/// let (ball, level) = (Body::ball(0.5)?, Body::cuboid([50.0, 50.0, 1.0])?);
+/// let (ball, level) = (Body::sphere(0.5)?, Body::cuboid([50.0, 50.0, 1.0])?);
 /// let mut scene = Scene::new();
 /// let ground = scene.add_fixed(&level, Pose::at([0.0, 0.0, -1.0])?);
 /// for k in 0..100 {

@@ -21,7 +21,7 @@ use ccd_distance_gjk::Direct;
 ///
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, first_contact};
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
 /// let hit = first_contact((&ball, flies), (&ball, Motion::STILL), 1.0)?.hit()?.expect("they meet");
 /// assert!(hit.time <= 0.5 && hit.time > 0.499);
@@ -44,7 +44,7 @@ pub fn first_contact<'b>(
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 /// let mut solver = Solver::new().with_settings(Settings { tolerance: 1e-6, ..Settings::DEFAULT });
-/// let (ball, wall) = (Body::ball(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
+/// let (ball, wall) = (Body::sphere(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
 /// for speed in [1.0, 2.0, 4.0] {
 ///     let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3])?;
 ///     match solver.first_contact((&ball, flies), (&wall, Pose::IDENTITY), 1.0)?.hit()? {
@@ -107,7 +107,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// ```
     /// use rigid_ccd::trajectory::Ballistic;
     /// use rigid_ccd::{Body, Motion, Pose, Solver};
-    /// let (ball, ground) = (Body::ball(0.5)?, Body::cuboid([9.0, 9.0, 1.0])?);
+    /// let (ball, ground) = (Body::sphere(0.5)?, Body::cuboid([9.0, 9.0, 1.0])?);
     /// let thrown = Motion::new(Pose::at([0.0, 0.0, 3.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
     /// let falls = Ballistic::new(thrown, [0.0, 0.0, -10.0])?;
     /// let answer = Solver::new().first_contact((&ball, &falls), (&ground, Motion::STILL), 1.0)?;
@@ -138,7 +138,7 @@ impl<O: DistanceOracle> Solver<O> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Pose, Solver};
-    /// let ball = Body::ball(0.5)?;
+    /// let ball = Body::sphere(0.5)?;
     /// let passes = Motion::new(Pose::at([-3.0, 1.01, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
     /// assert!(Solver::new().is_free((&ball, passes), (&ball, Motion::STILL), 1.0)?);
     /// # Ok::<(), rigid_ccd::Error>(())
@@ -176,7 +176,7 @@ impl<O: DistanceOracle> Solver<O> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Outcome, Pose, Solver};
-    /// let ball = Body::ball(0.5)?;
+    /// let ball = Body::sphere(0.5)?;
     /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
     /// let answer = Solver::new().contact_interval((&ball, flies), (&ball, Motion::STILL), 1.0)?;
     /// let Outcome::Interval { first, last } = answer.outcome else { panic!("it passes through") };
@@ -208,7 +208,7 @@ impl<O: DistanceOracle> Solver<O> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Clearance, Motion, Pose, Settings, Solver};
-    /// let ball = Body::ball(0.5)?;
+    /// let ball = Body::sphere(0.5)?;
     /// let passes = Motion::new(Pose::at([-3.0, 1.2, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
     /// let closest = Solver::new().closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;
     /// assert!(closest.outcome.lower() <= 0.2 && closest.outcome.upper() >= 0.2);
@@ -269,7 +269,7 @@ impl<O: DistanceOracle> Solver<O> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose, Solver};
-    /// let (ball, cube) = (Body::ball(0.5)?, Body::cuboid([1.0; 3])?);
+    /// let (ball, cube) = (Body::sphere(0.5)?, Body::cuboid([1.0; 3])?);
     /// let beside = Pose::at([4.0, 0.0, 0.0])?;
     /// let found = Solver::new().distance((&ball, beside), (&cube, Pose::IDENTITY))?.outcome;
     /// assert!((found.lower() - 2.5).abs() < 1e-4 && (found.upper() - 2.5).abs() < 1e-12);

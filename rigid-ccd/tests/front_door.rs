@@ -94,7 +94,7 @@ fn a_limit_is_an_error_with_a_certified_time() {
 
 #[test]
 fn invalid_input_is_an_error() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let found = first_contact((&ball, Motion::STILL), (&ball, Motion::STILL), -1.0);
     let out_of_range = |error| matches!(error, InputError::OutOfRange { .. });
     assert!(found.is_err_and(out_of_range));
@@ -131,7 +131,7 @@ fn meshes_are_loaded_from_files() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
     let bracket = rigid_ccd::load(format!("{folder}/bracket.obj")).unwrap();
     let inside = Motion::still(Pose::at([0.2, 0.5, 1.0]).unwrap());
-    let ball = Body::ball(0.05).unwrap();
+    let ball = Body::sphere(0.05).unwrap();
     let hit = first_contact((&ball, inside), (&bracket, Motion::STILL), 1.0).unwrap();
     let hit = hit.hit().unwrap().expect("the bracket is solid");
     let inside = HitKind::Overlapping(Overlap::AInsideB(hit.witness_a()));

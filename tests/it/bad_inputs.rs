@@ -103,7 +103,7 @@ fn faces_have_as_many_numbers() {
 fn shapes_name_the_bad_length() {
     type Shape = fn(f64) -> Result<Body, InputError>;
     let shapes: [(&str, Shape); 6] = [
-        ("radius", Body::ball),
+        ("radius", Body::sphere),
         ("radius", |bad| Body::capsule(bad, 1.0)),
         ("half height", |bad| Body::capsule(1.0, bad)),
         ("half extent x", |bad| Body::cuboid([bad, 1.0, 1.0])),

@@ -239,7 +239,7 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
         let sheet = Shape::open(cut_sheet(rng, 6));
         let [open, walled] =
             [&sheet, &Shape::union([sheet.clone(), wall])].map(|shape| shape.body(Kind::Triangles));
-        let ball = Body::ball(0.5).expect("a ball");
+        let ball = Body::sphere(0.5).expect("a ball");
         let at = dvec3(
             rng.random_range(-6.0..-2.0),
             rng.random_range(-1.0..1.0),

@@ -68,7 +68,10 @@ fn a_ball_past_a_box_takes_few_steps() {
 /// Answers all questions about a ball that passes a box at a gap, or touches it; returns the largest number of visits.
 fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let radius = 0.25;
-    let (ball, cube) = (Body::ball(radius).unwrap(), Body::cuboid([1.0; 3]).unwrap());
+    let (ball, cube) = (
+        Body::sphere(radius).unwrap(),
+        Body::cuboid([1.0; 3]).unwrap(),
+    );
     let a = (&ball, trajectory);
     let below =
         Motion::still(Pose::at([0.0, 0.0, lowest(trajectory) - radius - gap - 1.0]).unwrap());

@@ -395,7 +395,7 @@ fn no_bound_is_above_a_sampled_distance() {
 #[test]
 fn an_approach_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     let (ball, wall) = (
-        Body::ball(0.5).unwrap(),
+        Body::sphere(0.5).unwrap(),
         Body::cuboid([1.0, 5.0, 5.0]).unwrap(),
     );
     let stops = [(0.0, -1.68), (0.4, -1.532), (0.41, -1.65), (1.0, -1.61)];

@@ -54,7 +54,7 @@ impl Solid {
             Body::new(&pieces, Volume::Solid).expect("a solid")
         };
         match *self {
-            Solid::Ball(radius) => Body::ball(radius).expect("a ball"),
+            Solid::Ball(radius) => Body::sphere(radius).expect("a ball"),
             Solid::Capsule(radius, half) => Body::capsule(radius, half).expect("a capsule"),
             Solid::Cuboid(half) => Body::cuboid(half).expect("a cuboid"),
             Solid::Tetrahedron(corners) => mesh(&corners, &SIDES),

@@ -73,7 +73,7 @@ pub(crate) fn shapes() -> Result<Vec<Shape>> {
     let shape = |body, peer| Shape { body, peer };
     Ok(vec![
         of_mesh(&TriangleMesh::new(vertices, &faces)?)?,
-        shape(Body::ball(0.3)?, SharedShape::ball(0.3)),
+        shape(Body::sphere(0.3)?, SharedShape::ball(0.3)),
         shape(
             Body::cuboid([0.3, 0.2, 0.4])?,
             SharedShape::cuboid(0.3, 0.2, 0.4),

@@ -144,7 +144,7 @@ fn bullets(method: Method) -> Result<World> {
     for k in 0..12 {
         let aside = DVec3::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
         let builder = dynamic(method).translation(vector(aside));
-        world.add(builder, SharedShape::ball(0.01), Body::ball(0.01)?);
+        world.add(builder, SharedShape::ball(0.01), Body::sphere(0.01)?);
     }
     Ok(world)
 }

@@ -8,7 +8,7 @@ use ccd_view::{Group, Meshes, View};
 use rigid_ccd::batch::{Question, SolverKind};
 use rigid_ccd::picture::{Asked, Claim, Painter, drawn};
 use rigid_ccd::table::courses::Course;
-use rigid_ccd::table::results::{Compared, ResultRow};
+use rigid_ccd::table::results::ResultRow;
 
 /// The views of all scenes; equal meshes are stored once.
 #[derive(Clone, Debug, Default)]
@@ -57,7 +57,7 @@ impl Views {
             if found[kind].len() < MOST[kind] {
                 let course = Course::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
-                let row = ResultRow::new(&course, answer, 0.0, Compared::of(bodies, None));
+                let row = ResultRow::new(&course, answer, 0.0, bodies.compared(None));
                 let mut view = painter.view(&course, &row)?;
                 for (body, mesh) in view.bodies.iter_mut().zip(meshes) {
                     body.mesh = mesh;

@@ -17,7 +17,7 @@ use glam::DVec3;
 /// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
 /// #     }
 /// # }
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, DVec3::X, DVec3::ZERO)?;
 /// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
 /// let answer = BestFirst::default().first_contact(&query, &mut Balls)?;

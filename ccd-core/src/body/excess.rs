@@ -22,7 +22,7 @@ impl Body {
     /// use ccd_core::Body;
     /// // About a ball of radius 1, of which it touches six points.
     /// let about = Body::cuboid([1.0; 3])?.with_excess(3f64.sqrt() - 0.99)?;
-    /// assert!(about.excess() > 0.73 && Body::ball(1.0)?.excess() == 0.0);
+    /// assert!(about.excess() > 0.73 && Body::sphere(1.0)?.excess() == 0.0);
     /// assert!(about.with_excess(-1.0).is_err());
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```

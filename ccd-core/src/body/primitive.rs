@@ -7,12 +7,12 @@ use crate::error::{InputError, check_length};
 use glam::DVec3;
 
 impl Body {
-    /// Creates a ball about the origin; exact, not a mesh.
+    /// Creates a solid sphere about the origin; exact, not a mesh.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a radius that is not from 0 to
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
-    pub fn ball(radius: f64) -> Result<Self, InputError> {
+    pub fn sphere(radius: f64) -> Result<Self, InputError> {
         check_length("radius", radius)?;
         Body::polytope(Polytope {
             points: vec![DVec3::ZERO],

@@ -84,7 +84,7 @@ fn a_surface_is_taken_against_many_triangles_only() {
     assert_eq!(both.query_body_against(&one).pieces().len(), 1);
     assert_eq!(both.query_body_against(&both).pieces().len(), 1);
     assert_eq!(
-        both.query_body_against(&Body::ball(1.0).unwrap())
+        both.query_body_against(&Body::sphere(1.0).unwrap())
             .pieces()
             .len(),
         1
@@ -102,7 +102,7 @@ fn invalid_surfaces_are_refused() {
         one.clone().with_surface(open),
         one.clone().with_surface(one.clone()),
         triangles.clone().with_surface(triangles.clone()),
-        Body::ball(1.0).unwrap().with_surface(triangles),
+        Body::sphere(1.0).unwrap().with_surface(triangles),
     ];
     for body in refused {
         assert!(matches!(body, Err(InputError::BadSurface)));

@@ -156,11 +156,16 @@ fn equal_faces_meet_in_their_corners() {
 #[test]
 fn balls_and_capsules_touch_with_their_surfaces() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let pairs = contacts(&ball, &slab, at(0.3, 0.1, 1.5005), 1e-3);
     assert_eq!(names(&pairs), ["v0 f5"]);
     check_bounds(&pairs, 5e-4, -DVec3::Z);
-    let pairs = contacts(&ball, &Body::ball(0.7).unwrap(), at(0.0, 1.2005, 0.0), 1e-3);
+    let pairs = contacts(
+        &ball,
+        &Body::sphere(0.7).unwrap(),
+        at(0.0, 1.2005, 0.0),
+        1e-3,
+    );
     assert_eq!(names(&pairs), ["v0 v0"]);
     check_bounds(&pairs, 5e-4, -DVec3::Y);
 

@@ -32,7 +32,7 @@ use std::ops::ControlFlow;
 /// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
 /// #     }
 /// # }
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let mut schedule = BestFirst::default();
 /// for speed in [1.0, 2.0] {
 ///     let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, speed * DVec3::X, DVec3::ZERO)?;

@@ -7,7 +7,7 @@ use crate::query::Moving;
 use crate::settings::Settings;
 
 fn build_problem(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
-    let ball = Body::ball(1.0).unwrap();
+    let ball = Body::sphere(1.0).unwrap();
     let moving = |motion| Moving::from((&ball, motion));
     let still = Motion::still(Pose::IDENTITY);
     Problem::about(moving(motion), moving(still), duration, config).map(|p| p.tolerance())
@@ -86,7 +86,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
         assert_eq!(refusal(between(beyond)), "travel");
     }
     // Both positions are in range, but too far apart.
-    let body = Body::ball(1.0).unwrap();
+    let body = Body::sphere(1.0).unwrap();
     let still = |at: f64| Moving::from((&body, Motion::still(pose(at))));
     let apart =
         |at: f64| Problem::about(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
@@ -113,7 +113,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
             build_problem(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
             is_good
         );
-        assert_eq!(Body::ball(large).is_ok(), is_good);
+        assert_eq!(Body::sphere(large).is_ok(), is_good);
     }
 }
 
@@ -136,7 +136,7 @@ fn a_tolerance_that_cannot_be_certified_is_raised() {
 
 #[test]
 fn clocks_are_times_that_are_never_late() {
-    let ball = Body::ball(1.0).unwrap();
+    let ball = Body::sphere(1.0).unwrap();
     let still = Moving::from((&ball, Motion::still(Pose::IDENTITY)));
     for duration in [0.0, 1e-300, 0.1, 1.0, 7.0, 1e300] {
         let problem = Problem::about(still, still, duration, &Settings::DEFAULT).unwrap();

@@ -33,7 +33,7 @@ use std::ops::ControlFlow;
 /// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
 /// #     }
 /// # }
-/// let ball = Body::ball(0.5)?;
+/// let ball = Body::sphere(0.5)?;
 /// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
 /// let query = Query::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Settings::DEFAULT)?;
 /// let mut search = FirstContact::new(query, BestFirst::default());

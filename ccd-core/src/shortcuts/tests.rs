@@ -138,7 +138,7 @@ fn scene_of(shortcut: Shortcut) -> Pair {
                 let spin = [0.0, 0.0, 200.0 * TAU];
                 Motion::about(at([x, 0.0, 0.0]), [0.0; 3], spin, [y, 0.0, 0.0]).unwrap()
             };
-            let ball = || Body::ball(1.0).unwrap();
+            let ball = || Body::sphere(1.0).unwrap();
             (
                 [ball(), ball()],
                 [crank(3.0, -1.0), crank(-0.5, -1.0)],

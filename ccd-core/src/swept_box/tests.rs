@@ -162,7 +162,7 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
 
 #[test]
 fn a_ball_that_flies_has_the_box_of_its_way() {
-    let ball = crate::Body::ball(0.5).unwrap();
+    let ball = crate::Body::sphere(0.5).unwrap();
     let mut rng = rng(4);
     let spin = 10.0 * direction(&mut rng);
     let flies = Motion::new(Pose::at([1.0, 2.0, 3.0]).unwrap(), [4.0, -2.0, 0.0], spin).unwrap();
@@ -180,7 +180,7 @@ fn a_ball_that_flies_has_the_box_of_its_way() {
 
 #[test]
 fn what_a_problem_refuses_has_no_box() {
-    let ball = crate::Body::ball(0.5).unwrap();
+    let ball = crate::Body::sphere(0.5).unwrap();
     let far = Motion::new(Pose::IDENTITY, [2e12, 0.0, 0.0], [0.0; 3]).unwrap();
     let (config, still) = (Settings::DEFAULT, Motion::STILL);
     assert!(Moving::from((&ball, far)).swept_box(1.0, &config).is_err());

@@ -10,7 +10,7 @@ use rigid_ccd::batch::{Bodies, Question, on_threads};
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
 use rigid_ccd::table::motions::{RowError, RowProblem, TableError};
-use rigid_ccd::table::results::{Compared, ResultRow};
+use rigid_ccd::table::results::ResultRow;
 use rigid_ccd::{Answer, InputError, Limit, Remark, Settings, Solver};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -193,7 +193,7 @@ fn result(asked: TableQuestion<'_>, answered: &RowAnswer<'_>) -> ResultRow {
         Ok(timed) => timed,
         Err(error) => return ResultRow::error(&error.id, &error.problem),
     };
-    let compared = Compared::of(asked.bodies, asked.settings.clearance);
+    let compared = asked.bodies.compared(asked.settings.clearance);
     match &timed.answer {
         Ok(answer) => ResultRow {
             micros: asked.has_micros.then_some(timed.micros),

@@ -17,7 +17,7 @@ fn body(recipe: &Recipe) -> Body {
         points.iter().map(|p| DVec3::from_array(wide(*p))).collect()
     };
     let made = match recipe {
-        Recipe::Ball(radius) => Body::ball(f64::from(*radius)),
+        Recipe::Ball(radius) => Body::sphere(f64::from(*radius)),
         Recipe::Cuboid(half) => Body::cuboid(wide(*half)),
         Recipe::Capsule(a, b, radius) => Body::polytope(rigid_ccd::body::Polytope {
             points: points(&[*a, *b]),

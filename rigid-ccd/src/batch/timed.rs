@@ -3,7 +3,7 @@
 use super::{Bodies, Question, Solve, SolverKind, median};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
-use crate::table::results::{Compared, ResultRow};
+use crate::table::results::ResultRow;
 use ccd_core::{Answer, Settings};
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -45,7 +45,7 @@ impl Timed {
     /// Returns the row of results.
     pub(crate) fn row(&self, bodies: Bodies<'_>, course: &Course, timing: &Timing) -> ResultRow {
         let asked = (timing.question, &self.answer);
-        let compared = Compared::of(bodies, timing.settings.clearance);
+        let compared = bodies.compared(timing.settings.clearance);
         ResultRow::new(course, asked, self.micros, compared)
     }
 }

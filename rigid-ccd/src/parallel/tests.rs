@@ -28,7 +28,7 @@ fn answers_are_the_same_bits_in_order_on_any_number_of_threads() {
     let (capsule, cuboid, ball) = (
         capsule(),
         Body::cuboid([0.5, 0.4, 0.3]).unwrap(),
-        Body::ball(0.7).unwrap(),
+        Body::sphere(0.7).unwrap(),
     );
     let targets = [&cuboid, &ball, &capsule];
     let queries: Vec<_> = (0..200)

@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn names_are_plain_and_differ() {
-        let ball = Body::ball(1.0).unwrap();
+        let ball = Body::sphere(1.0).unwrap();
         let asked = Asked {
             claim: Claim::First,
             margin: 0.0,

@@ -20,7 +20,7 @@ fn pose(random: &mut impl Rng, size: f64) -> Pose {
 fn bodies() -> Vec<Body> {
     let bracket = crate::load("examples/bracket.obj").unwrap();
     vec![
-        Body::ball(0.4).unwrap(),
+        Body::sphere(0.4).unwrap(),
         Body::cuboid([0.1, 0.7, 0.4]).unwrap(),
         Body::capsule(0.2, 0.5).unwrap(),
         bracket,

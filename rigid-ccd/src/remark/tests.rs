@@ -24,7 +24,7 @@ fn a_tolerance_as_large_as_a_part_is_remarked_upon() {
     // Thin walls are usual, and so are points.
     assert_eq!(Remark::of_tolerance(0.001, [wall, wall]), None);
     assert_eq!(Remark::of_tolerance(0.001, [0.0, wall]), None);
-    assert_eq!(size(Body::ball(0.0).unwrap()), 0.0);
+    assert_eq!(size(Body::sphere(0.0).unwrap()), 0.0);
 }
 
 #[test]

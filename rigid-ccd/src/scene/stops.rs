@@ -37,7 +37,7 @@ impl Stop {
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Pose, Scene};
-    /// let (ball, ground) = (Body::ball(0.5)?, Body::cuboid([5.0, 5.0, 1.0])?);
+    /// let (ball, ground) = (Body::sphere(0.5)?, Body::cuboid([5.0, 5.0, 1.0])?);
     /// let mut scene = Scene::new();
     /// scene.add_fixed(&ground, Pose::at([0.0, 0.0, -1.0])?);
     /// let falls = Motion::new(Pose::at([0.0, 0.0, 2.0])?, [1.0, 0.0, -3.0], [0.0; 3])?;
@@ -82,7 +82,7 @@ impl Scene<'_> {
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Pose, Scene};
-    /// let (bullet, paper) = (Body::ball(0.01)?, Body::cuboid([0.001, 1.0, 1.0])?);
+    /// let (bullet, paper) = (Body::sphere(0.01)?, Body::cuboid([0.001, 1.0, 1.0])?);
     /// let mut scene = Scene::new();
     /// scene.add_fixed(&paper, Pose::IDENTITY);
     /// let shot = Motion::new(Pose::at([-2.0, 0.0, 0.0])?, [800.0, 0.0, 0.0], [0.0; 3])?;

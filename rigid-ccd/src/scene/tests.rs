@@ -20,7 +20,7 @@ pub(super) type Part = (usize, Motion, Mobility, Groups);
 /// Bodies of all kinds; the last one is a wide terrain.
 pub(super) fn bodies(rng: &mut Pcg64) -> Vec<Body> {
     let mut bodies = vec![
-        Body::ball(0.4).unwrap(),
+        Body::sphere(0.4).unwrap(),
         Body::cuboid([0.3, 0.5, 0.2]).unwrap(),
         Body::capsule(0.1, 0.9).unwrap(),
     ];
@@ -242,7 +242,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
 
 #[test]
 fn a_step_begins_where_the_last_one_ended() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let mut scene = Scene::new();
     scene.add_fixed(&ball, Pose::IDENTITY);
     let falls = |height: f64| {
@@ -266,7 +266,7 @@ fn a_step_begins_where_the_last_one_ended() {
 
 #[test]
 fn motions_out_of_range_are_errors_of_their_pairs_only() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let mut scene = Scene::new();
     let flies = |x: f64, speed: f64| {
         Motion::new(
@@ -302,7 +302,7 @@ fn motions_out_of_range_are_errors_of_their_pairs_only() {
 #[test]
 fn durations_of_any_length_end() {
     let (ball, wall) = (
-        Body::ball(0.5).unwrap(),
+        Body::sphere(0.5).unwrap(),
         Body::cuboid([0.1, 99.0, 99.0]).unwrap(),
     );
     for duration in [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300] {
@@ -369,7 +369,7 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
 #[test]
 fn a_body_inside_a_solid_is_first() {
     let shell = crate::load("tests/data/knot216.obj").unwrap();
-    let (ball, grain) = (Body::ball(0.5).unwrap(), Body::ball(1e-3).unwrap());
+    let (ball, grain) = (Body::sphere(0.5).unwrap(), Body::sphere(1e-3).unwrap());
     let mut scene = Scene::with_threads(NonZeroUsize::MIN);
     // The other bodies are far from the knot, and meet soon.
     let far = |x: f64| Pose::at([x, 100.0, 0.0]).unwrap();
@@ -402,7 +402,7 @@ fn middle_of_tube(body: &Body) -> DVec3 {
 #[test]
 fn the_shortest_durations_end() {
     let size = 1e-20;
-    let ball = Body::ball(0.5 * size).unwrap();
+    let ball = Body::sphere(0.5 * size).unwrap();
     let rod = Body::cuboid([0.1 * size, 0.1 * size, 2.0 * size]).unwrap();
     let config = Settings {
         tolerance: 1e-3 * size,
@@ -434,7 +434,7 @@ fn the_shortest_durations_end() {
 /// Two fixed bodies are never checked against each other, so a fixed body must not move.
 #[test]
 fn a_fixed_body_takes_no_motion() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let mut scene = Scene::new();
     let fixed = scene.add_fixed(&ball, Pose::IDENTITY);
     let other = scene.add_fixed(&ball, Pose::at([3.0, 0.0, 0.0]).unwrap());

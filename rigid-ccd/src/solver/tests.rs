@@ -8,7 +8,7 @@ use ccd_core::glam::{DQuat, DVec3};
 mod enclosures;
 
 fn ball(radius: f64) -> Body {
-    Body::ball(radius).unwrap()
+    Body::sphere(radius).unwrap()
 }
 
 fn thrown(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]) -> Ballistic {

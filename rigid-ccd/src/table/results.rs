@@ -11,7 +11,7 @@ pub(crate) use columns::columns_of;
 pub use columns::{COLUMNS, COUNTERS, Cells, Column, Line, columns, names};
 pub use status::Status;
 
-use crate::batch::{Bodies, Question};
+use crate::batch::question::Question;
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
@@ -30,14 +30,6 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Creates the comparison for two bodies.
-    pub fn of(bodies: Bodies<'_>, clearance: Option<f64>) -> Self {
-        Compared {
-            clearance,
-            excess: bodies.a.excess() + bodies.b.excess(),
-        }
-    }
-
     /// Returns the reason of a clearance that is not verified.
     fn within_bounds(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";

@@ -24,7 +24,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
         let body = about.body().unwrap();
         assert!(body.excess() == about.excess() && body.excess() > 1e-4);
         // The triangles that replace the body represent the same shape.
-        let ball = Body::ball(1.0).unwrap();
+        let ball = Body::sphere(1.0).unwrap();
         assert_eq!(
             Excess::of_bodies(&body, &ball),
             Excess::of_bodies(&ball, &body)
@@ -36,7 +36,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
 
 #[test]
 fn a_sum_is_rounded_away_from_what_is_claimed() {
-    let exceeding = |excess| Body::ball(1.0).unwrap().with_excess(excess).unwrap();
+    let exceeding = |excess| Body::sphere(1.0).unwrap().with_excess(excess).unwrap();
     let exact = Excess::of_bodies(&exceeding(0.0), &exceeding(0.0));
     // Exact bodies keep their bits.
     assert_eq!(

@@ -15,7 +15,7 @@ use crate::tests::worst::{Worst, share};
 #[test]
 fn worst_box() {
     let still = Motion::still(Pose::IDENTITY);
-    let ball = Body::ball(0.1).unwrap();
+    let ball = Body::sphere(0.1).unwrap();
     let found = Worst::of("BOX_F64", 10_000).search(|tape| {
         let points = long_box(tape);
         let of = Polytope {

@@ -32,7 +32,7 @@ fn only_the_foot_on_a_side_is_reported() {
     let rng = &mut rng(74);
     let half = DVec3::new(1.0, 0.8, 0.3);
     let [cut, whole] = cuboids(half);
-    let point = Body::ball(0.0).unwrap();
+    let point = Body::sphere(0.0).unwrap();
     for slab in [cut, whole, hull_cut_about_its_middles(half)] {
         let (mut feet, mut beside) = (0, 0);
         for _ in 0..200 {
@@ -146,7 +146,7 @@ fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
         radius,
         ..Polytope::default()
     };
-    let point = Body::ball(0.0).unwrap();
+    let point = Body::sphere(0.0).unwrap();
     for radii in [[0.1, 0.5], [0.5, 0.1]] {
         let limbs = [limb(-1.0, 1, radii[0]), limb(1.0, 2, radii[1])];
         let pieces = Pieces::polytopes(&limbs).unwrap();

@@ -293,7 +293,7 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
 /// Tests balls whose distance of centres is exactly the sum of the radii.
 #[test]
 fn balls_that_touch_exactly_do_not_intersect() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let pair = PiecePair {
         a: ball.pieces().get(0),
         b: ball.pieces().get(0),

@@ -16,7 +16,7 @@ fn limited<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
 }
 
 fn ball() -> Body {
-    Body::ball(1.0).unwrap()
+    Body::sphere(1.0).unwrap()
 }
 
 fn with_deadline(deadline: Duration) -> Settings {

@@ -245,7 +245,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
 /// Tests that two bodies of one piece each are measured only once.
 #[test]
 fn single_pieces_are_measured_once() {
-    let ball = Body::ball(1.0).unwrap();
+    let ball = Body::sphere(1.0).unwrap();
     let moving = |x: f64| Moving::from((&ball, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     let config = Settings {
         margin: 10.0,

@@ -330,7 +330,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
         &[0, 1],
     );
     let soup = Body::new(&soup.unwrap(), Volume::Surface).unwrap();
-    let ball = Body::ball(0.25).unwrap();
+    let ball = Body::sphere(0.25).unwrap();
     let above = Pose::at(DVec3::new(0.25, 0.25, 2.25)).unwrap();
     let falling = Motion::new(above, -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
     let problem = Problem::about(
@@ -350,7 +350,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
 fn contacts_at_the_start_are_reported_or_let_go() {
     let mut rng = rng(26);
     let bodies = [20, 20].map(|count| chain(&mut rng, count));
-    let ball = Body::ball(0.05).unwrap();
+    let ball = Body::sphere(0.05).unwrap();
     let end = bodies[0]
         .pieces()
         .iter()

@@ -351,7 +351,7 @@ fn no_contact_is_before_the_first_or_after_the_last() {
 
 #[test]
 fn durations_may_be_very_long() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let slow = Motion::new(
         crate::Pose::at(9.0 * DVec3::X).unwrap(),
         1e-60 * DVec3::Y,

@@ -127,7 +127,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
 #[test]
 fn a_body_inside_the_other_is_no_body_apart() {
     let room = room(4.0);
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let flies = Motion::new(Pose::IDENTITY, DVec3::X, DVec3::ZERO).unwrap();
     for motion in [Motion::STILL, flies] {
         let [a, b] = [(&ball, motion), (&room, Motion::STILL)];

@@ -68,7 +68,7 @@ fn balls_are_told_apart_up_to_the_gap() {
     let mut rng = rng(2);
     for _ in 0..1_000 {
         let radii = [0, 1].map(|_| magnitude(&mut rng, -3.0, 1.0));
-        let balls = radii.map(|radius| Body::ball(radius).unwrap());
+        let balls = radii.map(|radius| Body::sphere(radius).unwrap());
         let config = Settings {
             margin: magnitude(&mut rng, -6.0, 0.0),
             tolerance: 1e-6,

@@ -15,7 +15,7 @@ use glam::DVec3;
 #[test]
 fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);
-    let ball = Body::ball(0.1).unwrap();
+    let ball = Body::sphere(0.1).unwrap();
     let found = Worst::of("BOX_AXES_F32", 20_000).search(|tape| {
         let points = long_box(tape);
         let of = Polytope {

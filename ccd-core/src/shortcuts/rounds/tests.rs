@@ -35,7 +35,7 @@ fn gap([a, b]: [&Motion; 2], time: f64) -> f64 {
 
 /// Checks that a contact of two balls is the first one, and returns its time.
 fn checked(motions: [&Motion; 2], duration: f64, config: &Settings) -> Option<f64> {
-    let ball = Body::ball(1.0).unwrap();
+    let ball = Body::sphere(1.0).unwrap();
     let [a, b] = motions.map(|motion| (&ball, *motion));
     let problem = Problem::about(a, b, duration, config).unwrap();
     let until = match solve(&problem).outcome {

@@ -213,7 +213,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         ..Polytope::default()
     })
     .unwrap();
-    let ball = Body::ball(0.1).unwrap();
+    let ball = Body::sphere(0.1).unwrap();
     let above = Pose::at(DVec3::new(0.0, 3.0, 0.5)).unwrap();
     let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, DVec3::Y).unwrap();
     let moving = |body, motion| Moving::from((body, motion));

@@ -149,7 +149,7 @@ fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
 #[test]
 fn a_normal_is_from_the_body_to_what_stops_it() {
     let (ball, plate) = (
-        Body::ball(0.5).unwrap(),
+        Body::sphere(0.5).unwrap(),
         Body::cuboid([5.0, 5.0, 1.0]).unwrap(),
     );
     let falls = Motion::new(
@@ -188,7 +188,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
 #[test]
 fn a_queue_of_balls_stops_one_behind_the_other() {
     let (ball, wall) = (
-        Body::ball(0.5).unwrap(),
+        Body::sphere(0.5).unwrap(),
         Body::cuboid([0.1, 5.0, 5.0]).unwrap(),
     );
     let mut scene = Scene::new();
@@ -221,7 +221,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
 #[test]
 fn a_pressed_ball_stays_above_the_floor() {
     let (ball, floor) = (
-        Body::ball(0.5).unwrap(),
+        Body::sphere(0.5).unwrap(),
         Body::cuboid([5.0, 5.0, 0.1]).unwrap(),
     );
     let mut scene = Scene::new();
@@ -253,7 +253,7 @@ fn a_pressed_ball_stays_above_the_floor() {
 
 #[test]
 fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let knot = Body::cuboid([0.5, 0.5, 0.5]).unwrap();
     let mut scene = Scene::new().with_settings(Settings {
         budget: 0,
@@ -285,7 +285,7 @@ fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
 fn a_pressed_ball_does_not_sink_by_rounding() {
     let mut rng = Pcg64::seed_from_u64(7);
     let mut any = move || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     for (half, tolerance) in [(5.0, 1e-10), (1e3, 1e-7), (1e4, 1e-6), (1e7, 1e-3)] {
         let floor = Body::cuboid([half, half, 1.0]).unwrap();
         let config = Settings {
@@ -316,7 +316,7 @@ fn a_pressed_ball_does_not_sink_by_rounding() {
 
 #[test]
 fn settings_at_their_limits_are_taken() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let far = |x: f64| Pose::at([x, 0.0, 0.0]).unwrap();
     for (tolerance, margin) in [(1e-100, 0.0), (1e12, 0.0), (1e-3, 1e12)] {
         let config = Settings {

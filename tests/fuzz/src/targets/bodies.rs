@@ -37,7 +37,7 @@ pub(super) fn queries_agree(body: &Body) {
         let far = (*p - first).abs().max_element();
         if far > size { far } else { size }
     });
-    let Ok(ball) = Body::ball(0.125 * size + 1e-3) else {
+    let Ok(ball) = Body::sphere(0.125 * size + 1e-3) else {
         return;
     };
     // The ball flies from an arbitrary side at a point of the body, and beyond it.

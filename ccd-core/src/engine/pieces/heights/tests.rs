@@ -41,7 +41,7 @@ fn many_points_are_bounded_like_all_of_them() {
         let velocity = direction(&mut rng) * magnitude(&mut rng, -3.0, 2.0) * size;
         let start = Pose::new(size * direction(&mut rng), rotation(&mut rng)).unwrap();
         let motion = Motion::about(start, velocity, spin, size * within(&mut rng, 2.0)).unwrap();
-        let ball = Body::ball(0.1).unwrap();
+        let ball = Body::sphere(0.1).unwrap();
         let (moving, still) = ((&body, motion), (&ball, Motion::STILL));
         let linear_acceleration =
             direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
@@ -109,7 +109,7 @@ fn many_points_are_bounded_like_all_of_them() {
 #[test]
 fn points_rise_and_sink_as_their_body_turns() {
     let mut rng = rng(32);
-    let ball = Body::ball(0.1).unwrap();
+    let ball = Body::sphere(0.1).unwrap();
     let mut many = 0;
     for number in 0..400 {
         let count = [1, 2, 3, 4, 400][number % 5];

@@ -12,7 +12,7 @@ use crate::tests::oracle::{Always, Exhaustive};
 
 /// Creates a ball of radius 1 at `x` that moves along −x by `speed`, and a resting ball at the origin.
 fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
-    let ball = Body::ball(1.0).unwrap();
+    let ball = Body::sphere(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
     let a = Moving::from((
         &ball,
@@ -99,7 +99,7 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
 /// Creates a bar that turns about z away from the one it touches, and back to it from the other side.
 fn returning<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let bar = Body::capsule(0.1, 1.0).unwrap();
-    let ball = Body::ball(0.1).unwrap();
+    let ball = Body::sphere(0.1).unwrap();
     let turn = std::f64::consts::TAU;
     // The other end of the bar comes around.
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap();

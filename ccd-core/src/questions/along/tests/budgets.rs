@@ -90,7 +90,7 @@ impl Trajectory for Shuttle {
 fn each_part_between_two_corners_has_a_budget() {
     let mut rng = rng(9);
     let soup = soup(&mut rng, SoupKind::Plump, 40, 1.0);
-    let (body, ball) = (body(&soup), Body::ball(0.5).unwrap());
+    let (body, ball) = (body(&soup), Body::sphere(0.5).unwrap());
     let ask = |laps: u32, beside: f64, budget: u64| {
         let config = Settings {
             tolerance: 1e-6,
@@ -192,7 +192,7 @@ impl Trajectory for Hostile {
 
 #[test]
 fn budgets_end_cuts_where_there_is_no_bound() {
-    let ball = Body::ball(0.5).unwrap();
+    let ball = Body::sphere(0.5).unwrap();
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = Hostile {

@@ -49,7 +49,7 @@ fn motion(tape: &mut Tape) -> Option<Motion> {
 /// Returns the largest error of the rates of a triangle's corners, as a share of its allowance.
 fn share_of_rates(tape: &mut Tape) -> Option<f64> {
     let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
-    let (motion, ball) = (motion(tape)?, Body::ball(0.1).ok()?);
+    let (motion, ball) = (motion(tape)?, Body::sphere(0.1).ok()?);
     let still = Motion::still(Pose::IDENTITY);
     let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (side, normal) = (&problem.a, unit(tape.vector(-40..=0).into())?);
@@ -99,7 +99,7 @@ fn worst_farthest() {
 /// points are equally low up to rounding, and far from each other.
 fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
-    let ball = Body::ball(0.1).ok()?;
+    let ball = Body::sphere(0.1).ok()?;
     let still = Motion::still(Pose::IDENTITY);
     let alone = Problem::about((&ball, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let path = alone.a.path;

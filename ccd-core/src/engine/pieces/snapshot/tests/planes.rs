@@ -136,7 +136,7 @@ fn the_plane_of_the_longest_time_counts() {
 
 #[test]
 fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
-    let (bar, ball) = (Body::capsule(0.1, 1.0).unwrap(), Body::ball(0.2).unwrap());
+    let (bar, ball) = (Body::capsule(0.1, 1.0).unwrap(), Body::sphere(0.2).unwrap());
     let mut rng = rng(11);
     let mut planes = 0;
     for _ in 0..500 {
