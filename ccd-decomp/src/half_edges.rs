@@ -1,19 +1,19 @@
-//! Half-edges and edges of triangles.
+//! Half-edges of triangles, and the edges that they form.
 
 /// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next. Less than 2³¹.
 pub(crate) type HalfEdge = u32;
 
-/// The edges of triangles, in ascending order of their ends, the smaller end first.
+/// The edges of a list of triangles, in ascending order of their end vertices, the smaller end first.
 pub(crate) struct Edges {
-    /// The lower end vertices in use; empty if slots are vertex numbers.
+    /// The vertices that are the smaller end of some edge, ascending; empty if slots are vertex numbers.
     lower: Vec<u32>,
-    /// The end of the uses of each lower end.
+    /// For each smaller end, the end of its range in the list of uses.
     ends: Vec<u32>,
     uses: Vec<Use>,
 }
 
-/// A use of an edge by a half-edge, packed: the upper end, the half-edge, and in the lowest bit whether it starts at
-/// the upper end.
+/// A half-edge on an edge, packed in one number: the upper end, the half-edge, and in the lowest bit whether it
+/// starts at the upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Use(u64);
 
@@ -46,8 +46,8 @@ impl Use {
 }
 
 impl Edges {
-    /// Finds all edges, except from a vertex to itself. Linear in the number of triangles, if few edges meet at each
-    /// vertex.
+    /// Finds all edges, except from a vertex to itself. Takes linear time in the number of triangles, if few edges
+    /// meet at each vertex.
     pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
         let last = triangles.iter().flatten().max();
         let range = last.map_or(0, |&last| last as usize + 1);
@@ -100,7 +100,7 @@ impl Edges {
         Edges { lower, ends, uses }
     }
 
-    /// Iterates over the edges: lower and upper end, and the uses in ascending order of half-edges.
+    /// Iterates over the edges: the two end vertices, and the half-edges on the edge in ascending order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Use])> {
         let starts = std::iter::once(&0).chain(&self.ends);
         let slots = (0..).zip(starts.zip(&self.ends));
@@ -112,7 +112,8 @@ impl Edges {
         })
     }
 
-    /// Returns the twin of every half-edge, which is opposite on the same edge; `None` unless each has exactly one.
+    /// Returns the twin of every half-edge: the half-edge on the same edge in the opposite direction. Returns `None`
+    /// unless each half-edge has exactly one twin.
     pub(crate) fn twins(&self, triangles: usize) -> Option<Vec<HalfEdge>> {
         // Every half-edge is the use of one edge.
         if self.uses.len() != 3 * triangles {

@@ -1,4 +1,4 @@
-//! Convex hulls of points, by exact predicates.
+//! Convex hulls of points in three dimensions, by exact predicates.
 //!
 //! ```text
 //! points ─► exact_hull.rs ─┬─ a volume ─► polygons.rs ─┬─► Hull
@@ -15,15 +15,16 @@ use crate::hull::polygons::loops;
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, Loops};
 
-/// A coordinate of a point is too near to 0 for exact predicates, not finite, or too large.
+/// A hull cannot be computed: a coordinate of a point is too near to 0 for exact predicates, not finite, or too
+/// large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("point {point} has a coordinate that is out of range for exact predicates")]
 pub struct HullError {
-    /// The first such point.
+    /// The index of the first point with such a coordinate.
     pub point: u32,
 }
 
-/// Computes the convex hull of points. Points may be equal.
+/// Computes the convex hull of points. Several points may be equal.
 ///
 /// # Guarantee
 /// Exact for the stored points: every point is inside or on the hull. The corners are in the order of the points.
@@ -45,7 +46,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     })
 }
 
-/// Creates a hull of facets, and of those points that are corners.
+/// Creates a hull from its facets, with those of the points that are corners.
 fn of_facets(points: &[DVec3], mut facets: Loops) -> Hull {
     let mut corners: Vec<u32> = facets.corners().to_vec();
     corners.sort_unstable();

@@ -1,4 +1,4 @@
-//! A warmed-up solver answers the same queries again without allocations.
+//! Tests that a warmed-up solver answers the same queries again without allocations.
 //!
 //! This is a program of its own: the allocator that counts is that of the whole program.
 
@@ -14,7 +14,7 @@ static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 const QUERIES: u64 = 3_000;
 
-/// Answers all queries, and returns the number of those with bodies in contact at the start.
+/// Answers all queries, and returns the number of queries whose bodies are in contact at the start.
 fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
     for number in 0..QUERIES {

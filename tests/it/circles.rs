@@ -1,4 +1,4 @@
-//! Files of a crate import each other in one direction: there is no circle of imports.
+//! Tests that no files of a crate import each other in a circle.
 //!
 //! A file may use its own ancestors. All other imports count, also those inside of macros. Tests do not count.
 
@@ -7,10 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use syn::visit::{self, Visit};
 
-/// The path of a module within its crate; the root is empty.
+/// The path of a module within its crate. The crate's root is empty.
 type Module = Vec<String>;
 
-/// The imports of each module of a crate.
+/// The set of modules that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
 const CRATES: [&str; 11] = [
@@ -41,7 +41,7 @@ fn no_files_import_each_other_in_a_circle() {
     assert!(files > 500, "{files}");
 }
 
-/// The check sees imports by `use`, by a path in an expression and in a macro, and across folders.
+/// Tests that the check sees imports by `use`, by a path in an expression and in a macro, and across folders.
 #[test]
 fn a_circle_is_found() {
     let found = |end: &str, below: &str| {
@@ -66,7 +66,7 @@ fn a_circle_is_found() {
     }
 }
 
-/// Reads the file of a crate's root and those of all its modules, except tests.
+/// Parses the file of a crate's root and the files of all its modules, except tests.
 fn texts(root: &Path) -> BTreeMap<Module, syn::File> {
     let mut texts = BTreeMap::new();
     let mut waiting = vec![(Module::new(), root.to_owned(), root.with_file_name(""))];
@@ -112,7 +112,7 @@ fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
     imports.collect()
 }
 
-/// Returns the module that a path leads into; `None` if it leads out of the crate.
+/// Returns the module of the crate that a path leads into; `None` if it leads out of the crate.
 fn resolved(
     texts: &BTreeMap<Module, syn::File>,
     module: &[String],
@@ -137,7 +137,7 @@ fn resolved(
     Some(at)
 }
 
-/// All paths of a file that may lead to another one.
+/// The collected paths of a file that may lead to another module.
 #[derive(Default)]
 struct Paths(Vec<Module>);
 
@@ -178,7 +178,8 @@ impl<'f> Visit<'f> for Paths {
         visit::visit_path(self, path);
     }
 
-    /// What a macro takes is no syntax tree: its paths are found as text.
+    /// Collects the paths in a macro call. They are found as text, because the arguments of a macro are no syntax
+    /// tree.
     fn visit_macro(&mut self, called: &'f syn::Macro) {
         let text = called.tokens.to_string().replace(' ', "");
         let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
@@ -191,8 +192,8 @@ impl<'f> Visit<'f> for Paths {
     }
 }
 
-/// Returns the modules that are left once those that use no other one are taken out, again and again: circles, and
-/// what uses them.
+/// Returns the modules in circles, and the modules that use these. Removes modules that use no other one until none
+/// is left.
 fn circles(imports: &Imports) -> Imports {
     let mut left = imports.clone();
     loop {

@@ -1,4 +1,4 @@
-//! The normal of a contact is in the normal cones of both surfaces, even if the bodies have no gap.
+//! Tests that the normal of a contact is in the normal cones of both surfaces, even if the bodies have no gap.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Outcome, Pose, Separation, Settings};
@@ -11,14 +11,14 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// The allowed angle from the cone due to rounding: coordinates near 1, on faces of 0.3 and more.
+/// The allowed angle from the normal cone due to rounding, in radians, for coordinates near 1 and faces of 0.3 and
+/// more.
 const FLUSH: f64 = 1e-12;
 
-/// The error of the direction between two points, multiplied by their distance. It is left in directions of longer
-/// ways.
+/// The rounding error of the direction between two points, multiplied by their distance.
 const BETWEEN: f64 = 4e-15;
 
-/// The distance above which the direction between two points may be the normal.
+/// The distance of witnesses above which the direction between them may be the normal.
 const WAY: f64 = 1e-8;
 
 const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
@@ -49,7 +49,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     );
 }
 
-/// Every backend finds the normal of the surfaces, whatever axis its claim has.
+/// Tests that every backend finds the normal of the surfaces, whatever axis its claim has.
 #[test]
 fn answers_of_all_backends_have_a_common_normal() {
     let rng = &mut Pcg64::seed_from_u64(46);
@@ -61,7 +61,7 @@ fn answers_of_all_backends_have_a_common_normal() {
     }
 }
 
-/// Two bodies with a gap along a direction that is in the normal cones of a feature of each.
+/// Two bodies with a gap along a direction that is in the normal cones of a feature of each body.
 struct Touch {
     query: Query,
     gap: f64,
@@ -183,11 +183,11 @@ fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     largest(&mut ends.collect::<Vec<_>>().into_iter())
 }
 
-/// A point of a shape that is extreme along a direction.
+/// A feature of a shape that is extreme along a direction, with a point on it.
 struct Support {
     normal: DVec3,
     point: DVec3,
-    /// A direction perpendicular to the normal, along an edge if there is one.
+    /// A direction perpendicular to the normal, along an edge of the feature if there is one.
     along: DVec3,
     size: usize,
 }
@@ -243,7 +243,7 @@ impl Support {
         }
     }
 
-    /// Returns the rotation of x and z to the edge and the normal.
+    /// Returns the rotation that takes x to the edge and z to the normal.
     fn basis(&self) -> DQuat {
         let aside = self.normal.cross(self.along);
         DQuat::from_mat3(&ccd_core::glam::DMat3::from_cols(
@@ -254,7 +254,7 @@ impl Support {
     }
 }
 
-/// Returns a box, a cube, a skewed box, or a non-convex shape.
+/// Returns a random box, cube, skewed box, or non-convex shape.
 fn shape(rng: &mut Pcg64) -> Shape {
     let mut half = || rng.random_range(0.3..1.0);
     let half = DVec3::new(half(), half(), half());

@@ -1,4 +1,4 @@
-//! Convex patches are exactly within the solid and exactly on its surface, or there is a typed error.
+//! Tests that convex patches lie exactly within the solid and exactly on its surface, or that there is a typed error.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::{DecomposeError, Decomposition, Order, decompose};
@@ -29,7 +29,7 @@ fn claims(decomposition: &Decomposition) -> Vec<Claim<'_>> {
         .collect()
 }
 
-/// Checks every law of a decomposition. Returns the number of points checked.
+/// Checks all properties of a decomposition. Returns the number of points checked.
 fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<usize, String> {
     let solid = Solid::new(mesh);
     let claims = claims(decomposition);
@@ -42,7 +42,8 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Checks a model without faults in every order: with the given effort in the default order, quickly in the others.
+/// Checks the decomposition of a model in every order: with the given effort in the default order, quickly in the
+/// others.
 fn check_model(model: &Model, effort: Effort) {
     check_in(Order::Cresting, model, effort);
     for order in [Order::BreadthFirst, Order::DepthFirst] {
@@ -85,7 +86,7 @@ fn patches_of_thousands_of_faces() {
     }
 }
 
-/// Many features of solids on a coarse grid are coplanar, collinear, or folded over.
+/// Tests the patches of random solids on a coarse grid, where many features are coplanar, collinear, or folded over.
 #[test]
 fn patches_of_random_solids() {
     // Solids as they are; and some whose cavity may reach through their surface.

@@ -1,4 +1,5 @@
-//! Convex solids with many corners: one piece, its triangles, and one piece against triangles give the same answer.
+//! Tests convex solids with many corners. One piece, its triangles, and one piece against triangles give the same
+//! answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
@@ -77,7 +78,7 @@ fn a_dense_solid_answers_like_its_triangles() {
     assert!(contacts >= 9, "{contacts}");
 }
 
-/// A piece near a mesh is measured against few of the mesh's triangles.
+/// Tests that a convex piece near a mesh is measured against few of the mesh's triangles.
 #[test]
 fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;

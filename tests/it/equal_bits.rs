@@ -1,4 +1,4 @@
-//! The same query gives the same bits with a fresh schedule and with a used one.
+//! Tests that the same query gives the same bits with a fresh schedule and with a used one.
 
 use ccd_core::schedule::{BestFirst, Naive};
 use ccd_core::{DistanceOracle, OrElse, Schedule};
@@ -30,7 +30,7 @@ fn every_setup_repeats_itself() {
     });
 }
 
-/// Compares every oracle, reused with its schedule from query to query, with fresh ones.
+/// Compares every oracle, reused with its schedule from query to query, with a fresh oracle and schedule.
 macro_rules! used_as_fresh {
     ($($test:ident: $schedule:ident, $oracle:ty;)*) => {$(
         #[test]

@@ -1,4 +1,4 @@
-//! Tests of the exact point-in-solid test, which is the reference for decompositions.
+//! Tests the exact point-in-solid test, which is the reference for decompositions.
 
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
@@ -15,7 +15,7 @@ fn at(p: DVec3) -> Blend {
     Blend::mean([p])
 }
 
-/// Returns the mesh's vertices as one polytope, whose hull extends far beyond a non-convex mesh.
+/// Returns the mesh's vertices as one polytope. Its hull extends far beyond a non-convex mesh.
 fn hull(mesh: &Mesh) -> Polytope {
     Polytope {
         points: mesh.vertices.clone(),
@@ -44,7 +44,7 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
     }
 }
 
-/// A difference in the last bit separates inside from outside.
+/// Tests that points a last bit off the surface are located inside or outside.
 #[test]
 fn points_a_rounding_off_the_surface_are_not_on_it() {
     let mesh = cuboid(DVec3::ONE).mesh;
@@ -60,7 +60,7 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     }
 }
 
-/// The mean of three numbers is not exact in binary.
+/// Tests that the mean of three points, which is not exact in binary, is located exactly.
 #[test]
 fn thirds_are_exact() {
     let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
@@ -84,7 +84,7 @@ fn triangles_without_an_area_hold_their_segment() {
     ));
 }
 
-/// The points are on the same grid as the mesh, so that vertical rays pass through edges and vertices.
+/// Tests points on the same grid as the mesh, whose vertical rays pass through edges and vertices.
 #[test]
 fn rays_through_edges_and_vertices_count_once() {
     let mesh = l_prism().mesh;
@@ -136,7 +136,8 @@ fn cavities_are_outside_and_windings_add_up() {
     }
 }
 
-/// Winding numbers from solid angles in floating point differ only next to the surface.
+/// Compares locations with winding numbers from solid angles in floating point, which differ only next to the
+/// surface.
 #[test]
 fn solid_angles_give_the_same_locations() {
     let mut all_outside = 0;
@@ -180,7 +181,7 @@ fn nearby(p: DVec3, triangle: [DVec3; 3]) -> bool {
     point_triangle(p, triangle).distance(p) <= 1e-9
 }
 
-/// Rounded points of a slanted face are off the face: some inside, some outside.
+/// Tests that rounded points of a slanted face are off the face, some inside and some outside.
 #[test]
 fn rounded_points_of_a_face_are_located_by_its_plane() {
     let inputs = (direction(), 1..64u32, 1..64u32);

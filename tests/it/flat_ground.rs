@@ -1,5 +1,5 @@
-//! Bodies that slide on triangulated flat ground have no contacts with its inner edges, only with bodies that stand on
-//! it.
+//! Tests that bodies that slide on triangulated flat ground have no contacts with its inner edges, only with bodies
+//! on it.
 
 use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -13,10 +13,10 @@ use rand_pcg::Pcg64;
 use rigid_ccd::Solver;
 use std::f64::consts::PI;
 
-/// Half of the ground's length and width.
+/// Half of the ground's length and width, in units of length.
 const HALF: f64 = 8.0;
 
-/// The allowed earliness of a contact: the search ignores contacts up to the least tolerance.
+/// The time by which a contact may be early, because the search ignores contacts up to the least tolerance.
 const EARLY: f64 = 1e-9;
 
 fn leave() -> Settings {
@@ -59,7 +59,7 @@ fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     Mesh { vertices, faces }
 }
 
-/// Closes a sheet with walls, and a bottom one unit below.
+/// Returns the closed solid of a sheet with walls, and a bottom one unit below.
 fn slab(top: Mesh) -> Mesh {
     let count = top.vertices.len() as u32;
     let Mesh {
@@ -129,7 +129,7 @@ fn drawn(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
     }
 }
 
-/// A body that slides and rotates on cut ground is as free as on a single face.
+/// Tests that a body that slides and rotates on cut ground is as free as on a single face.
 #[test]
 fn bodies_that_slide_on_cut_ground_are_free() {
     drawn(24, |rng, seed| {
@@ -160,7 +160,7 @@ fn bodies_that_slide_on_cut_ground_are_free() {
     });
 }
 
-/// A body hits a block on the ground, however low, at the right time.
+/// Tests that a body hits a block on the ground, however low, at the right time.
 #[test]
 fn a_block_on_cut_ground_is_hit_at_the_right_time() {
     drawn(16, |rng, seed| {
@@ -203,7 +203,7 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
     });
 }
 
-/// The ground has a thousand triangles, of which few are visited.
+/// Tests ground of a thousand triangles, of which few are visited.
 #[test]
 fn ground_of_a_thousand_triangles_is_as_one() {
     drawn(4, |rng, seed| {
@@ -231,7 +231,7 @@ fn ground_of_a_thousand_triangles_is_as_one() {
     });
 }
 
-/// A ball rolls over the cuts, up to the wall.
+/// Tests a ball that rolls over the cuts, up to the wall.
 #[test]
 fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     drawn(16, |rng, seed| {
@@ -270,8 +270,8 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     });
 }
 
-/// Open surfaces have no inner side: two that meet edge to edge, or in the same plane, are in contact at the right
-/// time.
+/// Tests open surfaces, which have no inner side: two that meet edge to edge, or in the same plane, are in contact at
+/// the right time.
 #[test]
 fn sheets_within_one_plane_meet() {
     let sheet = |from: f64, to: f64| {

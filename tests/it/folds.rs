@@ -1,4 +1,5 @@
-//! A fold with the least or the greatest of two numbers loses none, whatever the compiler does with it.
+//! Tests that a fold with the least or the greatest of two numbers loses no element, whatever the compiler does with
+//! it.
 //!
 //! Some compilers lose the last elements of a fold with `f64::min`: those that are left over when the
 //! loop is cut into vectors and its length is known and small. These are two affected loops: one over
@@ -8,7 +9,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::hint::black_box;
 
-/// Each element of arrays of up to 16 elements is once the one to find.
+/// Tests arrays of up to 16 elements, in which each element is once the least or the greatest.
 #[test]
 fn no_element_is_lost() {
     macro_rules! at_lengths {
@@ -20,7 +21,7 @@ fn no_element_is_lost() {
     assert!(lost.is_empty(), "lost, as (length, position): {lost:?}");
 }
 
-/// Returns the lengths and positions of elements that were not found.
+/// Returns the array lengths and positions for which the fold lost the element.
 fn lost_of<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
     (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
 }
@@ -59,7 +60,7 @@ fn in_a_row<const N: usize>(
         .fold(start, |best, &x| better(best, roots(x)))
 }
 
-/// Computes a value with code too long for the loop around it to be unrolled.
+/// Computes a value with so much code that the compiler does not unroll the loop around it.
 #[inline(always)]
 fn roots(x: f64) -> f64 {
     let root = |x: f64| x.sqrt().sqrt().sqrt().sqrt();

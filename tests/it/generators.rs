@@ -1,4 +1,4 @@
-//! Random cases cover every kind of outcome.
+//! Tests that random cases cover every kind of outcome.
 
 use ccd_tests::case::Case;
 use ccd_tests::checks::Judge;
@@ -34,7 +34,7 @@ fn remote_cases_hit_and_miss() {
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
-/// The numbers of outcomes in 200 cases.
+/// The numbers of outcomes of each kind in 200 cases.
 #[derive(Debug, Default)]
 struct Shares {
     hits: u32,

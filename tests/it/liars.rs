@@ -1,4 +1,4 @@
-//! An oracle that breaks its contract makes the engine slow or unresolved, but never late or wrong.
+//! Tests that an oracle that breaks its contract makes the engine slow or unresolved, but never late or wrong.
 
 use ccd_core::Unresolved;
 use ccd_core::glam::DVec3;
@@ -13,7 +13,7 @@ use ccd_tests::strategies::{cases, check_cases, crowded_cases};
 use proptest::strategy::Strategy;
 use std::cell::Cell;
 
-/// A budget that is enough for an honest oracle; a liar may exhaust it.
+/// A work budget that is enough for an honest oracle. An oracle that lies may exhaust it.
 const BUDGET: u64 = 20_000;
 
 #[test]
@@ -26,7 +26,7 @@ fn lies_about_overlapping_bodies_never_set_them_free() {
     every_lie_keeps_the_law(crowded_cases());
 }
 
-/// Checks that some queries are answered in spite of the liar, and others are not.
+/// Tests cases with every kind of lie: some queries are answered in spite of it, and others are not.
 fn every_lie_keeps_the_law(cases: impl Strategy<Value = Case>) {
     let (answered, unresolved) = (Cell::new(0), Cell::new(0));
     check_cases(100, cases, |case| {

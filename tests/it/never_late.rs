@@ -1,4 +1,4 @@
-//! Random cases against the independent referee: never late, never false, tight.
+//! Compares answers to random cases with the independent referee: they are never late, never false, and tight.
 
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::case::Case;

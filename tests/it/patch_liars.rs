@@ -1,4 +1,4 @@
-//! The laws of patches detect wrong patches: each kind of fault is found by the law that it breaks.
+//! Tests that the checks of patches detect wrong patches: each kind of fault is found by the check for it.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -7,7 +7,7 @@ use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
 use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
 
-/// Returns the cube as a single, correct patch.
+/// Returns a cube, and its surface as a single, correct patch.
 fn cube() -> (Mesh, Polytope) {
     let shape = cuboid(DVec3::ONE);
     let vertex_ids = (0..8).collect();
@@ -106,7 +106,8 @@ fn pair(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     }
 }
 
-/// Returns the number of face pairs whose hull is found to leave the solid, and checks it against the exact predicate.
+/// Returns the number of pairs of faces whose hull is found to leave the solid, and compares each with the exact
+/// predicate.
 fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     let solid = Solid::new(mesh);
     let mut found = 0;
@@ -126,7 +127,7 @@ fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     found
 }
 
-/// The L is the union of two boxes, and a hull that leaves it passes over the inner corner at (1, 1).
+/// Tests the L, a union of two boxes. A hull that leaves it passes over the inner corner at (1, 1).
 #[test]
 fn a_hull_across_the_inner_corner_of_an_l_is_found() {
     let mesh = l_prism().mesh;
@@ -159,7 +160,7 @@ fn a_hull_across_the_hole_of_a_torus_is_found() {
     assert!(found > 500, "{found}");
 }
 
-/// The smallest excess is found: a facet lies below the bottom of a dent by a rounding error.
+/// Tests that the smallest excess is found: a facet lies below the bottom of a dent by a rounding error.
 #[test]
 fn a_hull_a_rounding_out_of_the_solid_is_found() {
     let mut mesh = cuboid(DVec3::ONE).mesh;

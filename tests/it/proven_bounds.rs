@@ -1,5 +1,5 @@
-//! Every bound that an answer along a trajectory proves, compared with sampled distances, including at knots, for all
-//! questions, kinds of trajectory and tolerances.
+//! Compares every bound that an answer along a trajectory proves with sampled distances, including those at knots,
+//! for all questions, kinds of trajectory and tolerances.
 
 use ccd_core::Moving;
 use ccd_core::Unresolved;
@@ -16,13 +16,13 @@ use rigid_ccd::Solver;
 use rigid_ccd::trajectory::Poses;
 use std::io::Write;
 
-/// The distance within which the bodies move.
+/// The distance from the origin within which the bodies move.
 const REACH: f64 = 2.0;
 
-/// The rounding error of distances and poses in this test: coordinates are below 32.
+/// The rounding error of distances and poses in this test, for coordinates below 32.
 const ROUNDING: f64 = 2e-14;
 
-/// Two solids on trajectories from time 0 to 1.
+/// Two solids on trajectories over the times 0 to 1.
 struct Scene {
     kinds: [usize; 2],
     solids: [Solid; 2],
@@ -54,7 +54,7 @@ impl Scene {
         a.distance(&b)
     }
 
-    /// Samples the distance at even times, at and beside all knots, and more finely around the least distance.
+    /// Samples the distance at even times, at and next to all knots, and more finely around the least distance.
     fn samples(&self) -> Samples {
         const EVEN: u32 = 48;
         let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
@@ -99,7 +99,7 @@ fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>
     }
 }
 
-/// Distances at sampled times.
+/// Pairs of a sampled time and the distance then.
 struct Samples(Vec<(f64, f64)>);
 
 impl Samples {
@@ -110,7 +110,7 @@ impl Samples {
             .fold(f64::INFINITY, lesser)
     }
 
-    /// Checks a lower bound of the distance at all chosen times.
+    /// Checks a lower bound of the distance at all chosen sample times.
     fn at_least(&self, bound: f64, chosen: impl Fn(f64) -> bool, what: &str) -> Law {
         let chosen = self.0.iter().filter(|sample| chosen(sample.0));
         for &(time, distance) in chosen {
@@ -123,7 +123,7 @@ impl Samples {
     }
 }
 
-/// The numbers of answers of each kind.
+/// The number of answers of each kind.
 #[derive(Debug, Default)]
 struct Tally {
     free: u64,
@@ -131,7 +131,7 @@ struct Tally {
     start: u64,
     measured: u64,
     unresolved: u64,
-    /// The number of scenes that are free for one question, and a contact within the tolerance for another.
+    /// The number of scenes that are free for one question, and in contact within the tolerance for another.
     grazes: u64,
 }
 
@@ -168,7 +168,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Checks the distance and the bounds of a contact at a time.
+    /// Checks the distance at a reported contact, and the contact's bounds.
     fn contact(&self, time: f64, contact: &Contact, tolerance: f64) -> Law {
         let distance = self.scene.distance(time);
         let (lower, upper) = (contact.separation.lower, contact.separation.upper);
@@ -181,7 +181,7 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks the proven gap of free bodies: a true lower bound, at least half the tolerance beyond the margin.
+    /// Checks the proven gap of free bodies. It is a true lower bound, at least half the tolerance beyond the margin.
     fn free(&self, proven_gap: f64) -> Law {
         let Settings {
             margin, tolerance, ..
@@ -194,7 +194,7 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks that there is no contact before a time.
+    /// Checks that the bodies are not in contact before a time.
     fn safe(&self, until: f64) -> Law {
         let margin = self.config.margin;
         (self.samples).at_least(margin, |time| time < until, "before a contact")
@@ -329,7 +329,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Checks the same for motions, which have no trajectory.
+    /// Checks the answers for motions, which are not trajectories, by the same rules.
     fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> Law {
         let motion = |k: usize| -> Motion {
             let way = self.scene.ways[k].stretch(0.0, 1.0);
@@ -391,7 +391,7 @@ fn no_bound_is_above_a_sampled_distance() {
     assert!(grazes < many && unresolved < count / 50, "{tally:?}");
 }
 
-/// A ball approaches a box at a knot to within the tolerance.
+/// Tests a ball that approaches a box to within the tolerance at a knot.
 #[test]
 fn an_approach_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     let (ball, wall) = (

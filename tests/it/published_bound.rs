@@ -1,4 +1,5 @@
-//! The paper's bound uses only the current pose: it is late for rotating arms, and the sound bound is not.
+//! Tests the paper's bound, which uses only the current pose: it is late for rotating arms, and the sound bound is
+//! not.
 
 use ccd_core::Bound;
 use ccd_core::glam::{DQuat, DVec3};
@@ -12,7 +13,7 @@ use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Returns the schedules that divide a distance by a bound, with the given bound.
+/// Returns the two schedules that divide a distance by a bound on the rate, with the given bound.
 fn schedules(bound: Bound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
@@ -21,7 +22,7 @@ fn answers(problem: &ccd_core::Query<'_>, bound: Bound) -> [Answer; 2] {
     schedules(bound).map(|mut schedule| schedule.first_contact(problem, &mut Gjk).unwrap())
 }
 
-/// Returns the delay of an answer after the contact, infinite if it misses the contact.
+/// Returns how long after the true contact an answer is; infinity if it misses the contact.
 fn lateness(answer: &Answer, contact: f64) -> f64 {
     match answer.outcome {
         Outcome::Contact { time, .. } => time - contact,
@@ -58,7 +59,7 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
     }
 }
 
-/// Returns a query of a rod of 1 : 20 in any pose, at some distance, that flies at another one and rotates.
+/// Returns a query of two rods of 1 : 20 in random orientations. One of them flies at the other and rotates.
 fn rods(rng: &mut Pcg64) -> Query {
     let mut vector = |size: f64| {
         let mut coordinate = || rng.random_range(-size..size);

@@ -1,4 +1,4 @@
-//! Random cases with every question, compared with the independent referee and with each other.
+//! Compares the answers to every question about random cases with the independent referee and with each other.
 
 use ccd_core::Outcome;
 use ccd_tests::backends::default_answer;
@@ -55,7 +55,7 @@ fn every_question(case: &Case) -> Law {
     law
 }
 
-/// Checks that the bounds of the least distance do not contradict a first contact.
+/// Checks that the bounds of the least distance do not contradict the first contact.
 fn agree(first: &Outcome, closest: &Outcome) -> Law {
     let upper = closest.upper();
     match first {

@@ -1,4 +1,4 @@
-//! Contacts have the same names for every kind of pieces.
+//! Tests that contacts have the same feature names for every kind of pieces.
 
 use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
@@ -17,7 +17,7 @@ fn torn(mesh: &Mesh) -> Mesh {
     }
 }
 
-/// A mesh in triangles and in patches.
+/// A body made of triangles, and the same body made of patches.
 struct Body {
     mesh: Mesh,
     made: [Prepared; 2],
@@ -35,7 +35,7 @@ impl Body {
         self.mesh.vertices.iter().map(|p| p.z)
     }
 
-    /// Returns a pose slightly above another body, shifted, and rotated about the upright axis.
+    /// Returns a pose on top of another body, at a small gap, shifted, and rotated about the upright axis.
     fn resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
         let top = other.heights().fold(f64::NEG_INFINITY, greater);
         let bottom = self.heights().fold(f64::INFINITY, lesser);
@@ -44,7 +44,7 @@ impl Body {
     }
 }
 
-/// Returns the names of the features in contact, in order.
+/// Returns the pairs of feature names in contact, sorted.
 fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     let still = |made, pose| Moving::from((made, Motion::still(pose)));
     let (a, b) = (still(&a.body, pose), still(&b.body, Pose::IDENTITY));
@@ -55,7 +55,7 @@ fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     names
 }
 
-/// The meshes have vertices on edges and within sides, which are no corners of a patch, and vertices at equal
+/// Tests meshes with vertices on edges and within sides, which are no corners of a patch, and with vertices at equal
 /// positions.
 #[test]
 fn triangles_and_patches_have_the_same_names() {

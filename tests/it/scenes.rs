@@ -1,4 +1,4 @@
-//! Every scene with a closed-form answer, for every setup and tolerance, and with the bodies swapped.
+//! Tests every scene with a closed-form answer, for every setup and tolerance, and with the bodies swapped.
 
 use ccd_core::order::lesser;
 use ccd_core::{Answer, Outcome, Settings};
@@ -11,7 +11,7 @@ use ccd_tests::referee::Finding;
 use ccd_tests::tolerance::CLOSED_FORM;
 use std::fmt::Debug;
 
-/// Defines one test per group of scenes, by the beginning of their names.
+/// Defines one test for each group of scenes. A group is the scenes whose names have a common beginning.
 macro_rules! groups {
     ($($test:ident: $prefix:literal,)*) => {$(
         #[test]
@@ -78,12 +78,12 @@ fn check_group(prefix: &str) {
     }
 }
 
-/// Returns the size to which tolerances are proportional, at most 1.
+/// Returns the size of a scene to which tolerances are proportional, at most 1.
 fn size(scene: &Scene) -> f64 {
     lesser(1.0, scene.query.a.reach(0.0))
 }
 
-/// Checks the referee, which judges all answers, against the closed form.
+/// Checks the referee's finding against the scene's closed form.
 fn check_finding(
     Scene {
         name,
@@ -184,7 +184,7 @@ fn check_answer(
     Ok(())
 }
 
-/// Checks answers for the same motions given as user-defined trajectories.
+/// Checks the answers for the same motions, given as user-defined trajectories.
 fn check_along(
     judge: &Judge<'_>,
     scene: &Scene,

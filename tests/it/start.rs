@@ -1,4 +1,4 @@
-//! A contact at the start is reported, or ignored as long as the bodies do not approach.
+//! Tests contacts at the start, which are reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::rounding::RESTING;
@@ -48,8 +48,8 @@ fn is_touching(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Touching { .. })
 }
 
-/// T10: a slide within the tolerance. Along the diagonal on which the slab's two triangles meet, no triangle passes
-/// onto another.
+/// Tests T10, a slide within the tolerance along the diagonal on which the slab's two triangles meet. No triangle
+/// passes onto another.
 #[test]
 fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
@@ -61,7 +61,7 @@ fn sliding_within_the_tolerance_is_free() {
     outcomes(&sliding(1e-6, -DVec3::X).query, &leave(1e-8), is_free);
 }
 
-/// T10: a slide onto another piece. The edge of the next triangle is flat ground as well.
+/// Tests T10, a slide onto another piece. The edge of the next triangle is flat ground as well.
 #[test]
 fn sliding_onto_another_piece_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
@@ -69,7 +69,7 @@ fn sliding_onto_another_piece_is_free() {
     }
 }
 
-/// T11: bodies that touch, and then part.
+/// Tests T11, bodies that touch at the start and then separate.
 #[test]
 fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
@@ -83,7 +83,7 @@ fn touching_and_parting_is_free() {
     }
 }
 
-/// T11: bodies that touch, and then approach.
+/// Tests T11, bodies that touch at the start and then approach.
 #[test]
 fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
@@ -99,7 +99,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
     }
 }
 
-/// A plane separates coplanar triangles on either side, but solids only on the outside.
+/// Tests that a plane separates coplanar triangles on either side, but solids only on the outside.
 #[test]
 fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     let cube = || cuboid(DVec3::splat(0.5));
@@ -122,7 +122,7 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     }
 }
 
-/// The allowance of a resting contact is used up in a few steps, not in one for each bit.
+/// Tests that the allowance of a resting contact is used up in a few steps, not in one step for each bit.
 #[test]
 fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
@@ -139,8 +139,8 @@ fn a_very_slow_approach_takes_few_steps() {
     }
 }
 
-/// A box is within the margin of a floor eighty times its size. Across so small a gap, the direction of the nearest
-/// points is not exact enough to separate sliding from approaching; the features' normals are.
+/// Tests a box within the margin of a floor eighty times its size. Across so small a gap, the direction of the
+/// nearest points is not exact enough to separate sliding from approaching; the features' normals are.
 #[test]
 fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     let floor = cuboid(DVec3::new(8.0, 8.0, 0.5)).moved(-0.5 * DVec3::Z);
@@ -181,7 +181,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     }
 }
 
-/// A backend's claim about a pair at the start must not release the pair without proof.
+/// Tests that a backend's claim about a pair at the start does not release the pair without proof.
 #[test]
 fn a_liar_cannot_release_a_pair() {
     let spike = Shape::open(Mesh {
@@ -215,7 +215,7 @@ fn a_liar_cannot_release_a_pair() {
     }
 }
 
-/// An oracle that returns the right points with a wrong axis.
+/// An oracle that returns the right nearest points with a wrong axis.
 struct AxisLiar(DVec3, ClosedForm);
 
 impl DistanceOracle for AxisLiar {
@@ -292,8 +292,8 @@ fn without_contact_at_the_start_both_policies_agree() {
     );
 }
 
-/// Two triangles start in contact, up to rounding, and approach. The accuracy of their distance depends on the last
-/// digits of their positions.
+/// Tests two triangles that start in contact, up to rounding, and approach. The accuracy of their distance depends on
+/// the last digits of their positions.
 #[test]
 fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
     let triangle = |corners: [DVec3; 3]| {

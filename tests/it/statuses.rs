@@ -1,4 +1,4 @@
-//! Touching, overlapping and inside: the state at the start decides.
+//! Tests the state at the start that is reported: touching, overlapping, or one body inside the other.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
@@ -24,8 +24,7 @@ fn outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
     });
 }
 
-/// Returns true if a body is reported inside the other. If pieces may fill the inside, they may
-/// also be reported as overlapping.
+/// Returns true if a body is reported inside the other. If pieces may fill the inside, overlapping is also right.
 fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
     match outcome {
         Outcome::Overlapping {
@@ -84,7 +83,7 @@ fn overlaps_in_any_way(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Overlapping { .. })
 }
 
-/// No triangle crosses another one: all contacts are flush.
+/// Tests flush solids: no triangle crosses another one.
 #[test]
 fn flush_solids_overlap() {
     let inscribed = octahedron(0.5);
@@ -99,8 +98,8 @@ fn flush_solids_overlap() {
     }
 }
 
-/// The claim of the oracle is used for polytopes with more edge pairs than are tried as axes: all pairs would take a
-/// thousand times as long.
+/// Tests that the oracle's claim is used for polytopes with more edge pairs than are tried as axes. All pairs would
+/// take a thousand times as long.
 #[test]
 fn polytopes_of_many_facets_overlap() {
     let ball = || icosphere(1.0, 3);
@@ -126,7 +125,7 @@ fn octahedron(radius: f64) -> Shape {
     })
 }
 
-/// Needles cross at their middles, where an oracle's common point is accurate to 1e-12 at best.
+/// Tests needles that cross at their middles, where an oracle's common point is accurate to 1e-12 at best.
 #[test]
 fn needles_that_cross_overlap() {
     let needle = |thickness: f64| {
@@ -158,7 +157,7 @@ fn needles_that_cross_overlap() {
     }
 }
 
-/// Bodies far smaller than the tolerance are examined once, not repeatedly.
+/// Tests that bodies far smaller than the tolerance are examined once, not repeatedly.
 #[test]
 fn bodies_far_smaller_than_the_tolerance_are_answered() {
     for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
@@ -233,7 +232,7 @@ fn the_second_of_two_shells_is_found_inside() {
     outcomes_by_kind(&query(big, two, DVec3::ZERO), b_in_a);
 }
 
-/// The patches of a rough surface do not fill the middle of its solid.
+/// Tests a body in the middle of a solid whose patches do not fill it, because its surface is rough.
 #[test]
 fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
     let found = Cell::new(0);

@@ -1,9 +1,9 @@
-//! Unit vectors come only from `ccd_core::vector`. Those of glam are not of unit length if squares underflow, and a
-//! distance along them is not proven.
+//! Tests that unit vectors come only from `ccd_core::vector`. Those of glam are not of unit length if squares
+//! underflow, and a distance along them is not proven.
 
 use std::path::{Path, PathBuf};
 
-/// The files that may normalise, each with the reason why the result is no axis.
+/// The files that may normalise vectors otherwise, each with the reason why the result is no axis of a proof.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("ccd-core/src/motion/pose.rs", "a quaternion, scaled first"),
     ("ccd-core/src/motion/interop.rs", "a quaternion of nalgebra"),
@@ -46,7 +46,7 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
     );
 }
 
-/// All source files in a folder, except tests.
+/// Collects all source files in a folder, except tests.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     const TESTS: [&str; 2] = ["tests", "tests.rs"];
     for entry in std::fs::read_dir(folder).expect("a folder") {

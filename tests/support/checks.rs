@@ -1,4 +1,4 @@
-//! The laws of every answer, checked against the referee and against the bodies.
+//! Checks every answer against the referee and against the bodies.
 
 mod questions;
 
@@ -12,18 +12,18 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Contact, Feature, Outcome, Overlap, Piece, Separation, Settings};
 
-/// A judge of answers to one query, by the referee's findings.
+/// A judge of the answers to one query, which compares them with the referee's findings.
 pub struct Judge<'a> {
     query: &'a Query,
     config: Settings,
     referee: Referee<'a>,
     finding: Finding,
     nested: bool,
-    /// The least distance at a few sampled times.
+    /// Pairs of a sampled time and the least distance then.
     samples: Vec<(f64, f64)>,
 }
 
-/// `Ok` if the law holds, otherwise the reason why not.
+/// The result of a check: `Ok`, or the reason why the answer is wrong.
 pub type Law = Result<(), String>;
 
 /// Returns an error with the reason unless the condition holds; comparisons with NaN do not hold.
@@ -38,7 +38,7 @@ macro_rules! law {
 }
 
 impl<'a> Judge<'a> {
-    /// Runs the referee on a query.
+    /// Creates the judge of a query, and runs the referee.
     pub fn new(query: &'a Query, config: &Settings) -> Self {
         let referee = Referee::with_margin(query, config.margin);
         let time = |k: u32| query.duration * f64::from(k) / 16.0;
@@ -52,7 +52,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the same judge for another tolerance, without running the referee again.
+    /// Returns the judge with another tolerance, without running the referee again.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         let config = Settings {
             tolerance,
@@ -61,12 +61,12 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
-    /// Returns the settings of the answers to judge.
+    /// Returns the settings of the answers that are judged.
     pub fn config(&self) -> Settings {
         self.config.clone()
     }
 
-    /// Returns the referee's finding.
+    /// Returns the referee's finding about the first contact.
     pub fn finding(&self) -> Finding {
         self.finding
     }
@@ -76,8 +76,8 @@ impl<'a> Judge<'a> {
         self.nested
     }
 
-    /// Checks an answer under the start policy `Report`: never late, never false, tight and resolved, with a contact as
-    /// claimed.
+    /// Checks an answer under the start policy `Report`: it is never late, never false, tight and resolved, with a
+    /// contact as claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -96,8 +96,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by
-    /// `more` than this one.
+    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by `more` than this
+    /// one.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -154,7 +154,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
-    /// are not checked, as they need not be closed together.
+    /// are not checked, because they need not be closed together.
     fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let placements = Placement::pair(self.query);
         let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();
@@ -192,7 +192,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Checks witnesses, normal, bounds and features of a contact.
+/// Checks the witnesses, the normal, the bounds and the features of a contact.
 ///
 /// # Errors
 /// The one that is wrong.
@@ -275,7 +275,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Law
     Ok(())
 }
 
-/// One body's side of a contact.
+/// One of the two bodies of a contact.
 struct Side<'a> {
     actor: &'a Actor,
     body: &'a Body,

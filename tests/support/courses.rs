@@ -1,4 +1,4 @@
-//! Random trajectories of every kind, over the times from 0 to 1.
+//! Generates random trajectories of every kind, over the times from 0 to 1.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
@@ -8,7 +8,7 @@ use rigid_ccd::trajectory::{
     Ballistic, Carried, Chain, Curve, Joint, Pace, Poses, Spline, Steady, Timed, Turns, screw,
 };
 
-/// The kinds of trajectories.
+/// The names of the kinds of trajectories.
 pub const KINDS: [&str; 13] = [
     "motion",
     "still",
@@ -25,13 +25,13 @@ pub const KINDS: [&str; 13] = [
     "zigzag",
 ];
 
-/// Returns a random trajectory of a kind, an index of [`KINDS`], of length about `reach` and within about `reach` of
-/// the origin.
+/// Returns a random trajectory of a kind, given by its index in [`KINDS`]. Its length is about `reach`, and it stays
+/// within about `reach` of the origin.
 pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
     of_kind(rng, KINDS[kind], reach).expect("finite numbers")
 }
 
-/// Returns whether a kind is a single motion.
+/// Returns whether trajectories of a kind are a single motion.
 pub fn is_motion(kind: usize) -> bool {
     ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
 }
@@ -139,7 +139,7 @@ fn points(rng: &mut Pcg64, count: usize, reach: f64) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, reach).to_array()).collect()
 }
 
-/// Returns orientations with rotations of less than 1 radian from one to the next.
+/// Returns random orientations at times, with rotations of less than 1 radian from one to the next.
 fn keys(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
     let count = rng.random_range(2..6);
     let mut at = DQuat::from_scaled_axis(vector(rng, 3.0));
@@ -160,7 +160,7 @@ fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
     }
 }
 
-/// The last link of a chain, which it owns.
+/// A trajectory of the last link of a kinematic chain, which it owns.
 struct Hand {
     chain: Chain,
     positions: [Vec<f64>; 2],
@@ -173,7 +173,7 @@ impl Trajectory for Hand {
     }
 }
 
-/// A user-defined trajectory that oscillates with a sine of the time, without known accelerations.
+/// A user-defined trajectory that oscillates as a sine of the time, and whose accelerations are not known.
 struct Swing {
     place: DVec3,
     along: DVec3,

@@ -1,4 +1,4 @@
-//! Locates points relative to closed meshes, without rounding, to judge decompositions.
+//! Locates points relative to closed meshes without rounding, to judge decompositions.
 //!
 //! It shares no code with the code under test.
 
@@ -19,15 +19,15 @@ use std::cmp::Ordering;
 /// The location of a point relative to a closed mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// The winding number is zero.
+    /// The point is outside: its winding number is zero.
     Outside,
-    /// The point is on a face.
+    /// The point is on a face of the mesh.
     Surface,
-    /// The winding number; negative for a mesh that is inside out.
+    /// The point is inside, with a winding number that is negative for a mesh that is inside out.
     Inside(i32),
 }
 
-/// A closed mesh, prepared for locating points.
+/// A closed mesh with a search structure for locating points.
 pub struct Solid<'a> {
     mesh: &'a Mesh,
     columns: Columns,
@@ -67,7 +67,7 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
 }
 
 impl<'a> Solid<'a> {
-    /// Prepares a closed mesh: every edge has the same number of faces in either direction.
+    /// Prepares a closed mesh. Every edge must have the same number of faces in either direction.
     pub fn new(mesh: &'a Mesh) -> Self {
         Solid {
             mesh,
@@ -75,7 +75,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Locates a point by the faces that an upward ray from it crosses.
+    /// Locates a point exactly, by the faces that an upward ray from it crosses.
     ///
     /// The ray is moved sideways by (ε, ε²), with ε smaller than any number. It therefore meets no
     /// edge and no upright face, and there are no special cases.
@@ -111,8 +111,8 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     })
 }
 
-/// Returns 1 if the displaced upward ray from a point leaves through a triangle, −1 if it enters, else 0.
-/// 0. The triangle must not contain the point.
+/// Returns 1 if the displaced upward ray from a point leaves through a triangle, −1 if it enters, and 0 if it misses.
+/// The triangle must not contain the point.
 fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
     let [a, b, c] = triangle;
     let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(VIEWS[0], edge, p) {
@@ -134,12 +134,12 @@ fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
     }
 }
 
-/// Returns the order of two finite numbers.
+/// Compares two finite numbers.
 fn ordered(x: f64, y: f64) -> Ordering {
     x.partial_cmp(&y).expect("finite coordinates")
 }
 
-/// The faces of a mesh, by the cells of a grid in the xy-plane that they cover.
+/// A grid in the xy-plane, with the faces of a mesh over each of its cells.
 struct Columns {
     lo: DVec2,
     cell: DVec2,

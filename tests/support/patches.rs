@@ -1,5 +1,5 @@
-//! The laws of a convex patch of a closed surface, checked exactly: its hull is in the solid, its faces are on its
-//! hull, and its names are right.
+//! Checks convex patches of a closed surface exactly: the hull is in the solid, the faces are on the hull, and the
+//! names are right.
 
 use crate::checks::Law;
 use crate::exact::{
@@ -15,9 +15,9 @@ use std::collections::HashMap;
 /// A convex patch: faces of a mesh, and the polytope that represents them.
 #[derive(Clone, Debug)]
 pub struct Claim<'a> {
-    /// The faces of the mesh, by number.
+    /// The numbers of the mesh faces in the patch.
     pub faces: &'a [u32],
-    /// The hull of the faces.
+    /// The polytope that is to be the hull of the faces.
     pub polytope: &'a Polytope,
 }
 
@@ -38,8 +38,7 @@ pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> Law {
     }
 }
 
-/// Checks that sampled points of a patch's hull are inside the solid or on its surface. Returns
-/// their number.
+/// Checks that sampled points of a patch's hull are inside the solid or on its surface. Returns the number of points.
 ///
 /// # Errors
 /// The point that is outside.
@@ -115,7 +114,7 @@ fn check_hull(polytope: &Polytope) -> Law {
     }
 }
 
-/// Returns triangles that make up a polygon, without degenerate ones.
+/// Returns triangles that make up a convex polygon, without degenerate ones.
 fn triangles<'a>(
     polytope: &'a Polytope,
     corners: &'a [u32],
@@ -198,14 +197,14 @@ fn outward(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3], String>
     Ok(if inside_out { [a, c, b] } else { [a, b, c] })
 }
 
-/// Returns true if a loop is that of a triangle, with any start.
+/// Returns true if a loop of vertices is that of a triangle, with any start.
 fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()
         .any(|it| corners == it)
 }
 
-/// Returns true if a convex polygon contains a point.
+/// Returns true if a convex polygon of the polytope contains a point.
 fn lies_on(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
     let spot = Blend::mean([p]);
     triangles(polytope, corners).any(|triangle| triangle_holds(triangle, &spot))

@@ -1,4 +1,5 @@
-//! All questions except the first contact, over every backend and kind of piece, and for user-defined trajectories.
+//! Asks all questions except the first contact, over every backend and kind of piece, and for user-defined
+//! trajectories.
 
 use crate::backends::Oracle;
 use crate::models::Kind;
@@ -10,7 +11,7 @@ use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settin
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// A motion as a user-defined trajectory: its tangents, without accelerations.
+/// A motion as a user-defined trajectory, with its tangents and without accelerations.
 #[derive(Clone, Copy, Debug)]
 pub struct Own(pub Motion);
 
@@ -26,45 +27,45 @@ impl Smooth for Own {
     }
 }
 
-/// The backend and the pieces of answers, to print if an assertion fails.
+/// The oracle and the pieces of an answer. It is printed if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OracleSetup {
-    /// The oracle.
+    /// The distance oracle that gave the answer.
     pub oracle: Oracle,
-    /// The kinds of pieces of the bodies.
+    /// The kinds of pieces of bodies A and B.
     pub kinds: [Kind; 2],
 }
 
-/// The answers to every question about motions.
+/// The answers to every question about two motions.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
-    /// Whether the bodies touch at all.
+    /// The answer to whether the bodies touch at all.
     pub any: Answer,
-    /// The least distance.
+    /// The answer about the least distance.
     pub closest: Answer,
-    /// A required distance, and whether the bodies keep it.
+    /// A required distance, and the answer to whether the bodies keep it.
     pub cleared: (f64, Answer),
 }
 
 /// The answers to every question about the same motions, given as user-defined trajectories.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswersAlong {
-    /// The first contact.
+    /// The answer about the first contact.
     pub first: Answer,
-    /// Whether the bodies touch at all.
+    /// The answer to whether the bodies touch at all.
     pub any: Answer,
-    /// The least distance.
+    /// The answer about the least distance.
     pub closest: Answer,
-    /// A required distance, and whether the bodies keep it.
+    /// A required distance, and the answer to whether the bodies keep it.
     pub cleared: (f64, Answer),
-    /// The greatest distance.
+    /// The answer about the greatest distance.
     pub greatest: Answer,
-    /// The first and the last contact.
+    /// The answer about the first and the last contact.
     pub interval: Answer,
 }
 
 impl Oracle {
-    /// All oracles.
+    /// All distance oracles.
     pub const ALL: [Oracle; 4] = [
         Oracle::ClosedForm,
         Oracle::Gjk,

@@ -1,4 +1,5 @@
-//! Exact signs for triangles of a list and in a projection `[SHE97]`, in addition to [`ccd_core::exact`].
+//! Exact predicates for triangles given by vertex indices, and for projections to a coordinate plane `[SHE97]`. They
+//! extend [`ccd_core::exact`].
 
 pub(crate) use ccd_core::exact::{is_degenerate, side, too_fine, turn_along};
 
@@ -7,8 +8,8 @@ use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::greater;
 use std::cmp::Ordering;
 
-/// Returns the [side] of a point, by indices into a list. A corner of the triangle needs no computation, which would be
-/// the predicate's slowest.
+/// Returns the exact [side] of the triangle's plane on which a point lies, by indices into `points`. A corner of the
+/// triangle needs no computation, which would be the predicate's slowest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
     if triangle.contains(&point) {
@@ -22,13 +23,13 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
 /// A coordinate plane on which a triangle projects to a non-zero area, and its orientation there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Projection {
-    /// The axis along which the triangle is projected.
+    /// The coordinate axis along which the triangle is projected.
     axis: usize,
     turned: bool,
 }
 
 impl Projection {
-    /// Returns a projection; `None` if the triangle is degenerate.
+    /// Chooses a coordinate plane on which the triangle has a non-zero area; `None` if the triangle is degenerate.
     pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
         (0..3).find_map(|axis| match turn_along(axis, [a, b], c) {
@@ -40,8 +41,8 @@ impl Projection {
         })
     }
 
-    /// Returns on which side of the line from `a` to `b` a point lies, all in the triangle's plane: `Greater` is to the
-    /// left, seen from the triangle's front.
+    /// Returns the side of the line from `a` to `b` on which a point of the triangle's plane lies: `Greater` is to
+    /// the left, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {
@@ -84,7 +85,7 @@ pub(crate) fn determinant(columns: [DVec3; 3]) -> Ordering {
     side([DVec3::ZERO, x, y], z)
 }
 
-/// Returns the first point with a coordinate that is not finite, or too large.
+/// Returns the index of the first point with a coordinate that is not finite or exceeds the supported range.
 pub(crate) fn too_large(points: &[DVec3]) -> Option<usize> {
     // Written so that NaN fails.
     let is_good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();

@@ -24,7 +24,7 @@ pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i
     }
 }
 
-/// Returns the `k`-th segment to try from a point to the outside of a mesh of a given size.
+/// Returns the `k`-th segment to try from the point `from` to the outside of a mesh of length `size`.
 ///
 /// It is nearly parallel to an axis, so that few boxes meet its box, but slightly tilted to avoid degenerate cases.
 pub(crate) fn probe(from: DVec3, size: f64, k: usize) -> [DVec3; 2] {

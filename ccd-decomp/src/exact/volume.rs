@@ -3,25 +3,26 @@
 use crate::tolerance::volume_rounding;
 use ccd_core::glam::DVec3;
 
-/// A sum of signed volumes, with the sum of magnitudes that bounds its rounding.
+/// A sum of signed volumes, and the sum of magnitudes that bounds its rounding error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SignedVolume {
     sum: f64,
-    /// The rounding errors of the sum.
+    /// The sum of the rounding errors of the additions.
     lost: f64,
     size: f64,
     terms: f64,
 }
 
 impl SignedVolume {
-    /// Sums the volumes, times six, between triangles and a point near the surface.
+    /// Sums six times the signed volumes of the tetrahedra between each triangle and the point `near`, which is near
+    /// the surface.
     pub(crate) fn of(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
         let mut volume = SignedVolume::default();
         triangles.for_each(|triangle| volume.add(triangle, near));
         volume
     }
 
-    /// Adds the volume, times six, between a triangle and a point near the surface.
+    /// Adds six times the signed volume of the tetrahedron between a triangle and the point `near`.
     fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
         let (arm, sides) = (p - near, [q - p, r - p]);
         let term = arm.dot(sides[0].cross(sides[1]));

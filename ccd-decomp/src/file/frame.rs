@@ -12,13 +12,13 @@ use super::error::{StoreFault, VERSION};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
-/// The first bytes, as in PNG: no text begins with them, and a transfer that converts line ends or strips the eighth
-/// bit damages them.
+/// The magic bytes at the start of a file, as in PNG: no text begins with them, and a transfer that converts line
+/// ends or strips the eighth bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 
-/// Writes a payload within its frame.
+/// Writes a payload between the header and the checksum that [`read`] verifies.
 pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     let mut header = Vec::with_capacity(HEADER);
     header.extend(MAGIC);
@@ -30,7 +30,7 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     writer.flush()
 }
 
-/// Reads a payload, and verifies its frame.
+/// Reads a payload, and verifies its header, length and checksum.
 ///
 /// # Complexity
 /// Linear in the bytes present, for any announced length.
@@ -66,7 +66,7 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     }
 }
 
-/// Reads up to `count` bytes.
+/// Reads up to `count` bytes; fewer if the reader ends before.
 fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
     let mut bytes = Vec::new();
     let taken = reader.take(count).read_to_end(&mut bytes);
@@ -74,7 +74,7 @@ fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
     Ok(bytes)
 }
 
-/// Splits off the next `N` bytes.
+/// Splits the next `N` bytes off the front of a slice.
 fn array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
     let (first, rest) = from.split_first_chunk().ok_or(StoreFault::Truncated)?;
     *from = rest;

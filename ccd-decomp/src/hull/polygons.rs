@@ -7,7 +7,7 @@ use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Merges triangles like [`for_each_polygon`], and returns only the corners.
+/// Merges triangles like [`for_each_polygon`], and returns the corners of each polygon.
 pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
     let mut loops = Loops::with_capacity(triangles.len(), 3 * triangles.len());
     for_each_polygon(points, triangles, |corners, _| loops.push(corners));
@@ -44,7 +44,7 @@ pub(crate) fn for_each_polygon(
     }
 }
 
-/// Drops the corners of a convex loop at which it is straight.
+/// Returns the corners of a convex polygon without those at which it is straight.
 pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -> Vec<u32> {
     let at = |k: usize| points[rim[k % rim.len()] as usize];
     (0..rim.len())
@@ -64,7 +64,7 @@ pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// Chains the directed edges of one loop to a list of vertices.
+/// Chains the directed edges of one closed loop into a list of vertices.
 fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     rim.sort_unstable();
     let Some(&(first, mut at)) = rim.first() else {
@@ -81,7 +81,7 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     corners
 }
 
-/// Returns the edges of a group that are not inside it, by their ends.
+/// Returns the boundary edges of a group of triangles, each by its two ends.
 fn rim(
     triangles: &[[u32; 3]],
     twins: &[HalfEdge],
@@ -101,7 +101,7 @@ fn rim(
     edges.filter(is_outer).map(ends).collect()
 }
 
-/// Returns the group of each triangle: connected coplanar triangles.
+/// Returns the group number of each triangle. A group is a set of connected coplanar triangles.
 fn groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge]) -> Vec<u32> {
     let mut groups = DisjointSets::new(triangles.len());
     for (edge, &twin) in (0..).zip(twins).filter(|(edge, twin)| edge < *twin) {

@@ -5,10 +5,10 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The corners and planes by testing all triples: a triple spans a facet if no point is in front.
+/// A brute-force hull. A triple of points spans a facet if no point is in front of its plane.
 struct Twin {
     corners: Vec<DVec3>,
-    /// The points on each facet, corners or not.
+    /// The indices of the points on each facet, corners or not.
     planes: BTreeSet<Vec<u32>>,
 }
 
@@ -46,7 +46,7 @@ impl Twin {
     }
 }
 
-/// Returns whether a point is in the hull of others in the same plane.
+/// Returns whether a point is in the convex hull of coplanar points.
 fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     let others = || distinct.iter().filter(|&&l| l != k).map(|&l| points[l]);
     let point = points[k];
@@ -64,7 +64,7 @@ fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     others().any(|a| others().any(|b| amid(a, b)))
 }
 
-/// Checks the guarantees of a hull, one by one, in exact arithmetic.
+/// Checks the guarantees of a hull one by one, in exact arithmetic.
 fn assert_proper(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| hull.points[v as usize];
     let mut edges = BTreeSet::new();
@@ -90,7 +90,7 @@ fn assert_proper(points: &[DVec3], hull: &Hull) {
     assert_eq!(v + f, e + 2, "Euler's formula");
 }
 
-/// Checks the hull of any points: they span a plane exactly if it has facets.
+/// Checks the hull of any points, and that it has no facets exactly if all points are on a line.
 fn assert_right(points: &[DVec3]) {
     let (hull, twin) = (hull(points).expect("in range"), Twin::of(points));
     if hull.facets.is_empty() {
@@ -108,7 +108,7 @@ fn proper(points: &[DVec3]) -> Hull {
     hull
 }
 
-/// Pseudo-random numbers in -1..1 by a linear congruence.
+/// Returns a generator of pseudo-random numbers in −1..1, by a linear congruence.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     move || {
@@ -243,14 +243,14 @@ fn a_coordinate_out_of_range_is_an_error(#[case] bad: DVec3) {
 }
 
 proptest! {
-    /// Few different coordinates make many coplanar, collinear and equal points.
+    /// Tests the hulls of points with few different coordinates, of which many are coplanar, collinear or equal.
     #[test]
     fn coarse_points(points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 1..18)) {
         let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
         assert_right(&points);
     }
 
-    /// Points within a few units in the last place of a plane, a line or each other.
+    /// Tests the hulls of points within a few units in the last place of a plane, a line or each other.
     #[test]
     fn hardly_apart(
         points in prop::collection::vec(prop::array::uniform3(-1_i8..=1), 4..14),

@@ -1,4 +1,4 @@
-//! Convex surface decomposition: a closed mesh becomes patches whose hulls lie inside the solid.
+//! Decomposes the surface of a closed mesh into convex patches, whose hulls lie inside the solid.
 
 mod growing_patch;
 mod obstacle;
@@ -19,10 +19,10 @@ use crate::work::Work;
 use growing_patch::{GrowingPatch, Join};
 use order::{Frontier, seeds};
 
-/// A decomposition of a mesh's surface into convex patches.
+/// A decomposition of a solid's surface into convex patches.
 #[derive(Clone, Debug)]
 pub struct Decomposition {
-    /// The patches. Every triangle of the mesh is in exactly one.
+    /// The patches, in the order in which they were made. Every triangle of the mesh is in exactly one.
     pub patches: Vec<Patch>,
 }
 
@@ -55,7 +55,7 @@ pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, Dec
     decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
 }
 
-/// Decomposes a surface that is known to bound a solid, given its polygons.
+/// Decomposes the surface of a solid into convex patches, given its convex polygons.
 ///
 /// # Errors
 /// [`DecomposeError::TooLong`] when the work does not suffice.
@@ -94,9 +94,9 @@ struct Grower<'a, 'm> {
     flats: &'a Flats,
     order: Order,
     work: &'a Work,
-    /// Whether a polygon belongs to a patch.
+    /// By polygon, whether it belongs to a patch.
     taken: Vec<bool>,
-    /// The last patch that refused each polygon. A refusal is final, because the hull only grows.
+    /// By polygon, the last patch that it was tested with. A refusal is final, because the hull only grows.
     tried: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! Approximation of a mesh by a few convex hulls, with errors that are certified on both sides.
+//! Approximates a mesh by a few convex hulls, with certified bounds on what they miss and on what they exceed.
 //!
 //! ```text
 //! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
@@ -35,7 +35,7 @@ use voxels::Voxels;
 /// polytope, whose radius this is. No point of a polytope is farther than `sticks_out` from S.
 #[derive(Clone, Debug)]
 pub(crate) struct Approximation {
-    /// The hulls, at most the requested number. Their facets are no part of the mesh.
+    /// The hulls, at most the requested number. None of their facets is part of the mesh.
     pub(crate) polytopes: Vec<Polytope>,
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.
@@ -47,35 +47,35 @@ pub(crate) struct Approximation {
 /// The reason why a mesh cannot be approximated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum VhacdError {
-    /// The number of hulls is 0.
+    /// The requested number of hulls is 0.
     #[error("a mesh cannot be approximated by no hulls")]
     NoHulls,
     /// A coordinate is too near to 0 for exact predicates.
     #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
     TooFine {
-        /// The vertex, by its number in the mesh.
+        /// The number of the vertex in the mesh.
         vertex: u32,
     },
-    /// The library failed on the mesh's voxels.
+    /// The library's V-HACD failed on the mesh's voxels.
     #[error("V-HACD failed on this mesh")]
     Library,
-    /// A part's hull could not be computed.
+    /// The hull of a part could not be computed.
     #[error("the hull of a part failed: {0}")]
     Hull(HullError),
-    /// The bound on the excess of the hulls is too large to be useful.
+    /// The certified bound on the excess of the hulls is too large to be useful.
     #[error(
         "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
          diagonal; mend the mesh, or use triangles"
     )]
     TooCoarse {
-        /// The certified bound.
+        /// The certified bound, in the mesh's unit of length.
         sticks_out: f64,
         /// The largest accepted bound, in the mesh's unit of length.
         limit: f64,
     },
 }
 
-/// Approximates a mesh by at most a number of hulls. A convex solid gets one hull, and so does a mesh without a
+/// Approximates a mesh by at most `hulls` convex hulls. A convex solid gets one hull, and so does a mesh without a
 /// suitable voxel grid.
 ///
 /// # Errors

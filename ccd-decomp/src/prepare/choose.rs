@@ -1,4 +1,4 @@
-//! `Detail::Auto`: chooses the fewest exact pieces.
+//! Chooses the fewest exact pieces for `Detail::Auto`.
 
 use super::parts::Parts;
 use super::report::{Estimate, Why};
@@ -66,7 +66,7 @@ fn only_triangles(error: DecomposeError) -> (Parts, Why) {
 }
 
 impl PlanarRegion {
-    /// Estimates the time of a query, if this part rests on another body in some queries.
+    /// Estimates the time of a query whose largest planar part rests on another body in some queries.
     fn estimate(self) -> Estimate {
         let cost = |of: PieceCost, count: usize| of.usual + FLAT_SHARE * of.resting * count as f64;
         Estimate {

@@ -1,4 +1,4 @@
-//! Oriented boxes.
+//! Oriented boxes, and the tests that separate them from points and shapes.
 
 use super::element::Element;
 use crate::tolerance::box_rounding;
@@ -7,19 +7,20 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::rounding::U64;
 use ccd_core::vector::unit;
 
-/// An oriented box: centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
+/// An oriented box: its centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
 /// rounding, and axes that are not exactly orthonormal.
 pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
     pub(super) halves: DVec3,
     pub(super) slack: f64,
-    /// The largest coordinate of any point of the box.
+    /// The largest absolute coordinate of any point of the box.
     pub(super) reach: f64,
 }
 
 impl OrientedBox {
-    /// Creates the box of some elements, aligned with the longest side and the corner farthest from it.
+    /// Creates a box around some elements. It is aligned with their longest side and the corner farthest from that
+    /// side.
     pub(super) fn about(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
@@ -55,8 +56,8 @@ impl OrientedBox {
         }
     }
 
-    /// Returns the axis along which the middles of some elements spread most. For the teeth of a comb this is not their
-    /// longest axis.
+    /// Returns the axis of the box along which the centres of some elements spread most. For the teeth of a comb this
+    /// is not the longest axis.
     pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
@@ -95,7 +96,7 @@ impl OrientedBox {
     }
 }
 
-/// Computes the dot products of a vector with three axes.
+/// Returns the dot products of a vector with three axes.
 #[inline]
 fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
     DVec3::new(
@@ -105,7 +106,7 @@ fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
     )
 }
 
-/// The interval that a shape covers along a direction.
+/// The interval that a shape covers along a unit vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     base: DVec3,
@@ -116,7 +117,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Computes the interval of some points along a unit vector.
+    /// Computes the interval that some points cover along a unit vector.
     pub(super) fn along(points: &[DVec3], direction: DVec3) -> Self {
         let base = points[0];
         let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
@@ -137,7 +138,7 @@ impl Extent {
         }
     }
 
-    /// Returns whether a box is certainly outside the interval.
+    /// Returns whether a box is certainly outside the interval, along the same unit vector.
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);

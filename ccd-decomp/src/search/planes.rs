@@ -1,4 +1,4 @@
-//! Planes that separate boxes from a shape.
+//! Tests by planes that separate oriented boxes from a shape.
 
 use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
@@ -8,13 +8,13 @@ use ccd_core::rounding::height_rounding;
 use ccd_core::vector::unit;
 use std::cmp::Ordering;
 
-/// A plane with a normal of any length, towards its front.
+/// A plane through a point, with a normal of any length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     foot: DVec3,
     normal: DVec3,
     far: f64,
-    /// A bound on the rounding error of heights, per unit of reach.
+    /// A bound on the rounding error of heights above the plane, per unit of the largest coordinate.
     rounding: f64,
 }
 
@@ -33,7 +33,7 @@ impl Plane {
         Plane::new(a, [b - a, c - a])
     }
 
-    /// Returns whether a box is certainly in front.
+    /// Returns whether a box is certainly in front of the plane.
     #[inline]
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
         let offset = oriented.centre - self.foot;
@@ -44,11 +44,11 @@ impl Plane {
     }
 }
 
-/// The number of facets of a hull that boxes are tested with.
+/// The maximum number of facets of a hull whose planes are tested with boxes.
 const PLANES: usize = 16;
 
-/// Returns planes with the shape on or behind them and the hub on or in front of them, exactly. A triangle of the hub
-/// and an edge in front of such a plane shares no point with the shape, except the hub.
+/// Returns planes that have the shape on or behind them and the hub on or in front of them, exactly. A triangle of
+/// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => {
@@ -84,7 +84,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     }
 }
 
-/// Separation tests of boxes and a shape.
+/// The tests by which oriented boxes are separated from a shape.
 pub(super) struct Apart<'a> {
     points: &'a [DVec3],
     extents: Vec<Extent>,
@@ -119,7 +119,7 @@ impl<'a> Apart<'a> {
     }
 }
 
-/// Computes the extents of a triangle along its normal, and in its plane across its sides.
+/// Computes the intervals of a triangle along its normal, and in its plane along the normals of its sides.
 fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
     let [a, b, c] = *corners;
     let sides = [b - a, c - b, a - c].map(|side| unit(side).unwrap_or(DVec3::ZERO));
@@ -131,8 +131,8 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
         .collect()
 }
 
-/// Like [`planes_beside`], for a triangle coplanar with the fan: planes parallel to a coordinate axis, through the hub
-/// and a corner, and along the edges.
+/// Returns planes like [`planes_beside`], for a triangle coplanar with the fan. They are parallel to a coordinate
+/// axis, through the hub and a corner, and along the edges.
 pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     let mut planes = Vec::new();
     if holds(*corners, hub) {
@@ -146,8 +146,8 @@ pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     planes
 }
 
-/// Adds the planes through a line, parallel to a coordinate axis, with some points on or behind them and the hub on or
-/// in front of them.
+/// Adds the planes through a line, parallel to a coordinate axis, that have some points on or behind them and the hub
+/// on or in front of them.
 fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
         let turn = |x: DVec3| turn_along(axis, [p, q], x);
@@ -161,7 +161,7 @@ fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: D
     }
 }
 
-/// Returns whether a triangle contains a point.
+/// Returns whether a triangle contains a point of its plane.
 fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
@@ -170,7 +170,7 @@ fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
 }
 
-/// Adds the plane through the hub and an edge, if the triangle's other corner is behind it.
+/// Adds the plane through the hub and an edge, if `rest`, the triangle's third corner, is behind it.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

@@ -1,4 +1,4 @@
-//! Self-intersections of a mesh.
+//! Finds the self-intersections of a mesh.
 
 mod plates;
 
@@ -9,7 +9,8 @@ use crate::tolerance::CROSSINGS;
 use crate::work::{OutOfWork, Work};
 use plates::Plates;
 
-/// Returns the pairs of faces that meet outside shared vertices and edges, at most [a thousand](CROSSINGS).
+/// Returns the pairs of faces that meet outside shared vertices and edges. The list ends at [a thousand](CROSSINGS)
+/// pairs.
 ///
 /// # Errors
 /// [`OutOfWork`] if the work does not suffice.
@@ -42,10 +43,10 @@ pub(crate) fn crossings(
     Ok(found)
 }
 
-/// The approximate number of predicates for a pair.
+/// The approximate number of exact predicates that the test of one pair costs.
 const PAIR: usize = 4;
 
-/// Returns whether two triangles meet outside their shared corners.
+/// Returns whether two faces meet outside their shared corners.
 fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
     let corners = [one, other].map(|f| manifold.faces()[f as usize]);
     meet(corners, [one, other].map(|f| manifold.triangle(f)))

@@ -1,4 +1,4 @@
-//! Nesting of shells: which parts of a closed mesh bound material, and which a cavity.
+//! Finds which shells of a closed mesh are wrongly oriented, by how they are nested.
 
 mod closed_parts;
 
@@ -19,7 +19,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use closed_parts::closed_parts;
 
-/// The shells of a closed mesh whose orientation contradicts their nesting.
+/// The shells of a closed mesh whose orientation contradicts their nesting in other shells.
 ///
 /// A shell is a closed part that is connected over edges. Among shells that do not cross, the outermost bound
 /// solids, those next within bound cavities, and so on, for any orientation. Outermost shells that cross make
@@ -27,16 +27,16 @@ use closed_parts::closed_parts;
 /// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
-    /// The faces to reverse, so that the solid is behind all faces, or in front of all.
+    /// The faces to reverse, so that the solid is behind all faces or in front of all faces.
     pub(crate) turned: Vec<u32>,
-    /// A face of each wrongly oriented shell, if other shells are right, by the file's number.
+    /// The wrongly oriented shells, if other shells are right: one face of each, by the file's number.
     pub(crate) wrong: Tally<u32>,
-    /// A face of each shell that may bound a solid or a cavity, by the file's number.
+    /// The shells that may bound a solid or a cavity: one face of each, by the file's number.
     pub(crate) unclear: Tally<u32>,
 }
 
 impl Nesting {
-    /// Examines a closed mesh, with its edges between welded vertices: every edge has equally many faces in both
+    /// Examines a closed mesh, given its edges between welded vertices. Every edge has equally many faces in both
     /// directions. A mesh of one part needs no reversal.
     ///
     /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
@@ -50,21 +50,21 @@ impl Nesting {
     }
 }
 
-/// The shells of a mesh, and the boxes of its faces.
+/// The shells of a mesh, and search trees over its faces.
 struct Shells<'m> {
     mesh: &'m TriangleMesh,
     boxes: TriangleBoxes,
     shell_of: Vec<u32>,
     faces_of: Vec<Vec<u32>>,
-    /// The boxes of the shells. A shell winds about no point outside its box.
+    /// The bounding boxes of the shells. The winding number of a shell is 0 outside its box.
     bounds: BoundsTree,
 }
 
-/// The nesting of one shell.
+/// The shells that surround one shell.
 #[derive(Clone, Debug, Default)]
 struct Surroundings {
     shells: Vec<u32>,
-    /// Whether a surrounding shell crosses this one.
+    /// Whether a surrounding shell intersects this one.
     crossed: bool,
     /// Whether the surrounding shells could not be determined.
     unknown: bool,
@@ -143,7 +143,7 @@ impl<'m> Shells<'m> {
         nesting
     }
 
-    /// Returns the first face of a shell, by the file's number, as its name in reports.
+    /// Returns the first face of a shell, by the file's number. Reports name the shell by it.
     fn name(&self, shell: usize) -> u32 {
         self.mesh.face_ids()[self.faces_of[shell][0] as usize]
     }
@@ -178,7 +178,8 @@ impl<'m> Shells<'m> {
         }
     }
 
-    /// Returns the other shells that wind about a shell; `None` if every ray meets an edge or vertex.
+    /// Returns the other shells with a winding number other than 0 about a shell; `None` if every ray meets an edge
+    /// or vertex.
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
@@ -198,7 +199,7 @@ impl<'m> Shells<'m> {
             .find_map(|(k, from)| self.winding_before(shell, probe(from, size, k)))
     }
 
-    /// Returns the middle of a face, up to rounding; `None` if another shell is within that rounding.
+    /// Returns the centre of a face, up to rounding; `None` if another shell is within that rounding.
     fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let (middle, across) = around_middle(face, size)?;
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
@@ -210,7 +211,8 @@ impl<'m> Shells<'m> {
         is_alone.then_some(middle)
     }
 
-    /// Returns the other shells that wind about the start of a ray; `None` if the ray meets an edge or vertex.
+    /// Returns the other shells with a winding number other than 0 about the start of a ray; `None` if the ray meets
+    /// an edge or vertex.
     fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
@@ -259,7 +261,7 @@ impl<'m> Shells<'m> {
     }
 }
 
-/// Returns the middle of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
+/// Returns the centre of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
 /// the mesh.
 fn around_middle([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
     let middle = (a + b + c) / 3.0;

@@ -1,4 +1,4 @@
-//! The shells of a closed surface, and the check of their orientation.
+//! Finds the shells of a closed surface, and checks their orientation.
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
@@ -9,7 +9,7 @@ use crate::search::region::Region;
 use crate::tolerance::RAY_TRIES;
 use crate::work::Work;
 
-/// Checks that the solid, where the winding number is not 0, is behind every face.
+/// Checks that the solid is behind every face. The solid is where the winding number is not 0.
 ///
 /// Faces meet only where they share an edge or vertex. One point of every shell is therefore enough: the other
 /// points of the shell have the same winding number in the rest.
@@ -47,7 +47,7 @@ pub(crate) fn check_orientation(
     Ok(())
 }
 
-/// Returns the shell of each face: shells are connected over edges.
+/// Returns the shell number of each face. Shells are connected over edges.
 pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
     let faces = manifold.faces().len();
     let mut shells = DisjointSets::new(faces);
@@ -59,7 +59,7 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
     shells.numbers()
 }
 
-/// Returns the winding number of the other shells about one; `None` if every ray meets an edge or vertex.
+/// Returns the winding number of all other shells about one shell; `None` if every ray meets an edge or vertex.
 fn winding_of_others(
     manifold: &Manifold<'_>,
     shell_of: &[u32],

@@ -1,4 +1,4 @@
-//! Star-shaped solids, whose whole surface is visible from one point.
+//! Recognises star-shaped solids, whose whole surface is visible from one point.
 
 use super::manifold::Manifold;
 use crate::exact::predicates::side;
@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_COORDINATE;
 use std::cmp::Ordering;
 
-/// Returns whether the whole surface is visible from one of a few points: the point is behind every face, and no face
-/// hides another.
+/// Returns whether the whole surface is visible from one of a few candidate points. A point sees the surface if it is
+/// behind every face, and no face hides another.
 ///
 /// # Guarantee
 /// Exact if true: faces then share only vertices and edges, and the solid is behind them. From a point behind all
@@ -23,7 +23,7 @@ pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
     })
 }
 
-/// Returns points that are likely inside: the mean of all corners, and the centre of mass.
+/// Returns candidate points that are likely inside: the mean of all corners, and the centre of mass.
 fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
     let faces = 0..manifold.faces().len() as u32;
     let near = manifold.triangle(0)[0];
@@ -40,7 +40,7 @@ fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
     [mean, moment / (4.0 * volume)].map(|middle| predictable(near + middle))
 }
 
-/// Replaces coordinates too near to 0 for exact predicates by 0.
+/// Replaces coordinates that are too near to 0 for exact predicates by 0.
 fn predictable(p: DVec3) -> DVec3 {
     DVec3::select(
         p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
@@ -49,7 +49,7 @@ fn predictable(p: DVec3) -> DVec3 {
     )
 }
 
-/// Returns whether a direction from the middle that avoids all edges meets exactly one triangle.
+/// Returns whether a ray from `middle` that avoids all edges meets exactly one triangle.
 fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
     let mut triangles = triangles.peekable();
     let Some(&[a, b, c]) = triangles.peek() else {

@@ -1,4 +1,4 @@
-//! Builds hierarchies over pieces: median splits into clusters, agglomeration, reinsertion of subtrees.
+//! Builds binary hierarchies over pieces: median splits into clusters, agglomeration, reinsertion of subtrees.
 
 mod agglomerate;
 mod nodes;
@@ -14,8 +14,8 @@ use nodes::{Below, Cuboid, Node};
 use rayon::prelude::*;
 use reinsert::reinsert;
 
-/// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates each cluster, and reinserts the
-/// worst subtrees.
+/// Builds a binary hierarchy over pieces. It splits them at medians into clusters, agglomerates each cluster, and
+/// reinserts the worst subtrees.
 ///
 /// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or equal
 /// ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound both. The
@@ -47,8 +47,8 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
     )
 }
 
-/// Creates a leaf for each piece, with a box in single precision, scaled to the unit cube: otherwise pieces that are
-/// tiny or far from the origin would coincide.
+/// Creates a leaf for each piece, with a box in f32. The boxes are scaled to the unit cube, so that pieces that are
+/// tiny or far from the origin do not coincide.
 fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let bounds = |piece: usize| {
         let piece = pieces.get(piece);
@@ -82,10 +82,11 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     leaves.map(leaf).collect()
 }
 
-/// The number of pieces in a task; smaller tasks cost more than they gain.
+/// The number of pieces in a parallel task. Smaller tasks cost more than they gain.
 const SHARE: usize = 4096;
 
-/// Splits leaves at the medians of their centres into clusters, and agglomerates these. Returns the root first.
+/// Splits leaves at the medians of their centres into clusters, and agglomerates each cluster. Returns the nodes, the
+/// root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
     let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
@@ -95,7 +96,7 @@ fn split(leaves: &[Node]) -> Vec<Node> {
     nodes
 }
 
-/// The centre of a piece's box.
+/// The centre of a piece's bounding box.
 #[derive(Clone, Copy)]
 struct Centre {
     at: [f32; 3],
@@ -116,7 +117,7 @@ struct Splitter<'l> {
 }
 
 impl Splitter<'_> {
-    /// Builds the subtree over some pieces, in parallel if there are many.
+    /// Builds the subtree over some pieces, in parallel if they are many.
     fn side_by_side(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
         if centres.len() <= SHARE {
             return self.one_by_one(centres, slot, &mut Workspace::default());
@@ -156,7 +157,7 @@ impl Splitter<'_> {
     }
 }
 
-/// Splits pieces at the median of their centres along the longest axis, builds both sides by `make`, and joins them.
+/// Splits pieces at the median of their centres along the longest axis, builds both halves by `make`, and joins them.
 fn halve(
     centres: &mut [Centre],
     mut slot: Slot<'_, Node>,

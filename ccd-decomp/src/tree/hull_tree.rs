@@ -1,4 +1,4 @@
-//! Builds hull trees over pieces: top-down splits, bottom-up hulls `[SWIFT01]`.
+//! Builds hull trees over pieces by top-down splits and bottom-up hulls `[SWIFT01]`.
 
 mod split;
 
@@ -47,8 +47,8 @@ struct Grower<'a> {
 }
 
 impl Grower<'_> {
-    /// Builds the subtree over some pieces, every node before its children. Each side gets at least a fixed share of
-    /// the pieces, so that the depth is logarithmic.
+    /// Builds the subtree over some pieces, parents before children. Each child gets at least a fixed fraction of the
+    /// pieces, so that the depth is logarithmic.
     fn grow(&self, pieces: &mut [u32], mut slot: Slot<'_, HullNode>) -> Result<(), BuildError> {
         if let [piece] = *pieces {
             *slot.node = HullNode::Leaf(piece);
@@ -79,14 +79,14 @@ impl Grower<'_> {
     }
 }
 
-/// The reason why pieces have no hull tree.
+/// The reason why no hull tree can be built over pieces.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
     /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(DVec3),
-    /// The core rejects the tree.
+    /// The checks of `ccd_core` reject the tree.
     #[error(transparent)]
     Tree(#[from] HullTreeError),
 }

@@ -1,9 +1,9 @@
-//! Random changes of files.
+//! Changes files at random.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Generates files from those of a corpus: changed, cut, repeated, and joined with others.
+/// A generator of files from those of a corpus: changed, cut, repeated, and joined with others.
 pub(crate) struct Mutator<'a> {
     random: Pcg64,
     corpus: &'a [Vec<u8>],
@@ -11,7 +11,7 @@ pub(crate) struct Mutator<'a> {
 
 /// The maximum number of changes of a file.
 const CHANGES: usize = 6;
-/// Bytes with a meaning in some format.
+/// Bytes that have a meaning in some file format.
 const TELLING: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";
 
 impl<'a> Mutator<'a> {

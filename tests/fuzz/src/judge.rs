@@ -1,4 +1,4 @@
-//! Judges answers.
+//! Judges the engine's answers by the referee's distances.
 
 mod start;
 
@@ -13,52 +13,52 @@ use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
-/// The allowed decrease of the distance of released bodies, in units of rounding.
+/// The allowed decrease of the distance of released bodies, in units of the rounding bound.
 const RESTING: f64 = 1.0;
 
-/// A fault of an answer.
+/// A kind of fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
-    /// The bodies were too near before the reported time.
+    /// The bodies were nearer than allowed before the reported time.
     Late,
-    /// The bodies were too near, and no contact was reported at all.
+    /// The bodies were nearer than allowed, and no contact was reported.
     Missed,
     /// A contact is reported although the bodies are farther apart than margin and tolerance.
     FalseContact,
-    /// Touching or overlap is reported although the bodies are apart.
+    /// Touching or overlap at the start is reported although the bodies are apart.
     FalseStart,
-    /// An overlap is not reported.
+    /// The bodies overlap at the start, which is not reported.
     NotOverlapping,
-    /// A lower bound is above the distance.
+    /// A reported lower bound is above the distance.
     LowerBound,
-    /// An upper bound is below the distance.
+    /// A reported upper bound is below the distance.
     UpperBound,
-    /// A witness is not on its body.
+    /// A witness point is not on its body.
     Witness,
-    /// A proven gap is wrong.
+    /// A proven gap is larger than the distance.
     Clearance,
-    /// An unresolved query was safe for less time than claimed.
+    /// The bodies of an unresolved query were in contact before the certified time.
     NotSafe,
-    /// Two answers contradict each other.
+    /// The answers of two methods contradict each other.
     Disagreement,
     Panic,
     Hang,
 }
 
-/// An answer and its method.
+/// An answer, with the method that gave it.
 pub struct GivenAnswer<'a> {
     pub bodies: &'a Bodies,
     pub method: Method,
     pub answer: Answer,
 }
 
-/// Judges answers to one case; `rounding` bounds the engine's allowance for rounding.
+/// A judge of the answers to one case; `rounding` bounds the engine's allowance for rounding.
 pub struct Judge<'a> {
     case: &'a Case,
     scene: Scene,
     rounding: f64,
     start: Start,
-    /// The solids at the start.
+    /// The closed surfaces of both bodies at the start.
     placed: [Solid; 2],
     volumes: [Volume; 2],
 }
@@ -80,8 +80,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the faults of the answers, with the index of the answer. The flag is true if the
-    /// search for earlier contacts was complete.
+    /// Returns the faults of all answers, each with the index of its answer. The flag is true if the search for
+    /// earlier contacts was complete.
     pub fn all(&self, given: &[GivenAnswer<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
         let times = given.iter().map(|g| self.proven(&g.answer.outcome));
         let until = times.fold(0.0, larger);
@@ -105,7 +105,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the conditions under which the bodies are too near.
+    /// Returns the conditions under which the bodies count as nearer than allowed.
     fn limit(&self, given: &[GivenAnswer<'_>]) -> Limit {
         let margin = self.case.config.margin;
         let tolerance = given
@@ -187,7 +187,7 @@ impl<'a> Judge<'a> {
         faults
     }
 
-    /// Returns the distance below which the bodies are too near.
+    /// Returns the distance below which the bodies count as nearer than allowed.
     fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
             StartPolicy::Leave => smaller(margin, self.start.distance - RESTING * self.rounding),
@@ -210,7 +210,7 @@ impl<'a> Judge<'a> {
         wrong.into_iter().map(|fault| (fault, text())).collect()
     }
 
-    /// Checks a contact at a time, its bounds and its witnesses.
+    /// Checks a contact at a time: its bounds and its witnesses.
     fn near(&self, given: &GivenAnswer<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
         let (scene, error) = (&self.scene, self.scene.error());
@@ -249,7 +249,7 @@ impl<'a> Judge<'a> {
         faults
     }
 
-    /// Returns true if a witness of one body is inside the other's solid.
+    /// Returns true if a witness on one body is inside the other body's solid.
     fn inside(&self, contact: &Contact, time: f64) -> bool {
         let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
@@ -262,8 +262,7 @@ impl<'a> Judge<'a> {
             })
     }
 
-    /// Returns the distance by which witnesses are off the contact's claims, if that is more than
-    /// rounding.
+    /// Returns the distance of the witnesses from where the contact claims them to be, if it exceeds rounding.
     fn off_surface(&self, contact: &Contact, time: f64) -> Option<f64> {
         let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
@@ -365,7 +364,8 @@ impl<'a> Judge<'a> {
         solid.locate(point) != Where::Outside || clearance(point, &solid.triangles) < near
     }
 
-    /// Finds contacts so near that another answer's proof should have ended there, too.
+    /// Returns the pairs of answers that contradict each other: a contact so near that another answer's proof should
+    /// have ended there.
     fn disagreements(&self, given: &[GivenAnswer<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
         if self.case.config.start == StartPolicy::Leave {
@@ -389,7 +389,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Returns the triangles that bound a piece.
+/// Returns the triangles that bound a piece; `None` if the piece has none.
 fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
     let at = |k: u32| piece.points[k as usize].to_array();
     if let Some(last) = (piece.points.len() as u32)

@@ -1,4 +1,4 @@
-//! The referee: the bodies' distance at a time, and the first time found with a distance below a threshold, by
+//! The referee computes the bodies' distance at a time, and the first time with a distance below a threshold, by
 //! conservative advancement over all pairs of triangles.
 //!
 //! Positions and their differences are computed in [`Double`]. Distances are searched in f64 and
@@ -13,38 +13,38 @@ use crate::raw_motion::{Snapshot, Track};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
-/// The largest error of the referee, as a fraction of a scene's size.
+/// The largest error of the referee's distances, as a fraction of a scene's size.
 const ERROR: f64 = 1e-25;
-/// The fraction of the size below which results of f64 are checked in [`Double`].
+/// The distance, as a fraction of a scene's size, below which results of f64 are checked in [`Double`].
 const NOISE: f64 = 1e-13;
 
-/// A body's triangles and its track.
+/// A body's triangles and its motion.
 pub struct Side {
     pub track: Track,
     /// The triangles relative to the centre of rotation, in the body's frame.
     pub triangles: Vec<Triangle<Double>>,
     balls: Vec<Ball>,
-    /// The ball around all triangles.
+    /// The bounding ball of all triangles.
     whole: Ball,
-    /// The radius of the ball around the centre of rotation.
+    /// The radius of the ball around the centre of rotation that contains all triangles.
     reach: f64,
 }
 
 struct Ball {
     middle: Vector<Double>,
     radius: f64,
-    /// The largest distance from the centre of rotation, 0 for a body that does not rotate.
+    /// The largest distance of a point from the centre of rotation; 0 for a body that does not rotate.
     arm: f64,
 }
 
-/// Two bodies on their tracks.
+/// Two bodies and their motions.
 pub struct Scene {
     pub sides: [Side; 2],
-    /// The largest length in the scene.
+    /// The largest length in the scene: a coordinate or a distance of motion.
     pub scale: f64,
 }
 
-/// A time at which the bodies are nearer than allowed.
+/// A proof that the bodies are nearer than allowed at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence {
     pub time: f64,
@@ -122,7 +122,8 @@ impl Scene {
         Scene { sides, scale }
     }
 
-    /// Returns a bound on the error of the referee's distances. Positions in the world have a relative error of 1e-31.
+    /// Returns a bound on the error of the referee's distances. Positions in the world have a relative error of
+    /// 1e-31.
     pub fn error(&self) -> f64 {
         let far = self.sides.iter().map(|s| s.track.start.largest());
         ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
@@ -132,7 +133,7 @@ impl Scene {
         [self.sides[0].track.at(t), self.sides[1].track.at(t)]
     }
 
-    /// Returns all triangles of a body at a time, relative to A's centre.
+    /// Returns all triangles of a body at a time, relative to the centre of body A.
     pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
         let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
@@ -177,7 +178,7 @@ impl Scene {
         near
     }
 
-    /// Returns the distance with every pair in [`Double`]. This is required before an answer is called wrong.
+    /// Returns the distance at a time with every pair in [`Double`]. It is computed before an answer is called wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
         let pairs = a
@@ -186,7 +187,7 @@ impl Scene {
         pairs.fold(f64::INFINITY, smaller)
     }
 
-    /// Returns the greatest penetration depth of two triangles at a time.
+    /// Returns the greatest penetration depth of any two triangles at a time.
     pub fn depth(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
         let pairs = a.iter().flat_map(|s| {
@@ -202,18 +203,18 @@ impl Scene {
         pairs.fold(0.0, larger)
     }
 
-    /// Returns the earliest time found, up to `until`, at which the distance is below `threshold`.
-    /// The flag is true if none was missed, except for f64's rounding.
+    /// Returns the earliest time found, up to `until`, at which the distance is below the limit. The flag is true if
+    /// none was missed, except for f64's rounding.
     pub fn first_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
         Search::new(self, limit, until).run()
     }
 }
 
-/// The conditions under which bodies are too near.
+/// The conditions under which bodies count as nearer than allowed.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// The bodies are too near if their distance is below this.
+    /// The distance below which the bodies are nearer than allowed.
     pub threshold: f64,
-    /// The bodies are too near if their triangles penetrate deeper than this.
+    /// The penetration depth of triangles above which the bodies are nearer than allowed.
     pub depth: f64,
 }

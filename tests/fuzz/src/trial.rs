@@ -1,4 +1,4 @@
-//! One query, answered by many methods and judged.
+//! Answers one query by many methods, and judges the answers.
 
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
@@ -8,12 +8,12 @@ use std::collections::HashMap;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The outcome of a query.
+/// A case with the outcomes of all methods, and the failures among them.
 pub struct Trial {
     pub case: Case,
     pub asked: Vec<(Kind, Method)>,
     pub outcomes: Vec<Outcome>,
-    /// The reason why the engine, or the decomposition, refused the case.
+    /// The reason why the engine or the decomposition rejected the case, if it did.
     pub refused: Option<String>,
     pub failures: Vec<Failure>,
     /// Whether the referee's search for an earlier contact was complete.
@@ -76,7 +76,7 @@ pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     trial
 }
 
-/// Builds bodies of every required kind.
+/// Builds the bodies of every kind that the methods need.
 fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
     for (kind, method) in asked {
@@ -123,7 +123,7 @@ fn answers<'b>(
     given
 }
 
-/// Records the faults of the answers.
+/// Judges the answers, and records their faults in the trial.
 fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
@@ -143,7 +143,7 @@ fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     trial.proven = proven;
 }
 
-/// Returns the settings; schedules with one step for all pairs get a smaller budget.
+/// Returns the settings of a case for a method. Schedules with one step for all pairs get a smaller budget.
 fn config_of(case: &Case, method: Method) -> Settings {
     let most = match method {
         Method::Naive | Method::Fast => 200_000,
@@ -155,7 +155,7 @@ fn config_of(case: &Case, method: Method) -> Settings {
     }
 }
 
-/// Returns the engine's allowance for rounding: the least tolerance that it accepts.
+/// Returns the engine's allowance for rounding, which is the least tolerance that it accepts.
 fn rounding(case: &Case, bodies: &Bodies) -> f64 {
     let least = Settings {
         tolerance: 1e-100,
@@ -175,7 +175,7 @@ fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     }
 }
 
-/// Returns the case with as few triangles as still fail in the same way.
+/// Returns the case with triangles dropped for as long as it fails in the same way.
 pub fn shrunk(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut asked = vec![(Kind::Triangles, Method::Direct)];

@@ -49,7 +49,7 @@ fn without_mesh(mut shape: Shape) -> Shape {
     shape
 }
 
-/// Two balls pass each other at a distance.
+/// Returns two balls that pass each other at a distance.
 fn balls_passing() -> Scene {
     let moving = Actor::moving(
         ball(0.5),
@@ -66,7 +66,7 @@ fn balls_passing() -> Scene {
     )
 }
 
-/// Two balls meet off centre, both moving.
+/// Returns two moving balls that meet off centre.
 fn balls_head_on() -> Scene {
     let left = Actor::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
@@ -74,7 +74,7 @@ fn balls_head_on() -> Scene {
     Scene::new("balls head-on", [left, right], Expect::hit(time))
 }
 
-/// A spinning ball falls onto a box.
+/// Returns a rotating ball that falls onto a box.
 fn ball_on_slab() -> Scene {
     let falling = Actor::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
     Scene::new(
@@ -84,7 +84,7 @@ fn ball_on_slab() -> Scene {
     )
 }
 
-/// The end of a rotating capsule hits a wall.
+/// Returns a rotating capsule whose end hits a wall.
 fn capsule_on_wall() -> Scene {
     let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
     let turning = Actor::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
@@ -95,7 +95,7 @@ fn capsule_on_wall() -> Scene {
     )
 }
 
-/// A box with a rounding radius falls corner first.
+/// Returns a rounded box that falls corner first.
 fn rounded_box() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;

@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// The half length and half thickness of a rod, and the distance of its corners.
+/// The half length of a rod, in units of length.
 const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
@@ -41,7 +41,7 @@ fn corner_time(height: f64, speed: f64) -> f64 {
     ((height / reach()).asin() - WIDTH.atan2(LENGTH)) / speed
 }
 
-/// T2: a rod's end comes down on a slab.
+/// Returns T2: a rod that rotates until its end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
     let spinning = Actor::turning(rod(LENGTH, WIDTH), height * DVec3::Z, PI * DVec3::Y);
@@ -53,7 +53,7 @@ fn rod_on_slab() -> Scene {
     )
 }
 
-/// T4: an upright rod rotates by half turns towards a wall.
+/// Returns T4: an upright rod that rotates by half turns towards a wall.
 fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     let speed = half_turns * PI;
     Scene::new(
@@ -79,7 +79,7 @@ fn upright(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
     ]
 }
 
-/// T3: the same scene with the rod's frame rotated against the world's at the start.
+/// Returns T3: T4 with the rod's frame rotated against the world's at the start.
 fn pre_rotated_rod() -> Scene {
     let [rod, wall] = upright(PI, 1.25, Pose::IDENTITY);
     let turn = DQuat::from_rotation_z(FRAC_PI_2);
@@ -95,7 +95,7 @@ fn pre_rotated_rod() -> Scene {
     )
 }
 
-/// T6: the rod's corner passes the wall at a small distance.
+/// Returns T6: a rod whose corner passes the wall at a small distance.
 fn grazing_miss(depth: f64) -> Scene {
     let gap = reach() * depth;
     Scene::new(
@@ -105,7 +105,7 @@ fn grazing_miss(depth: f64) -> Scene {
     )
 }
 
-/// T7: side edge on post edge, parallel.
+/// Returns T7: a rod whose side edge meets the parallel edge of a post.
 fn rod_on_post() -> Scene {
     let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
     let shape = cuboid(DVec3::new(LENGTH, width, 0.1));
@@ -115,8 +115,8 @@ fn rod_on_post() -> Scene {
     Scene::new("T7 rod on post", [spinning, post], Expect::hit(time))
 }
 
-/// T9: a mace with a heavy head at the centre and a long arm whose end reaches the wall. Bounds that use the present
-/// pose alone do not anticipate it.
+/// Returns T9: a mace with a heavy head at the centre, and a long arm whose end reaches the wall. Bounds that use the
+/// present pose alone do not anticipate it.
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
@@ -129,7 +129,7 @@ fn swinging_mace() -> Scene {
     Scene::new("T9 mace", [swinging, wall], Expect::hit(time))
 }
 
-/// T12: a square peg rotates in a square hole: four contacts at once.
+/// Returns T12: a square peg that rotates in a square hole, with four contacts at once.
 fn peg_in_hole() -> Scene {
     let (peg, hole) = (1.0, 1.2);
     let turning = Actor::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
@@ -138,7 +138,7 @@ fn peg_in_hole() -> Scene {
     Scene::new("T12 peg in hole", [turning, plate], Expect::hit(time))
 }
 
-/// T14: two upright rods rotate towards each other, as mirror images.
+/// Returns T14: two upright rods that rotate towards each other, as mirror images.
 fn two_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
     let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
@@ -148,7 +148,7 @@ fn two_rods() -> Scene {
     Scene::new("T14 two rods", [left, right], Expect::hit(time))
 }
 
-/// T20: T4 far away; the offsets are powers of two, so that the scene itself is not rounded.
+/// Returns T20: T4 far from the origin. The offsets are powers of two, so that the scene itself is not rounded.
 fn far_rod(offset: f64) -> Scene {
     let pose = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
     Scene::new(
@@ -158,7 +158,7 @@ fn far_rod(offset: f64) -> Scene {
     )
 }
 
-/// T20: T4 very small and very large.
+/// Returns T20: T4 scaled to very small and very large size.
 fn scaled_rod(scale: f64) -> Scene {
     let [mut rod, mut wall] = upright(PI, 1.25, Pose::IDENTITY);
     rod.shape = rod.shape.scaled(scale);
@@ -170,7 +170,7 @@ fn scaled_rod(scale: f64) -> Scene {
     )
 }
 
-/// Both bodies on one turntable, at relative rest one unit apart: free at any speed.
+/// Returns two bodies on one turntable, at relative rest one unit apart. They are free at any speed.
 fn rigidly_turning_pair() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let on_table = |x: f64| {

@@ -1,4 +1,4 @@
-//! The laws of answers to other questions.
+//! Checks answers to other questions than the first contact.
 
 use super::{Judge, Law, check_contact};
 use crate::law;
@@ -8,7 +8,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Answer, Clearance, Contact, Outcome};
 
 impl Judge<'_> {
-    /// Checks an answer to "do they touch at all?": never missed, never false, with a contact as claimed.
+    /// Checks an answer to "do they touch at all?": it is never missed, never false, and has a contact as claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -30,8 +30,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the bounds of a least distance: never above the true one, never below the distance at the given time, and
-    /// no farther apart than the tolerance.
+    /// Checks the bounds of a least distance. They are never above the true one, never below the distance at the
+    /// given time, and no farther apart than the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -73,8 +73,8 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the answer about a required distance: never false, and unknown only within the tolerance of the least
-    /// distance.
+    /// Checks the answer about a required distance. It is never false, and unknown only within the tolerance of the
+    /// least distance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -111,8 +111,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the bounds of a greatest distance: never below a sampled distance, never above that at the given time,
-    /// and no farther apart than the tolerance.
+    /// Checks the bounds of a greatest distance. They are never below a sampled distance, never above that at the
+    /// given time, and no farther apart than the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -147,7 +147,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the first and the last contact: none before and after them, and both within the tolerance.
+    /// Checks the first and the last contact. There is none before and after them, and both are within the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
@@ -199,8 +199,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Bounds the distance of two pieces in contact at a time; infinite for bodies that overlap, whose pieces may be
-    /// anywhere in a solid.
+    /// Returns an upper bound of the distance of two pieces in contact at a time. It is infinite for bodies that
+    /// overlap, whose pieces may be anywhere in a solid.
     fn reach(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
         if !self.may_overlap(time, contact) {
             self.config.margin + tolerance + self.query.rounding()
@@ -219,7 +219,7 @@ impl Judge<'_> {
         touched || self.nested || contact.separation.lower < -self.query.rounding()
     }
 
-    /// Returns the least sampled distance.
+    /// Returns the least of the sampled distances.
     fn least(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);

@@ -1,4 +1,4 @@
-//! The side of a point relative to an edge seen along an axis, and to a triangle.
+//! Exact predicates: the side of a point relative to an edge seen along an axis, and relative to a triangle.
 
 use super::blend::{Spot, exact};
 use ccd_core::glam::DVec3;
@@ -6,11 +6,11 @@ use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
-/// The pairs of coordinates in the views along z, x and y.
+/// The pairs of coordinate indices in the views along z, x and y.
 pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Bounds on the rounding errors of determinants, in units of the power of the size of points: hundreds of times those
-/// of the terms, which are dominated by the error of the rounded point.
+/// The bounds on the rounding errors of determinants, in units of the power of the size of points. They are hundreds
+/// of times those of the terms, which are dominated by the error of the rounded point.
 const FLAT_ROUNDING: f64 = 1e-12;
 const SOLID_ROUNDING: f64 = 1e-11;
 
@@ -40,12 +40,12 @@ pub(super) fn side([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> Ordering {
     })
 }
 
-/// Returns the sign of a rounded number, if it is certain.
+/// Returns the sign of a rounded number; `None` if the rounding error could change it.
 fn certain(x: f64, rounding: f64) -> Option<Ordering> {
     (x.abs() > rounding + f64::MIN_POSITIVE).then(|| x.total_cmp(&0.0))
 }
 
-/// Returns the largest coordinate of some points and of those that a point combines.
+/// Returns the largest absolute coordinate of some points and of those that a point combines.
 fn size_of(points: &[DVec3], p: &Spot<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
     sizes.fold(p.size, greater)
@@ -76,7 +76,7 @@ pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
     !(0..3).any(beyond) && side(triangle, p) == Ordering::Equal && !VIEWS.iter().any(out_of_view)
 }
 
-/// Compares a number to a coordinate of a point.
+/// Compares a number with a coordinate of a point.
 fn compare(x: f64, axis: usize, p: &Spot<'_>) -> Ordering {
     let rounding = p.rounding() + f64::EPSILON * x.abs();
     certain(x - p.near[axis], rounding).unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))

@@ -1,5 +1,5 @@
-//! Solids of cells: sheets of four-sided cells, some of them removed, with a thickness. Their tops and bottoms are
-//! large regions of coplanar triangles, rarely convex.
+//! Generates solids of cells: sheets of four-sided cells, some of them removed, with a thickness. Their tops and
+//! bottoms are large regions of coplanar triangles, rarely convex.
 
 use super::{Line, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
@@ -112,7 +112,7 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
-/// A grid with some cells filled.
+/// A grid of cells, some of which are filled.
 struct Sheet<'a> {
     rows: Line,
     columns: Line,
@@ -125,7 +125,7 @@ impl Sheet<'_> {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
-    /// Returns the solid between two sheets; seen from above, rows go to the right and columns upwards.
+    /// Returns the solid between two sheets. Seen from above, rows go to the right and columns upwards.
     fn between(
         &self,
         low: impl Fn(usize, usize) -> DVec3,
@@ -157,7 +157,7 @@ impl Sheet<'_> {
     }
 }
 
-/// Returns the directed edges of some faces without a face in the opposite direction, in order.
+/// Returns the boundary edges of some faces, in order. A boundary edge has no face in the opposite direction.
 fn rims(faces: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let edges = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
     let all: Vec<[u32; 2]> = faces.iter().flat_map(edges).collect();

@@ -1,9 +1,9 @@
-//! Randomized incremental hulls of many points, with a conflict graph of points and visible facets `[CS89]`.
+//! Randomized incremental hulls of many points. A conflict graph records which facets a point sees `[CS89]`.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
+/// Computes the hull's triangles for points that span a volume, starting from the tetrahedron `simplex`.
 ///
 /// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
@@ -22,38 +22,38 @@ fn scrambled(v: u32) -> u32 {
     h ^ h >> 16
 }
 
-/// The largest capacity of a list that is reused.
+/// The largest capacity of a point list that is kept for reuse.
 const SPARED: usize = 64;
 
-/// No facet or point.
+/// The index that stands for no facet and no point.
 const NONE: u32 = u32::MAX;
 
 struct Facet {
     corners: [u32; 3],
     plane: Plane,
-    /// The facets beyond its edges; the first is from its first corner to its second.
+    /// The three adjacent facets. The first is across the edge from the first corner to the second.
     across: [u32; 3],
-    /// The points yet to be inserted that see the facet.
+    /// The points that see the facet and are not inserted yet.
     seen_by: Vec<u32>,
     is_there: bool,
-    /// The last point whose visibility was tested, and the result.
+    /// The last point that was tested against the facet, and whether it sees it.
     last_test: (u32, bool),
 }
 
 struct Growing<'a> {
     points: LocalPoints<'a>,
-    /// Empty lists for reuse.
+    /// Empty point lists for reuse.
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
-    /// A facet that each point sees; a removed facet or [`NONE`] if the point is inside.
+    /// By point, one facet that it sees. It is a removed facet or [`NONE`] if the point is inside the hull.
     sees: Vec<u32>,
-    /// The last facet that a point was tested with, by point.
+    /// By point, the last facet that the point was tested against.
     last_tested: Vec<u32>,
-    /// The new facet whose rim edge starts at a point, by point.
+    /// By point, the new facet whose horizon edge starts there.
     starting_at: Vec<u32>,
 }
 
-/// An edge of the rim of the visible part: its ends, the facet beyond, and the visible facet.
+/// A horizon edge, which bounds the visible part of the hull: its ends, the hidden facet, and the visible facet.
 struct RimEdge {
     ends: [u32; 2],
     beyond: u32,
@@ -88,7 +88,7 @@ impl<'a> Growing<'a> {
         hull
     }
 
-    /// Adds a facet, and records which candidates see it.
+    /// Adds a facet, and records which candidate points see it.
     fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
@@ -153,7 +153,8 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Removes the facets that a point sees, which are connected over edges, and returns them with their rim.
+    /// Removes the facets that the point `v` sees, which are connected over edges from `first`. Returns them with
+    /// their horizon edges.
     fn remove_seen(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_there = false;

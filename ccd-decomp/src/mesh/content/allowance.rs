@@ -1,4 +1,4 @@
-//! The budget for expanding a file: it limits how much a few bytes can produce by repeated references.
+//! The budget for the expansion of a file: it limits how much a few bytes can produce by repeated references.
 
 use crate::mesh::error::MeshFault;
 use crate::tolerance::{REPEATED, REPEATED_AT_MOST, REPEATED_PER_BYTE, VERTEX_COST};
@@ -10,13 +10,13 @@ pub(crate) struct Allowance {
     all: u64,
 }
 
-/// Returns the cost of vertices and corners.
+/// Returns the cost of an expansion to some vertices and face corners.
 pub(crate) fn cost(vertices: u64, corners: u64) -> u64 {
     vertices.saturating_mul(VERTEX_COST).saturating_add(corners)
 }
 
 impl Allowance {
-    /// Returns the allowance of a file of a number of bytes.
+    /// Returns the budget of a file with a size in bytes.
     pub(crate) fn for_file(bytes: u64) -> Self {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.
@@ -26,7 +26,7 @@ impl Allowance {
         Allowance { left: all, all }
     }
 
-    /// Spends a cost.
+    /// Spends a cost from the budget; returns an error if too little is left.
     pub(crate) fn take(&mut self, cost: u64) -> Result<(), MeshFault> {
         match self.left.checked_sub(cost) {
             Some(left) => {

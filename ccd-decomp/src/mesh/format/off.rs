@@ -1,4 +1,4 @@
-//! Object File Format (Geomview), text.
+//! The reader of the text Object File Format (OFF, Geomview).
 
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -43,7 +43,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Reads the counts of vertices and faces: on the first line, after the keyword, or on the next.
+/// Reads the counts of vertices and faces, which follow the keyword on the first line or stand on the next line.
 fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
     let keyword = line.words.clone().next().unwrap_or_default();
     if keyword.parse::<u64>().is_err() {
@@ -75,7 +75,7 @@ fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), M
     Ok((line.number(what)?, line.number(what)?))
 }
 
-/// The lines of a text, except blank ones and comments.
+/// An iterator over the lines of a text, except blank lines and comments.
 struct Lines<'a> {
     rest: std::str::Lines<'a>,
     number: usize,

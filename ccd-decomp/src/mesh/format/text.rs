@@ -1,4 +1,4 @@
-//! Decoding of texts: encodings and line endings.
+//! Decodes texts: character encodings and line endings.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! 3MF: models in XML, packed in a zip.
+//! The reader of 3MF: models in XML, packed in a zip archive.
 //!
 //! The crates for 3MF are not used: none limits the unpacked size, and `threemf` does not distinguish the models of a
 //! package.
@@ -20,7 +20,7 @@ use model::{Model, Shape, Use};
 use package::Package;
 use std::collections::BTreeMap;
 
-/// Reads the parts of a 3MF.
+/// Reads a 3MF package as an assembly of parts.
 pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
@@ -53,15 +53,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     })
 }
 
-/// The models of a package: the root model first, then those that it refers to.
+/// The models of a package: the root model first, then the models that it refers to.
 struct Models<'a> {
     package: Package<'a>,
     list: Vec<Named>,
-    /// The number of each model by its path.
+    /// The number of each model in the package, by its path.
     numbers: BTreeMap<String, usize>,
-    /// The objects of all models, by model number and object id.
+    /// The assembly's object number, by model number and object id in that model.
     known: BTreeMap<(usize, u32), usize>,
-    /// The model of each object, and its index there.
+    /// The model number and the index there of each object of the assembly.
     places: Vec<(usize, usize)>,
 }
 
@@ -71,7 +71,7 @@ struct Named {
 }
 
 impl<'a> Models<'a> {
-    /// Reads the root model and all models that it needs.
+    /// Reads the root model and all models that it refers to.
     fn read(mut package: Package<'a>) -> Result<Self, MeshFault> {
         let first = package.first_model()?;
         let mut models = Models {
@@ -94,7 +94,7 @@ impl<'a> Models<'a> {
         Ok(models)
     }
 
-    /// Returns the number of a model, and reads it if necessary.
+    /// Returns the number of the model at a path, and reads the model on the first call.
     fn number(&mut self, path: &str) -> Result<usize, MeshFault> {
         let key = package::normalized(path);
         if let Some(&number) = self.numbers.get(&key) {
@@ -135,7 +135,7 @@ impl<'a> Models<'a> {
         }
     }
 
-    /// Returns the build items of the root model, as parts.
+    /// Returns the parts of the assembly: the build items of the root model.
     fn parts(&self) -> Result<Vec<Part>, MeshFault> {
         let items = &self.list[0].model.items;
         if items.is_empty() {
@@ -157,7 +157,7 @@ impl<'a> Models<'a> {
         items.iter().enumerate().map(part).collect()
     }
 
-    /// Returns the object that an item or component refers to.
+    /// Returns the object number that a build item or component of the model `from` refers to.
     fn find(&self, from: usize, used: &Use) -> Result<usize, MeshFault> {
         let model = match &used.path {
             None => Some(&from),
@@ -170,7 +170,7 @@ impl<'a> Models<'a> {
         })
     }
 
-    /// Returns all objects, with the shapes moved out of the models.
+    /// Returns all objects of the assembly, with the shapes moved out of the models.
     fn objects(&mut self) -> Result<Vec<Object>, MeshFault> {
         let mut objects = Vec::with_capacity(self.places.len());
         for number in 0..self.places.len() {
@@ -230,7 +230,7 @@ impl<'a> Models<'a> {
         Ok(seen.iter().filter(|seen| !**seen).count())
     }
 
-    /// Returns the name of an object for messages.
+    /// Returns the name of an object of the assembly for messages.
     fn place(&self, number: usize) -> String {
         let (model, place) = self.places[number];
         let Named { path, model } = &self.list[model];

@@ -1,4 +1,4 @@
-//! Growing patches: polygons and their hull.
+//! A convex patch under construction, which grows polygon by polygon.
 
 use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
@@ -14,18 +14,18 @@ use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Polygons of a mesh on the boundary of their hull, which is within the solid.
+/// A set of polygons of a mesh and their hull. The hull lies inside the solid, and all polygons are on its boundary.
 pub(super) struct GrowingPatch {
     flats: Vec<u32>,
     hull: ExactHull,
     has_volume: bool,
 }
 
-/// The result of adding a polygon.
+/// The result of an attempt to add a polygon to a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Join {
     Joined,
-    /// The polygon can never join.
+    /// The polygon can never join the patch.
     Refused,
     /// The polygon is coplanar with a patch that has no volume yet.
     InPlane,
@@ -40,12 +40,12 @@ impl GrowingPatch {
         }
     }
 
-    /// Returns the number of polygons.
+    /// Returns the number of polygons in the patch.
     pub(super) fn len(&self) -> usize {
         self.flats.len()
     }
 
-    /// Returns the polygons, in the order in which they joined.
+    /// Returns the polygons of the patch, in the order in which they joined.
     pub(super) fn flats(&self) -> &[u32] {
         &self.flats
     }
@@ -54,7 +54,7 @@ impl GrowingPatch {
         &self.hull
     }
 
-    /// Returns the facets of the hull, without coplanar neighbours; a flat hull has two.
+    /// Returns the facets of the hull, with coplanar triangles merged; a flat hull has two facets.
     pub(super) fn facets(&self, points: &[DVec3]) -> Loops {
         if self.has_volume {
             return loops(points, self.hull.facets());
@@ -129,7 +129,7 @@ impl GrowingPatch {
         Join::Joined
     }
 
-    /// Returns the side of a plane on which the highest corner of the hull is.
+    /// Compares the highest corner of the hull above a plane to the plane: in front, on or behind.
     fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;
@@ -155,7 +155,8 @@ impl GrowingPatch {
         }
     }
 
-    /// Returns the hull with the points `new` added, and the bounding box of what changed.
+    /// Returns the hull with the points `new` added, and the bounding box of the change; `None` if the hull is
+    /// unchanged.
     fn grown(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;

@@ -1,4 +1,4 @@
-//! Tests whether a triangle enters the interior of a hull.
+//! Tests exactly whether triangles enter the interior of a hull.
 
 use crate::exact::predicates::side_of;
 use crate::half_edges::{Edges, Use};
@@ -7,16 +7,16 @@ use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// A hull to test triangles of the same mesh against.
+/// A convex hull with volume, prepared for tests whether triangles of the same mesh enter it.
 pub(super) struct Obstacle<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
-    /// The corners of all facets with their facets, sorted by corner.
+    /// Pairs of a corner and an adjacent facet, sorted by corner.
     meeting: OnceCell<Vec<(u32, u32)>>,
 }
 
-/// An edge of a hull with the facets on either side.
+/// An edge of a hull, with the facets on both sides.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     ends: [u32; 2],
@@ -24,7 +24,7 @@ struct Edge {
 }
 
 impl<'a> Obstacle<'a> {
-    /// Creates the test of a hull with volume.
+    /// Prepares the tests for a hull with volume.
     pub(super) fn new(points: &'a [DVec3], hull: &'a ExactHull) -> Self {
         Obstacle {
             points,

@@ -10,7 +10,7 @@ use rstest::rstest;
 
 const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
 
-/// Checks that every triangle is in exactly one patch, and that the facets name their faces.
+/// Checks that every triangle is in exactly one patch, and that the facets name the faces that lie in them.
 fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
     let mut seen = vec![0; mesh.faces().len()];
     for patch in &decomposition.patches {
@@ -95,7 +95,7 @@ fn the_same_mesh_gives_the_same_patches() {
     }
 }
 
-/// The number of times that a surface winds about a point, by the solid angles of its triangles.
+/// Returns the winding number of a surface about a point, by the solid angles of its triangles.
 fn winding(mesh: &TriangleMesh, point: DVec3) -> f64 {
     let angle = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| mesh.vertices()[v as usize] - point);
@@ -106,7 +106,7 @@ fn winding(mesh: &TriangleMesh, point: DVec3) -> f64 {
     mesh.faces().iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
 
-/// Points in a piece, spread evenly.
+/// Returns evenly spread points inside a piece, given its corners.
 fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     (1..=200).map(|k| {
         let weight = |corner: usize| {
@@ -120,7 +120,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// The number of patches is pinned: more patches for the same solid are a regression.
+/// Tests the exact number of patches of several solids: more patches are a regression.
 #[rstest]
 #[case::notched(notched(12), 2)]
 #[case::star(star(9, 0.4), 4)]
@@ -148,7 +148,7 @@ fn patches_are_few_and_within_the_solid(#[case] mesh: TriangleMesh, #[case] coun
     assert!(thick > 3, "{thick}");
 }
 
-/// A patch stops at the maximum number of polygons: the flank of a cone on a disc.
+/// Tests that a patch stops at the maximum number of polygons, on the flank of a cone on a disc.
 #[test]
 fn patches_are_capped() {
     let count = 4 * PATCH_POLYGONS as u32;
@@ -192,7 +192,7 @@ fn patches_are_capped() {
     assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
 }
 
-/// All patches meet in both apices, yet the work is linear in their number.
+/// Tests that the work is linear in the number of patches, all of which meet in two apices.
 #[test]
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
@@ -206,7 +206,7 @@ fn patches_of_slivers_take_linear_work() {
     }
 }
 
-/// The work is bounded for any number of corners of a polygon, and of slivers of a surface.
+/// Tests that the work per face is bounded for any number of corners of a polygon, and of slivers of a surface.
 #[test]
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {

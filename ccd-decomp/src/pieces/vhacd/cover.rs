@@ -1,4 +1,4 @@
-//! The points of each part, whose hulls together cover a solid.
+//! Computes points for each part, such that the hulls of all parts together cover the solid.
 //!
 //! Take the hull of the part of a solid in a box. A corner of it is on the solid's surface, or a corner of the
 //! box: through any other point a straight line continues in the solid and the box both ways. Therefore the
@@ -15,21 +15,21 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use rayon::prelude::*;
 
-/// The content of a voxel.
+/// The relation of a voxel to the solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// The content is not known yet.
+    /// The voxel is not classified yet.
     Unknown,
-    /// The cube meets the surface.
+    /// The voxel meets the surface.
     Surface,
-    /// The cube is in the solid.
+    /// The voxel lies inside the solid.
     Full,
-    /// The cube is outside the solid.
+    /// The voxel lies outside the solid.
     Nothing,
 }
 
-/// Returns points of each part whose hull, enlarged by the rounding of cuts, contains the solid within the voxels of
-/// the part.
+/// Returns points for each part. Their hull, enlarged by the rounding of cuts, contains the solid within the voxels
+/// of the part.
 pub(super) fn points_by_part(
     target: &Target<'_>,
     voxels: &Voxels,
@@ -59,10 +59,10 @@ pub(super) fn points_by_part(
 /// The label of a voxel outside the solid.
 const NO_PART: u32 = u32::MAX;
 
-/// The number of triangles in a task.
+/// The number of triangles in a parallel task.
 const SHARE: usize = 1024;
 
-/// Computes the content of every cube.
+/// Classifies every voxel as on the surface, inside or outside.
 pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
     let triangles: Vec<_> = target.triangles().collect();
     let met = |triangles: &[[DVec3; 3]]| {
@@ -83,7 +83,7 @@ pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
     contents
 }
 
-/// Cuts some triangles at voxels, and returns the corners with the numbers of their parts.
+/// Cuts triangles at the voxels of different parts. Returns the corners of the polygons, each with its part number.
 fn pieces(
     triangles: &[[DVec3; 3]],
     voxels: &Voxels,
@@ -106,7 +106,7 @@ fn pieces(
     all
 }
 
-/// Removes points that are between two others on an edge of the triangle, up to rounding.
+/// Removes points on an edge of the triangle that are between two others, up to rounding.
 fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
     for [from, to] in [[a, b], [b, c], [c, a]] {
         let Some(along) = unit(to - from) else {
@@ -122,14 +122,14 @@ fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> 
     points
 }
 
-/// Removes duplicates.
+/// Removes duplicate points.
 pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points.sort_unstable_by(|&p, &q| lexicographic(p, q));
     points.dedup();
     points
 }
 
-/// Classifies the remaining voxels: those connected without meeting the surface are all full or all empty.
+/// Classifies the voxels that do not meet the surface: connected ones are all inside or all outside.
 fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     let mut stack = Vec::new();
     for seed in 0..contents.len() {
@@ -154,7 +154,7 @@ fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     }
 }
 
-/// Adds voxel corners in the solid to their parts, except corners inside one part.
+/// Adds the voxel corners in the solid to the parts of the adjacent voxels, except corners inside one part.
 fn add_corners(
     target: &Target<'_>,
     voxels: &Voxels,
@@ -189,7 +189,7 @@ fn add_corners(
     }
 }
 
-/// Iterates over the voxels, up to eight, at a corner.
+/// Iterates over the voxels around a grid corner, up to eight.
 fn cells_around(voxels: &Voxels, corner: Cell) -> impl Iterator<Item = usize> {
     let counts = voxels.counts();
     (0..8_usize).filter_map(move |k| {

@@ -1,4 +1,4 @@
-//! An upper bound on how far hulls extend beyond a solid, by branch and bound.
+//! Computes an upper bound on how far hulls extend beyond a solid, by branch and bound.
 
 mod part_planes;
 mod under;
@@ -40,47 +40,47 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
     greater(open, search.found)
 }
 
-/// The approximate number of corners of a part that are examined.
+/// The approximate number of corners of a part whose distances are computed first.
 const CORNERS: usize = 256;
 
 /// The number of boxes that are split in parallel.
 const BATCH: usize = 16;
 
-/// The number of planes that cost as much as a triangle.
+/// The number of plane tests that cost as much as a triangle test, one step of work.
 const PLANES_A_STEP: usize = 16;
 
 struct Search<'a> {
     target: &'a Target<'a>,
     parts: &'a [PartPlanes<'a>],
-    /// The number of steps taken.
+    /// The number of steps of work spent.
     taken: u64,
-    /// The largest distance found.
+    /// The largest distance from the solid to a point of a part that was found.
     found: f64,
     heap: BinaryHeap<Cell>,
 }
 
-/// A box, with a bound on the distance from the solid to the part within the box.
+/// A box with an upper bound on the distance from the solid to the part within the box.
 #[derive(Clone, Debug)]
 struct Cell {
     bound: f64,
     part: usize,
     bounds: [DVec3; 2],
-    /// The planes of the part that the box is not entirely behind.
+    /// The facet planes of the part that do not have the whole box behind them.
     planes: Vec<u32>,
 }
 
-/// The result of examining a box.
+/// The result of the examination of a box.
 #[derive(Default)]
 struct Examined {
-    /// The distance of the centre, if that is in the part.
+    /// The distance from the solid to the box's centre, if the centre is in the part.
     distance: f64,
-    /// The box; `None` if it cannot exceed the largest known distance.
+    /// The examined box; `None` if no point of the part in it exceeds the largest known distance.
     cell: Option<Cell>,
     taken: u64,
 }
 
 impl Search<'_> {
-    /// Examines some corners of a part, and its bounding box.
+    /// Examines some corners of a part, then its bounding box.
     fn begin(&mut self, number: usize) {
         let PartPlanes {
             part,
@@ -134,7 +134,7 @@ impl Search<'_> {
         self.heap.extend(examined.cell);
     }
 
-    /// Examines a box within an examined one.
+    /// Computes the bound of the box `bounds`, which lies within the examined box `within`.
     fn examine(&self, within: &Cell, bounds: [DVec3; 2]) -> Examined {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
@@ -173,7 +173,7 @@ impl Search<'_> {
     }
 }
 
-/// Splits a box into eight at its middle.
+/// Splits a box into eight at its centre.
 fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
     let middle = (lo + hi) / 2.0;
     std::array::from_fn(|k| {

@@ -1,4 +1,4 @@
-//! Labels of voxels, by the library's V-HACD.
+//! Assigns voxels to parts, by the library's V-HACD.
 
 use super::target::Target;
 use super::voxels::Voxels;
@@ -10,7 +10,7 @@ use parry3d_f64::transformation::voxelization::FillMode;
 use std::collections::VecDeque;
 use std::panic::catch_unwind;
 
-/// Returns the part of every voxel; `None` if the library fails.
+/// Returns the part number of every voxel; `None` if the library fails.
 ///
 /// Voxels that the library omits get the part of a nearby voxel. The guarantee holds for any labels.
 pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<u32>> {
@@ -41,7 +41,7 @@ pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option
     Some(labels)
 }
 
-/// Assigns voxels to parts by the library. There are more parts than requested hulls; the library makes up to twice its
+/// Assigns voxels to parts by V-HACD. There are more parts than requested hulls; the library makes up to twice its
 /// parameter.
 fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
     let fill_mode = if target.is_closed() {

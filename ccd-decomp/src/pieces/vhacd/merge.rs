@@ -1,4 +1,4 @@
-//! Merges parts, best filled common hull first.
+//! Merges parts of a decomposition, the pair with the least added hull volume first.
 
 use super::extremes::{farthest, without_inner};
 use crate::bounds::Bounds;
@@ -7,8 +7,8 @@ use crate::tolerance::PRICED_POINTS;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
 
-/// Merges parts, given by points, until at most `most` are left: always the pair whose common hull adds the least
-/// volume.
+/// Merges parts, given by points, until at most `most` are left. Each step merges the pair whose common hull adds the
+/// least volume.
 ///
 /// # Complexity
 /// O(n²) hulls of few points each, for any number of a part's points. Boxes replace the hulls of disjoint parts.
@@ -26,15 +26,15 @@ pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
 struct Merger {
     parts: Vec<Option<Measured>>,
     count: usize,
-    /// The cost of merging `(k, l)`, `k < l`, at `[l][k]`.
+    /// The volume that merging the parts `k < l` adds, at `[l][k]`.
     prices: Vec<Vec<f64>>,
 }
 
 struct Measured {
     points: Vec<DVec3>,
-    /// A few of the points, whose hull is nearly as large.
+    /// A few of the part's points, whose hull is nearly as large as that of all.
     priced: Vec<DVec3>,
-    /// The volume of the hull of `priced`.
+    /// The volume of the hull of the points `priced`.
     volume: f64,
     bounds: Bounds,
 }
@@ -67,7 +67,7 @@ impl Merger {
         }
     }
 
-    /// Merges the cheapest pair. Returns whether there was one.
+    /// Merges the pair with the least added volume. Returns whether there was one.
     fn merge_best(&mut self) -> bool {
         let live = |k: usize| self.parts[k].is_some();
         let pairs = (0..self.parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
@@ -104,7 +104,8 @@ impl Measured {
         }
     }
 
-    /// Returns the volume that merging adds. Boxes are larger than hulls, so that disjoint parts are merged last.
+    /// Returns the volume that merging two parts adds. Boxes are larger than hulls, so that disjoint parts are merged
+    /// last.
     fn price_with(&self, other: &Measured) -> f64 {
         let common = || volume(&[&self.priced[..], &other.priced].concat());
         let meet = self.bounds.meets(&other.bounds);
@@ -114,7 +115,7 @@ impl Measured {
     }
 }
 
-/// Returns the rounded volume of the hull of points, for comparisons; `None` if they are coplanar.
+/// Returns the rounded volume of the hull of points; `None` if they are coplanar.
 fn volume(points: &[DVec3]) -> Option<f64> {
     let at = |v: u32| points[v as usize] - points[0];
     let triangles = ExactHull::facets_of(points)?.into_iter();

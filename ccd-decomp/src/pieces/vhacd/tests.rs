@@ -66,7 +66,7 @@ fn torus(around: u32, across: u32, thickness: f64) -> TriangleMesh {
     mesh(&points, &faces.collect::<Vec<_>>())
 }
 
-/// An L of size two by two with legs of width one, and height 1.
+/// Returns an L of size two by two and height 1, with legs of width 1.
 fn angle() -> TriangleMesh {
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     prism(&outline.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0)))
@@ -86,7 +86,7 @@ fn sheet() -> TriangleMesh {
     )
 }
 
-/// Pseudo-random numbers in 0..1 by a linear congruence.
+/// Returns a generator of pseudo-random numbers in 0..1, by a linear congruence.
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -97,7 +97,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// Returns a point of the hull of some points.
+/// Returns a random convex combination of some points.
 fn mix(points: &[DVec3], mut next: impl FnMut() -> f64) -> DVec3 {
     let weights: Vec<f64> = points.iter().map(|_| -(1.0 - next()).ln()).collect();
     let sum: f64 = weights.iter().sum();
@@ -111,7 +111,7 @@ fn triangles(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// Returns whether a mesh winds about a point, by the solid angles of its triangles.
+/// Returns whether the winding number of a mesh about a point is not 0, by the solid angles of its triangles.
 fn is_seen_around(mesh: &TriangleMesh, point: DVec3) -> bool {
     let angle = |t: [DVec3; 3]| {
         let [a, b, c] = t.map(|p| p - point);
@@ -144,7 +144,7 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Returns whether a point is in a polytope, or at most `way` from it.
+/// Returns whether a point is in a polytope, or at most the distance `way` from it.
 fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     let at = |v: u32| polytope.points[v as usize];
     let fan = |f: &Facet| -> Vec<_> {
@@ -225,8 +225,8 @@ fn far_off() -> TriangleMesh {
     mesh(&moved, torus.faces())
 }
 
-/// One hull fills the hole of a torus, whose farthest points are at its two mouths; a cavity is filled, whose farthest
-/// point is its centre.
+/// Tests the reported excess of a single hull. It fills the hole of a torus, whose farthest points are at the two
+/// mouths, or a cavity, whose farthest point is its centre.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
 #[case::cavity(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
@@ -297,7 +297,7 @@ fn refusals() {
     );
 }
 
-/// Lattice points are in line with edges and corners of these meshes.
+/// Tests the locations of lattice points, which are in line with edges and corners of the meshes.
 #[rstest]
 #[case::prism(angle())]
 #[case::torus(torus(8, 4, 0.5))]
@@ -323,7 +323,7 @@ fn places(#[case] mesh: TriangleMesh) {
     }
 }
 
-/// A convex solid is one hull, for any aspect of triangles and any number of hulls.
+/// Tests that a convex solid becomes one hull, for any aspect of triangles and any number of hulls.
 #[test]
 fn a_convex_solid_is_one_hull() {
     let cones = crate::test_meshes::star(400, 1.0);

@@ -1,4 +1,4 @@
-//! The voxel grid of a mesh.
+//! The voxel grid of a mesh, and cuts of triangles at voxels.
 
 use super::target::Target;
 use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
@@ -6,24 +6,24 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
-/// A grid of voxels between planes at stored coordinates, so that neighbours share planes exactly.
+/// A voxel grid. Its planes are at stored coordinates, so that adjacent voxels share planes exactly.
 pub(super) struct Voxels {
     planes: [Vec<f64>; 3],
     /// The lower corner of the mesh, which is the centre of the first voxel.
     origin: DVec3,
-    /// The size of a voxel.
+    /// The side length of a voxel.
     step: f64,
     resolution: u32,
     /// The margin by which voxels are widened for cuts, so that rounding loses nothing.
     margin: f64,
 }
 
-/// A voxel, by its index along each axis.
+/// The indices of a voxel along each axis.
 pub(super) type Cell = [usize; 3];
 
 impl Voxels {
-    /// Creates the grid for a number of hulls, coarser if large triangles meet too many voxels; `None` if coordinates
-    /// are too coarse for any grid.
+    /// Creates the grid for a number of hulls. It is coarser if large triangles meet too many voxels; `None` if
+    /// coordinates are too coarse for any grid.
     pub(super) fn new(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
@@ -68,7 +68,7 @@ impl Voxels {
         self.resolution
     }
 
-    /// Converts a point to grid units: 0 is the centre of the first voxel.
+    /// Converts a point to grid units. The origin is the centre of the first voxel.
     pub(super) fn in_steps(&self, point: DVec3) -> DVec3 {
         (point - self.origin) / self.step
     }
@@ -91,7 +91,7 @@ impl Voxels {
         [index / z / y, index / z % y, index % z]
     }
 
-    /// Iterates over the voxels that share a face with one.
+    /// Iterates over the voxels that share a face with the voxel `cell`.
     pub(super) fn neighbours(&self, cell: Cell) -> impl Iterator<Item = usize> {
         let counts = self.counts();
         (0..6).filter_map(move |k| {
@@ -104,12 +104,12 @@ impl Voxels {
         })
     }
 
-    /// Returns the intersection of three planes.
+    /// Returns the intersection point of three grid planes, by their indices.
     pub(super) fn corner(&self, [i, j, k]: Cell) -> DVec3 {
         DVec3::new(self.planes[0][i], self.planes[1][j], self.planes[2][k])
     }
 
-    /// Returns the range of voxels that the box of a triangle may meet, slightly widened.
+    /// Returns the range of voxels along each axis that a triangle's bounding box may meet, slightly widened.
     fn ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
         let counts = self.counts();
         [0, 1, 2].map(|axis| {
@@ -123,7 +123,7 @@ impl Voxels {
         })
     }
 
-    /// Calls `visit` for every voxel that a triangle meets.
+    /// Calls `visit` with the index of every voxel that a triangle meets.
     pub(super) fn for_each_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
         let [xs, ys, zs] = self.ranges(triangle);
         let (mut slab, mut beam, mut part) = (Vec::new(), Vec::new(), Vec::new());
@@ -141,8 +141,8 @@ impl Voxels {
         }
     }
 
-    /// Cuts a triangle where labels change, and calls `visit` with each label and a polygon whose hull, enlarged by the
-    /// margin, contains the triangle within its voxels.
+    /// Cuts a triangle where part labels change. Calls `visit` with each label and a polygon, whose hull, enlarged by
+    /// the margin, contains the triangle within the label's voxels.
     ///
     /// Cuts make corners that are nearly collinear. Blocks of voxels are therefore halved only while their labels
     /// differ.

@@ -21,7 +21,8 @@ fn convex_solids_are_hulls() {
     assert_eq!(why(&cubes(&block([3, 3, 3]))), Why::Convex);
 }
 
-/// Large planar parts become patches if they have many triangles, and stay triangles if few.
+/// Tests that a solid with large planar parts becomes patches if these have many triangles, and stays triangles if
+/// they have few.
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
@@ -50,7 +51,7 @@ fn the_largest_plane_is_found_whole() {
     assert_eq!(plane.polygons, 1);
 }
 
-/// The largest planar part by a walk over polygons.
+/// Returns the largest planar part, by a walk over adjacent coplanar polygons.
 fn largest_slowly(manifold: &Manifold<'_>) -> PlanarRegion {
     let flats = Merger::merged(manifold).finish();
     let mut seen = vec![false; flats.len()];
@@ -120,7 +121,7 @@ fn slow_decompositions_stay_triangles() {
     }
 }
 
-/// Meshes whose edges pair up, but that bound no solid: merging must end.
+/// Tests that merging ends for meshes whose edges pair up, but that bound no solid.
 #[test]
 fn folded_meshes_stay_triangles() {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];

@@ -13,7 +13,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
-/// Returns whether two tetrahedra are reported to meet.
+/// Returns whether a tetrahedron and its copy moved by `offset` are reported to intersect.
 fn meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
     let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);
@@ -42,7 +42,7 @@ fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
     assert_eq!(meet(offset), expected);
 }
 
-/// Two tetrahedra that share only a corner do not intersect.
+/// Tests that two tetrahedra that share only a corner do not intersect.
 #[test]
 fn a_shared_corner_is_no_intersection() {
     assert!(!meet(DVec3::X));
@@ -55,7 +55,7 @@ fn a_shared_corner_is_no_intersection() {
     ));
 }
 
-/// A thin fin folded flat onto itself.
+/// Tests that a thin fin folded flat onto itself is reported as an intersection.
 #[test]
 fn a_fold_is_found() {
     let vertices = vec![
@@ -97,7 +97,7 @@ fn stairs_do_not_meet_themselves() {
     assert!(bounding_solid(&stairs).is_ok());
 }
 
-/// The work grows with the number of triangles, not with the square of those about one vertex.
+/// Tests that the work grows with the number of triangles, not with the square of those about one vertex.
 #[test]
 fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     for corners in [50, 500, 5_000] {
@@ -113,7 +113,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     }
 }
 
-/// The steps of work that checking a mesh takes, per face.
+/// Returns the steps of work per face that checking a mesh takes.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
@@ -127,7 +127,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     work.taken() / mesh.faces().len() as u64
 }
 
-/// A solid of slivers that is not star-shaped: each sliver is near a few others.
+/// Tests the work for a solid of slivers that is not star-shaped. Each sliver is near a few others.
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
@@ -139,8 +139,8 @@ fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     }
 }
 
-/// Prisms over outlines on a grid, so that corners coincide and edges lie in lines, and over rough
-/// circles; large enough for fans.
+/// Returns a prism over an outline, on a grid, so that corners coincide and edges lie in lines, or over a rough
+/// circle. It is large enough for fans.
 fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
         let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;
@@ -157,7 +157,7 @@ fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     mesh(turned.collect(), flat.faces())
 }
 
-/// The pairs are those of a test of every pair.
+/// Tests that the reported intersections are those of a test of every pair of faces.
 #[test]
 fn crossings_are_those_of_all_pairs() {
     let radii = |n| prop::collection::vec((1..=3_i32, 0.9..1.1_f64), n);

@@ -57,7 +57,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
     assert!((16..=24).contains(&flats.len()), "{}", flats.len());
 }
 
-/// Merges rows first, then rectangles, in any order of the faces.
+/// Tests that a grid merges to rows first, then to rectangles, in any order of the faces.
 #[test]
 fn a_grid_with_a_hole_is_a_few_rectangles() {
     let cells = block([9, 9, 1]).into_iter().filter(|c| *c != [4, 5, 0]);
@@ -78,7 +78,8 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
     }
 }
 
-/// Nothing is merged over a fold: triangles back to back, or a flat tetrahedron, each next to a solid.
+/// Tests that no polygons are merged over a fold: triangles back to back, or a flat tetrahedron, each next to a
+/// solid.
 #[test]
 fn folds_are_no_polygons() {
     let back_to_back = mesh(

@@ -1,11 +1,11 @@
-//! Agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass, until one node is
-//! left (`[PLOC18]`).
+//! Builds a tree by agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass,
+//! until one node is left (`[PLOC18]`).
 
 use super::nodes::{Below, Cuboid, Node};
 use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
-/// Scratch memory of agglomerations.
+/// The scratch memory of agglomerations, for reuse.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
     leaves: Vec<Node>,
@@ -17,7 +17,7 @@ pub(super) struct Workspace {
     tree: Vec<Node>,
 }
 
-/// Builds a tree over leaves: the root first, then pairs of siblings, parents before children.
+/// Builds a tree over leaves. The root comes first, then pairs of siblings, parents before children.
 ///
 /// # Complexity
 /// O(n log n) if a constant share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as for boxes
@@ -70,7 +70,7 @@ pub(super) fn agglomerate(
     tree
 }
 
-/// Finds for every node in a row the neighbour with the smallest joint box, the last of equals.
+/// Finds the best neighbour of every node in a row: the one with the smallest joint box, the last of equals.
 fn best_neighbours(
     row: &[Node],
     reach: usize,
@@ -99,7 +99,7 @@ fn best_neighbours(
     }
 }
 
-/// Sorts leaves by the Morton codes of their centres.
+/// Sorts leaves by the Morton codes of their box centres.
 fn along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>) {
     let all = leaves
         .iter()
@@ -112,7 +112,7 @@ fn along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>
     row.extend(order.iter().map(|&(_, index)| leaves[index as usize]));
 }
 
-/// Interleaves the 21 leading bits of three coordinates in the unit interval.
+/// Returns the Morton code of a point: the interleaved 21 leading bits of its coordinates in the unit interval.
 fn morton(point: DVec3) -> u64 {
     let cell = point * f64::from(1 << 21);
     spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2

@@ -1,4 +1,4 @@
-//! Splits pieces in two.
+//! Splits the pieces of a hull tree node in two.
 
 use crate::hull::exact_hull::ExactHull;
 use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
@@ -8,7 +8,7 @@ use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-/// The centres of all pieces, as means of their points.
+/// The centres of all pieces, each the mean of the piece's points.
 pub(super) struct Splitter {
     centres: Vec<DVec3>,
 }
@@ -21,7 +21,7 @@ impl Splitter {
         }
     }
 
-    /// Partitions at least two pieces, and returns the size of the first side.
+    /// Partitions at least two pieces into two sets, and returns the size of the first.
     pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
         if pieces.len() == 2 {
             return 1;
@@ -43,7 +43,7 @@ impl Splitter {
         }
     }
 
-    /// Returns the unit vector along which the surface of the hull of the centres spreads most.
+    /// Returns the unit vector along which the surface of the hull of the piece centres spreads most.
     fn longest(&self, pieces: &[u32]) -> DVec3 {
         // A sample is enough.
         let stride = pieces.len().div_ceil(SPREAD_PIECES);
@@ -65,7 +65,7 @@ impl Splitter {
     }
 }
 
-/// Computes the second moments of a surface about its centroid.
+/// Returns the second moments of a surface of triangles about its centroid.
 fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
     let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
     for corners in triangles {
@@ -85,13 +85,13 @@ fn of_points(points: &[DVec3]) -> Matrix3<f64> {
     points.iter().map(|&p| square(p)).sum()
 }
 
-/// `p pᵀ`
+/// Returns the outer product `p pᵀ` of a vector with itself.
 fn square(p: DVec3) -> Matrix3<f64> {
     let p = Vector3::from(p.to_array());
     p * p.transpose()
 }
 
-/// Returns the unit eigenvector of the largest eigenvalue.
+/// Returns the unit eigenvector of a symmetric matrix for the largest eigenvalue.
 fn principal(matrix: Matrix3<f64>) -> Option<DVec3> {
     let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());

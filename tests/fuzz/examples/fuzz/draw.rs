@@ -1,4 +1,4 @@
-//! Draws random inputs.
+//! Draws random numbers, points and rotations.
 
 use crate::raw_motion::RawPose;
 use crate::vector::Vector;
@@ -9,7 +9,7 @@ use std::ops::Range;
 pub struct Draw(Pcg64);
 
 impl Draw {
-    /// Creates one stream per query, so that each query can be run alone.
+    /// Creates the random stream of one query, so that each query can be run alone.
     pub fn new(seed: u64, index: u64) -> Self {
         Draw(Pcg64::seed_from_u64(
             seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index,
@@ -36,7 +36,7 @@ impl Draw {
         of[self.count(0..of.len())]
     }
 
-    /// Returns a point in the cube from −1 to 1.
+    /// Returns a random point in the cube from −1 to 1 along each axis.
     pub fn point(&mut self) -> [f64; 3] {
         [(); 3].map(|()| self.within(-1.0..1.0))
     }
@@ -51,7 +51,7 @@ impl Draw {
         }
     }
 
-    /// Returns a quaternion of any length.
+    /// Returns a random quaternion, not of unit length.
     pub fn quaternion(&mut self) -> [f64; 4] {
         [(); 4].map(|()| self.within(-1.0..1.0))
     }

@@ -1,4 +1,4 @@
-//! Families of queries, one for each kind of difficulty, with parameters over many magnitudes.
+//! The families of random queries, one for each kind of difficulty, with parameters over many magnitudes.
 
 mod budget;
 mod far;
@@ -23,21 +23,21 @@ pub enum Family {
     Needles,
     /// End poses and centres of rotation far from the origin, and tight tolerances.
     Far,
-    /// Closed parts side by side and nested, oriented outward or inward.
+    /// Closed parts next to each other and nested, oriented outward or inward.
     Shells,
-    /// Margins from a thousandth of the bodies to a hundred times their size.
+    /// Margins from a thousandth of the size of the bodies to a hundred times their size.
     Margins,
-    /// Every small budget.
+    /// Budgets too small for most queries.
     Budget,
     /// Bodies in contact at the start that are released under `StartPolicy::Leave`.
     Leave,
-    /// Turns of up to a thousand radians.
+    /// Rotations of up to a thousand radians.
     Turns,
-    /// Bodies of very different size.
+    /// Bodies of very different sizes.
     Scales,
-    /// Faces that fall flat on each other.
+    /// Faces that move flat onto each other.
     Flat,
-    /// Convex pieces of 4 to 2,000 points.
+    /// Convex pieces of 4 to 2,000 points each.
     Hulls,
 }
 
@@ -58,8 +58,8 @@ impl Family {
     }
 }
 
-/// Returns a case of two shapes that pass each other halfway, or meet: their centres come within about the sum of their
-/// radii. Both move, and turn by up to `turn` over a duration of 1.
+/// Returns a case of two shapes that pass each other halfway, or meet. Their centres come within about the sum of
+/// their radii. Both move, and rotate by up to `turn` over a duration of 1.
 fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());
@@ -83,7 +83,7 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Cas
     }
 }
 
-/// Returns a body at rest at the origin.
+/// Returns the motion of a body at rest at the origin.
 fn still() -> RawMotion {
     RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }

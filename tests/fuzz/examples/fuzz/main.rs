@@ -87,7 +87,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs a family. Returns true if anything failed.
+/// Runs all queries of a family. Returns true if any answer was wrong.
 fn run(family: Family, args: &Args) -> bool {
     let numbers = match args.only {
         Some(one) => one..one + 1,

@@ -1,10 +1,10 @@
-//! Generated meshes around the origin, of size about 1.
+//! Generates meshes around the origin, of size about 1.
 
 use crate::case::{Form, Shape};
 use crate::draw::{Draw, times};
 use crate::vector::Vector;
 
-/// Returns random triangles.
+/// Returns a mesh of `count` random triangles.
 pub fn soup(draw: &mut Draw, count: usize) -> Shape {
     let mut shape = Shape::default();
     for k in 0..count as u32 {
@@ -26,7 +26,7 @@ fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: Form) -> Shape {
     }
 }
 
-/// Returns a tetrahedron, oriented outward as the other shapes.
+/// Returns a random tetrahedron, oriented outward.
 pub fn tetrahedron(draw: &mut Draw) -> Shape {
     let corners = [(); 4].map(|()| Vector(draw.point()));
     let [a, b, c, d] = corners;
@@ -47,7 +47,7 @@ pub fn cuboid(half: [f64; 3]) -> Shape {
     Shape::cuboid(half)
 }
 
-/// Returns a tube around the z axis, of quads that are not flat: closed, and hollow in the middle.
+/// Returns a closed tube around the z axis, of quadrilaterals that are not flat, with an open middle.
 pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
     let turn = |k: u32, n: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
@@ -116,7 +116,7 @@ pub fn hull(draw: &mut Draw, count: usize) -> Shape {
     shape(vertices, faces, Form::Points)
 }
 
-/// Returns any of the above shapes, with up to about 30 triangles.
+/// Returns a random shape of this module, with up to about 30 triangles.
 pub fn any(draw: &mut Draw) -> Shape {
     match draw.count(0..7) {
         0 | 1 => {
@@ -133,7 +133,7 @@ pub fn any(draw: &mut Draw) -> Shape {
     }
 }
 
-/// Returns a closed shape.
+/// Returns a random closed shape.
 pub fn solid(draw: &mut Draw) -> Shape {
     match draw.count(0..4) {
         0 => tetrahedron(draw),

@@ -1,4 +1,4 @@
-//! Counts outcomes.
+//! Counts the outcomes of trials.
 
 use crate::judge::Fault;
 use crate::trial::{Failure, Trial};
@@ -12,11 +12,11 @@ pub struct Tally {
     queries: u64,
     answers: u64,
     by_method: BTreeMap<String, u64>,
-    /// The counts of statuses, for the default method.
+    /// The number of answers by status, for the default method.
     statuses: BTreeMap<String, u64>,
-    /// The counts of reasons, for all methods.
+    /// The number of unresolved answers by reason, for all methods.
     unresolved: BTreeMap<String, u64>,
-    /// The first query of every reason.
+    /// The number of the first query with each reason.
     examples: BTreeMap<String, u64>,
     refused: BTreeMap<String, u64>,
     faults: BTreeMap<Fault, u64>,
@@ -25,7 +25,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Counts a trial. Returns its failures that are among the first of their kind.
+    /// Counts the outcome of a trial. Returns its failures that are among the first of their kind.
     pub fn add<'t>(&mut self, number: u64, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
         self.queries += 1;
         self.answers += trial.outcomes.len() as u64;

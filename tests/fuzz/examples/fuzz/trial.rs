@@ -1,4 +1,4 @@
-//! One query of a family: drawn, and answered by several methods, with a time limit.
+//! Draws one query of a family, and answers it by several methods, with a time limit.
 
 use crate::case::{Case, Form};
 use crate::draw::Draw;
@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
-/// The time after which a query counts as a hang.
+/// The time after which a query counts as hanging.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
@@ -55,14 +55,14 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     asked
 }
 
-/// Returns the text of a failure, with the command that repeats its query.
+/// Returns the report of a failure, with the command that repeats its query.
 pub fn report(failure: &Failure, family: Family, seed: u64, number: u64, case: &Case) -> String {
     let name = format!("{family:?}").to_lowercase();
     let command = format!("fuzz --family {name} --seed {seed} --only {number}");
     failure.report(&command, case)
 }
 
-/// Watches all threads, and ends the program if one of them hangs.
+/// A watchdog over all threads, which ends the program if one of them hangs.
 #[derive(Clone)]
 pub struct Watch(Arc<Mutex<HashMap<ThreadId, (u64, Instant)>>>);
 

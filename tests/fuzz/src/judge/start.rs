@@ -1,4 +1,4 @@
-//! The state of the bodies at the start: their distance, and whether one is inside the other.
+//! Determines the state of the bodies at the start: their distance, and whether one is inside the other.
 
 use crate::double::Double;
 use crate::referee::Scene;
@@ -6,12 +6,12 @@ use crate::solid::{Solid, Where, clearance, points_near};
 use crate::vector::Vector;
 use ccd_core::Volume;
 
-/// The known facts about the start.
+/// The facts about the bodies at the start, as far as they are known.
 pub(super) struct Start {
     pub(super) distance: f64,
-    /// Triangles penetrate deeper than rounding explains, or one body is inside the other.
+    /// Whether triangles penetrate deeper than rounding explains, or one body is inside the other.
     pub(super) overlaps: bool,
-    /// An answer may report one body inside the other.
+    /// Whether an answer may report one body inside the other.
     pub(super) may_contain: bool,
 }
 
@@ -39,7 +39,7 @@ impl Start {
     }
 }
 
-/// Locates the parts of each body relative to the other, if the surfaces are apart.
+/// Locates the parts of each body relative to the other body, given that the surfaces are apart.
 fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
     let mut doubtful = Where::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
@@ -54,7 +54,7 @@ fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
     doubtful
 }
 
-/// Searches for a point well inside one body and on, or inside, the other, if they touch.
+/// Searches for a point well inside one body, and on or inside the other, given that the bodies touch.
 fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
     let well_inside = |p: Vector<Double>, solid: &Solid| {
         solid.locate(p) == Where::Inside && clearance(p, &solid.triangles) > far

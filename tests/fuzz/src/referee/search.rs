@@ -1,4 +1,5 @@
-//! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
+//! Searches for the first contact by conservative advancement over all pairs of triangles, in f64, checked in
+//! [`Double`].
 
 use super::{Ball, Evidence, Limit, NOISE, Scene};
 use crate::double::Double;
@@ -6,12 +7,12 @@ use crate::nearest::{Triangle, depth, distance};
 use crate::raw_motion::Snapshot;
 use crate::vector::{Number, larger, smaller};
 
-/// The largest number of steps of one pair, and of all pairs, before the rest is sampled.
+/// The maximum number of steps of one pair, and of all pairs, before the rest of the time is sampled.
 const PAIR_STEPS: usize = 300;
 const ALL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
-/// Searches for the first time at which two bodies are too near.
+/// The search for the first time at which two bodies are nearer than allowed.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     limit: Limit,
@@ -22,14 +23,14 @@ pub(super) struct Search<'a> {
     proven: bool,
 }
 
-/// A gap, its closing rate, and a bound on the change of the rate.
+/// The gap of two balls, its closing rate, and a bound on the change of the rate.
 struct Near {
     gap: f64,
     rate: f64,
     bend: f64,
 }
 
-/// Solves gap = rate τ + bend τ²/2, in the form without cancellation.
+/// Returns the time until which a gap stays open: solves gap = rate τ + bend τ²/2, in the form without cancellation.
 fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
     (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
 }
@@ -118,7 +119,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns a time after `begin` until which the bodies are well apart, for all pairs together.
+    /// Returns a time after `begin` until which the bodies are well apart, by a bound for all pairs together.
     fn together(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
@@ -158,7 +159,8 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// Returns the gap of two balls above the threshold, its closing rate, and a bound on the change of the rate.
+    /// Returns by how much the gap of two balls exceeds the threshold, its closing rate, and a bound on the change of
+    /// the rate.
     fn near(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> Near {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
@@ -201,7 +203,8 @@ impl<'a> Search<'a> {
         ]
     }
 
-    /// Checks in [`Double`] whether the pair is below the threshold. If so, nothing later is of interest.
+    /// Checks in [`Double`] whether a pair of triangles is below the threshold at a time. If so, the search ends
+    /// there.
     fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());

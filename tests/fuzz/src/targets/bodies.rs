@@ -1,11 +1,11 @@
-//! Laws of prepared bodies: they are stored without loss, and queries on them agree.
+//! Checks prepared bodies: they are stored without loss, and queries on them agree.
 
 use crate::engine::Method;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Body, Motion, Moving, Outcome, Pose, Settings};
 use ccd_decomp::Model;
 
-/// The budget of each query.
+/// The work budget of each query, in iterations.
 const BUDGET: u64 = 4000;
 
 /// Checks that a stored model reads back to the same bytes.
@@ -83,8 +83,8 @@ fn agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     }
 }
 
-/// Returns whether the first answer proves that the second is false: a contact well within the tolerance at a time
-/// before which there is none.
+/// Returns whether the answer `free` proves that the answer `contact` is false: its contact is well within the
+/// tolerance, at a time before which there is none.
 fn excludes(free: &Answer, contact: &Answer) -> bool {
     let safe_until = match free.outcome {
         Outcome::Contact { time, .. } => time,

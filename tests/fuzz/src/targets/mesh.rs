@@ -1,4 +1,4 @@
-//! Mesh files: from bytes to polygons, triangles, pieces and bodies.
+//! Reads mesh files, and makes triangles, pieces and bodies of them.
 
 use super::bodies;
 use crate::memory;
@@ -6,29 +6,30 @@ use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_ob
 use rawzip::ZipArchiveWriter;
 use std::io::Write;
 
-/// The maximum size of a file, in bytes. Faults of readers need few, and short files are read fast.
+/// The maximum size of a file, in bytes. Faults of readers need few bytes, and short files are read fast.
 const MOST_BYTES: usize = 1 << 14;
 
-/// The memory limit of a reader, besides some for each byte of the file.
+/// The constant part of a reader's memory limit, in bytes. The limit grows with the file's size.
 const MEMORY: usize = 1 << 20;
 const MEMORY_PER_BYTE: usize = 1 << 10;
-/// The memory limit of a reader of scenes, in which a few bytes may use the same mesh many times.
+/// The memory limit in bytes of a reader of scenes, in which a few bytes may use the same mesh many times.
 const MEMORY_OF_SCENES: usize = 1 << 28;
-/// The memory limit of bodies: approximate hulls use up to two million voxels.
+/// The memory limit of making bodies, in bytes. Approximate hulls use up to two million voxels.
 const MEMORY_OF_BODIES: usize = 1 << 28;
 
-/// The maximum number of triangles for patches and hulls of all kinds. `Auto` has a budget of its own.
+/// The maximum number of triangles for patches and hulls. `Auto` has a budget of its own.
 const MOST_TRIANGLES: usize = 48;
-/// The maximum number of triangles for any bodies: scenes of few bytes may have many.
+/// The maximum number of triangles for bodies of any kind. Scenes of few bytes may have many.
 const MOST_OF_SCENES: usize = 1 << 11;
-/// Approximate hulls are made of one file in this many, because they take a hundred times as long as the rest.
+/// The number of files for each of which approximate hulls are made of one file, because they take a hundred times as
+/// long as the rest.
 const APPROXIMATED: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
     read(format, bytes, MEMORY);
 }
 
-/// Reads a scene: a mesh of parts.
+/// Reads a scene file and checks its parts and bodies.
 pub(super) fn scene(format: Format, bytes: &[u8]) {
     read(format, bytes, MEMORY_OF_SCENES);
     if bytes.len() <= MOST_BYTES {
@@ -36,7 +37,7 @@ pub(super) fn scene(format: Format, bytes: &[u8]) {
     }
 }
 
-/// Reads a 3MF model: the bytes are a package, or else the model in a generated package.
+/// Reads a 3MF: the bytes are a package, or else the model of a generated package.
 pub(super) fn packed(bytes: &[u8]) {
     scene(Format::ThreeMf, bytes);
     scene(Format::ThreeMf, &package(bytes));
@@ -64,7 +65,7 @@ fn read(format: Format, bytes: &[u8], memory: usize) {
     }
 }
 
-/// Checks that the parts of a file, put together, are the whole file.
+/// Checks that the parts of a file together have the faces of the whole file.
 fn parts(format: Format, bytes: &[u8]) {
     let read = || MeshFile::from_reader(format, bytes);
     let (Ok(file), Ok(again), Ok(third)) = (read(), read(), read()) else {
@@ -86,7 +87,7 @@ fn parts(format: Format, bytes: &[u8]) {
     }
 }
 
-/// Returns an uncompressed package of one model.
+/// Returns an uncompressed 3MF package of one model.
 fn package(model: &[u8]) -> Vec<u8> {
     let pack = || {
         let mut bytes = Vec::new();
@@ -119,7 +120,7 @@ fn check(mesh: &TriangleMesh) {
     reads_back(mesh);
 }
 
-/// Checks that a written mesh reads back to the same bits.
+/// Checks that a mesh written as OBJ reads back to the same bits.
 fn reads_back(mesh: &TriangleMesh) {
     let mut obj = Vec::new();
     write_obj(mesh, &mut obj).expect("memory takes all bytes");

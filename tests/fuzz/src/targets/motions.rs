@@ -1,4 +1,4 @@
-//! Tables of motions.
+//! Reads tables of motions.
 
 use crate::memory;
 use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, write};
@@ -7,7 +7,8 @@ use std::io::{self, Read};
 /// The maximum size of the input, in bytes.
 const MOST_BYTES: usize = 1 << 14;
 
-/// The memory limit, besides some for each byte: a row of one byte is a whole query.
+/// The constant part of the memory limit, in bytes. The limit grows with the input, because a row of one byte is a
+/// whole query.
 const MEMORY: usize = 1 << 24;
 const MEMORY_PER_BYTE: usize = 1 << 11;
 
@@ -26,7 +27,7 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Runs a check of a small table with limited memory.
+/// Runs a check of a small table within a memory limit.
 pub(super) fn within_limits(bytes: &[u8], check: impl FnOnce()) {
     if bytes.len() <= MOST_BYTES {
         memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
@@ -66,7 +67,7 @@ fn check(bytes: &[u8], table: &MotionTable) {
     written(table);
 }
 
-/// Checks that skipped rows do not affect the rows after them.
+/// Checks that skipping rows does not affect the rows after them.
 fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
     let half = rows / 2;
     let mut rest = MotionRows::new(bytes).expect("a header that was read");
@@ -76,7 +77,7 @@ fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
     assert!(rest.iter().eq(expected.into_iter()));
 }
 
-/// Checks that written rows read back to the same numbers, orientations up to rounding.
+/// Checks that written rows read back to the same numbers, except that orientations are rounded.
 fn written(table: &MotionTable) {
     let queries: Vec<Motions> = table.rows.iter().map(|(_, query)| query.clone()).collect();
     let mut bytes = Vec::new();
@@ -93,7 +94,7 @@ fn written(table: &MotionTable) {
     }
 }
 
-/// Returns the parts of a row that are written without loss.
+/// Returns the values of a row that are written without loss.
 fn exact(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
     let numbers = [query.a, query.b].map(|motion| {
         [

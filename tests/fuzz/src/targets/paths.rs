@@ -1,4 +1,4 @@
-//! Tables of paths.
+//! Reads tables of paths.
 
 use super::motions::{Dripping, within_limits};
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};
@@ -55,7 +55,7 @@ fn check_row(row: &CourseRow) {
     }
 }
 
-/// Checks that skipped rows do not affect the rows after them, except the default ids.
+/// Checks that skipping rows does not affect the rows after them, except for default ids.
 fn skipped(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
     let half = rows.len() / 2;
     let mut rest = Courses::new(bytes, grouping).expect("a header that was read");

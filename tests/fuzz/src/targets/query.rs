@@ -1,4 +1,4 @@
-//! Queries in bytes, judged by the referee.
+//! Decodes queries from bytes, and judges their answers by the referee.
 
 mod decode;
 mod encode;
@@ -10,11 +10,11 @@ use crate::trial::ask;
 use ccd_core::{ContactsError, Instructions, Outcome, Settings};
 pub use encode::encode;
 
-/// A query and the methods that answer it.
+/// A query, and the methods that answer it.
 struct Question {
     case: Case,
     asked: Vec<(Kind, Method)>,
-    /// Whether to check equal bits and the features in contact as well.
+    /// Whether to check for equal bits and to list the features in contact as well.
     more: bool,
 }
 
@@ -31,7 +31,7 @@ pub(super) fn run(bytes: &[u8]) {
     }
 }
 
-/// Checks that other vector instructions give the same bits, and that contacts can be listed.
+/// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
 fn equal_bits(case: &Case) {
     let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::Without) else {
         return;

@@ -1,4 +1,4 @@
-//! Stored bodies: a `.ccd` file with a repaired frame, so that changed payloads pass the checksum.
+//! Loads stored bodies. The frame of the `.ccd` file is repaired, so that changed payloads pass the checksum.
 
 use super::bodies;
 use crate::memory;
@@ -8,17 +8,17 @@ use std::sync::LazyLock;
 /// The maximum size of the input, in bytes.
 const MOST_BYTES: usize = 1 << 14;
 
-/// The memory limit, as for the readers of meshes.
+/// The memory limit of loading, in bytes.
 const MEMORY: usize = 1 << 25;
 const MEMORY_PER_BYTE: usize = 1 << 10;
 
-/// The length of the frame's first part, a magic number and a version; the length of the payload and its checksum
+/// The length of the magic number and the version, which begin the file. The length of the payload and its checksum
 /// follow.
 const START: usize = 12;
 const LENGTH: usize = 8;
 const CHECKSUM: usize = 4;
 
-/// The magic number and the version of this build.
+/// The magic number and the version of this build's format.
 static HEAD: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, triangle.as_bytes()).expect("a triangle");
@@ -37,7 +37,7 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Returns the file with the right head, length and checksum for its payload.
+/// Returns the file with the magic number, version, length and checksum that fit its payload.
 fn mended(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM);
     let payload = bytes.get(START + LENGTH..end).unwrap_or_default();

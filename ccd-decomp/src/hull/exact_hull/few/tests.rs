@@ -4,7 +4,8 @@ use crate::hull::polygons::loops;
 use proptest::prelude::*;
 
 proptest! {
-    /// Both methods give the same polygons, on grids and slightly off them.
+    /// Tests that the hulls with and without a conflict graph have the same polygons, for points on grids and
+    /// slightly off them.
     #[test]
     fn few_points_have_the_hull_of_many(
         points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..24),

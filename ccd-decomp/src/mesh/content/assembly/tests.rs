@@ -97,7 +97,7 @@ fn parts_without_faces_are_left_out() {
     assert_eq!(kept, [2, 3]);
 }
 
-/// Each object is twice its member: a thousand levels would exceed any memory.
+/// Tests that a chain of a thousand objects, each twice its member, is refused before it is expanded.
 #[test]
 fn doubling_is_refused_before_it_is_done() {
     for bottom in [leaf(), of(Vec::new())] {

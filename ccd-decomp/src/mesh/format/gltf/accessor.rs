@@ -1,4 +1,4 @@
-//! Accessors: typed arrays in buffers.
+//! Reads glTF accessors: typed arrays in buffers.
 
 use super::buffers::Buffers;
 use super::element;
@@ -8,14 +8,14 @@ use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// A reader of accessors, within the file's allowance.
+/// A reader of accessors, which spends the file's allowance.
 pub(super) struct Accessors<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
     allowance: Allowance,
 }
 
-/// The component types of glTF.
+/// The component types of glTF accessors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Component {
     I8,
@@ -26,7 +26,7 @@ enum Component {
     F32,
 }
 
-/// Elements at a constant stride.
+/// The elements of an accessor in memory, at a constant stride.
 struct Rows<'a> {
     bytes: &'a [u8],
     stride: usize,
@@ -43,18 +43,18 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Returns whether an accessor has data, not only a compression extension.
+    /// Returns whether an accessor has uncompressed data, not only a compression extension.
     pub(super) fn has_bytes(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
-    /// Spends the cost of a number of corners.
+    /// Spends the cost of `count` face corners from the allowance.
     pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
         self.allowance.take(cost(0, count as u64))
     }
 
-    /// Reads the points of a `VEC3` accessor.
+    /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
         self.at(accessor, |accessors, about| {
             check_kind(about, "VEC3")?;
@@ -79,7 +79,7 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Reads an accessor, and names it in faults.
+    /// Calls `read` for an accessor, and names the accessor in faults.
     fn at<T>(
         &mut self,
         accessor: usize,
@@ -115,7 +115,7 @@ impl<'a> Accessors<'a> {
         Ok(elements)
     }
 
-    /// Returns the elements of an accessor; `None` if all except the sparse ones are zero.
+    /// Returns the elements of an accessor; `None` if all except the sparse elements are zero.
     fn rows(&self, about: &schema::Accessor, size: usize) -> Result<Option<Rows<'a>>, MeshFault> {
         match (about.buffer_view, &about.sparse) {
             (Some(view), _) => {
@@ -156,7 +156,7 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Reads the indices that a sparse accessor replaces in a list of a given length.
+    /// Reads the positions at which a sparse accessor replaces elements of a list of a given length.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = Component::index_from_code(about.component_type)?;
@@ -217,7 +217,7 @@ impl Component {
         })
     }
 
-    /// Returns the component type of an index.
+    /// Returns the component type of vertex indices for a numeric code.
     fn index_from_code(number: u32) -> Result<Self, MeshFault> {
         match Component::from_code(number)? {
             unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
@@ -236,7 +236,7 @@ impl Component {
         }
     }
 
-    /// Reads a coordinate. A normalized integer is a fraction of the largest value of its type.
+    /// Reads a coordinate from its bytes. A normalized integer is a fraction of the largest value of its type.
     fn number(self, bytes: &[u8], normalized: bool) -> f64 {
         let number = self.exact(bytes);
         let largest: f64 = match self {
@@ -269,7 +269,7 @@ impl Component {
     }
 }
 
-/// Returns the first bytes, or zeros if there are too few.
+/// Returns the first `N` bytes, or zeros if there are too few.
 fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

@@ -1,4 +1,4 @@
-//! The nodes of a scene, as parts.
+//! Traverses the nodes of a glTF scene, and collects the parts that they place.
 
 use super::accessor::Accessors;
 use super::schema::{Node, Root};
@@ -9,14 +9,15 @@ use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
-/// The meshes of a scene, and the nodes that place them.
+/// The meshes of a glTF scene, and the parts that place them.
 pub(super) struct Scene {
     pub(super) objects: Vec<Object>,
     pub(super) parts: Vec<Part>,
     pub(super) remarks: Remarks,
 }
 
-/// Reads the default scene, or else the first one; without scenes, all nodes; without nodes, all meshes.
+/// Reads the default scene of the file, or else the first one. A file without scenes gives all nodes; one without
+/// nodes, all meshes.
 pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
     let mut walk = Walk::new(root, accessors);
     match (root.scene, root.scenes.first()) {
@@ -29,11 +30,11 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
     Ok(walk.scene)
 }
 
-/// A traversal of the nodes. Each mesh is read at its first use.
+/// The state of a traversal of the nodes. Each mesh is read at its first use.
 struct Walk<'a> {
     root: &'a Root,
     accessors: Accessors<'a>,
-    /// The object of each mesh that was read.
+    /// The object number of each mesh that has been read, by mesh index.
     known: HashMap<usize, usize>,
     visited: Vec<bool>,
     scene: Scene,
@@ -54,7 +55,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Visits nodes and all their descendants, parents first.
+    /// Visits the nodes `tops` and all their descendants, parents first.
     fn below(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
         let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
@@ -77,7 +78,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Visits all nodes, starting at the roots.
+    /// Visits all nodes of the file, starting at the roots.
     fn all(&mut self) -> Result<(), MeshFault> {
         let mut is_below = vec![false; self.root.nodes.len()];
         for &child in self.root.nodes.iter().flat_map(|node| &node.children) {

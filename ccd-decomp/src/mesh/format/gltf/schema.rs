@@ -5,7 +5,7 @@ use crate::mesh::error::MeshFault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// The top-level object.
+/// The top-level JSON object of a glTF.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Root {
@@ -28,7 +28,7 @@ pub(super) struct Root {
     pub(super) buffers: Vec<Buffer>,
 }
 
-/// The list of buffers alone.
+/// The JSON of a glTF, reduced to its list of buffers.
 #[derive(Deserialize)]
 pub(super) struct BufferList {
     #[serde(default)]
@@ -177,7 +177,7 @@ pub(super) struct Buffer {
 }
 
 impl Primitive {
-    /// Returns whether the mode is points or lines.
+    /// Returns whether the primitive consists of points or lines, not of triangles.
     pub(super) fn is_thin(&self) -> bool {
         matches!(self.mode, Some(0..=3))
     }

@@ -1,4 +1,4 @@
-//! A model of a package: objects and build items.
+//! Reads one model file of a 3MF: its objects and build items.
 
 use super::transform;
 use super::xml::{Element, Origin, Step, Xml};
@@ -24,7 +24,7 @@ pub(super) struct Model {
 #[derive(Debug)]
 pub(super) struct ModelObject {
     pub(super) id: u32,
-    /// The name or, without one, the part number.
+    /// The object's name or, without a name, its part number.
     pub(super) name: Option<String>,
     pub(super) shape: Shape,
 }
@@ -34,21 +34,21 @@ pub(super) struct ModelObject {
 pub(super) enum Shape {
     Mesh(Polygons),
     Components(Vec<Use>),
-    /// A shape of an extension, by its element name.
+    /// A shape that an extension defines, by the name of its element.
     Foreign(String),
 }
 
-/// A reference to an object by a component or an item.
+/// A reference from a component or build item to an object.
 #[derive(Debug)]
 pub(super) struct Use {
     pub(super) object: u32,
     pub(super) map: AffineMap,
-    /// The path of the object's model; `None` for the same model.
+    /// The path of the model that has the object; `None` for the same model.
     pub(super) path: Option<String>,
     pub(super) part_number: Option<String>,
 }
 
-/// Suffixes of the namespaces of extensions that do not change shapes.
+/// The suffixes of the namespaces of extensions that do not change shapes.
 const HARMLESS: [&str; 4] = [
     "/production/2015/06",
     "/material/2015/02",
@@ -56,7 +56,7 @@ const HARMLESS: [&str; 4] = [
     "/trianglesets/2021/07",
 ];
 
-/// The relevant elements; all others are skipped with their content.
+/// The elements that the reader handles. All others are skipped with their content.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Tag {
     Model,
@@ -70,7 +70,7 @@ enum Tag {
     Other,
 }
 
-/// Reads a model.
+/// Reads a model from an XML reader.
 pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
     let mut model = Model::default();
     let mut open: Vec<Tag> = Vec::new();
@@ -101,7 +101,7 @@ pub(super) fn place(path: Option<&str>, id: u32, name: Option<&str>) -> String {
 }
 
 impl Model {
-    /// Returns the paths of the models that this one refers to.
+    /// Returns the paths of the other models that this model refers to.
     pub(super) fn paths(&self) -> BTreeSet<String> {
         let components = self
             .objects
@@ -114,7 +114,7 @@ impl Model {
         uses.filter_map(|used| used.path.clone()).collect()
     }
 
-    /// Adds the current object to a fault.
+    /// Adds the name of the object that is being read to a fault.
     fn at(&self, open: &[Tag], fault: MeshFault) -> MeshFault {
         match self.objects.last() {
             Some(object) if open.get(2) == Some(&Tag::Object) => {
@@ -124,7 +124,7 @@ impl Model {
         }
     }
 
-    /// Processes the start of an element within another one.
+    /// Processes the start of an element inside the element `within`.
     fn start(&mut self, within: Option<Tag>, element: &Element<'_>) -> Result<Tag, MeshFault> {
         if element.origin() == Origin::Extension {
             return Ok(self.extension(within, element.name()));
@@ -205,8 +205,8 @@ impl Model {
         Ok(tag)
     }
 
-    /// Processes an element of an extension: it may be an object's shape, or add a beam lattice to a mesh. Others are
-    /// skipped, with a remark within a mesh.
+    /// Processes an element of an extension, which may be an object's shape or the beam lattice of a mesh. Other
+    /// elements are skipped, with a remark if they are inside a mesh.
     fn extension(&mut self, within: Option<Tag>, name: &str) -> Tag {
         let of_shape = matches!(within, Some(Tag::Mesh | Tag::Vertices | Tag::Triangles));
         if of_shape && name != "trianglesets" {
@@ -262,7 +262,7 @@ impl Model {
         Ok(Tag::Other)
     }
 
-    /// Checks the corners of a complete mesh: triangles may precede vertices.
+    /// Checks the triangle indices of a complete mesh, because triangles may precede vertices.
     fn check_mesh(&mut self) -> Result<(), MeshFault> {
         self.mesh().map_or(Ok(()), |mesh| mesh.check_corners())
     }
@@ -314,7 +314,7 @@ fn named_unit(name: &str) -> Result<Unit, MeshFault> {
     })
 }
 
-/// Reads a number from an attribute of some element.
+/// Parses a number from the text of an attribute.
 fn number<T: FromStr>(
     value: Option<&str>,
     what: &(impl std::fmt::Display + ?Sized),

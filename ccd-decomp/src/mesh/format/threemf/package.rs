@@ -1,4 +1,4 @@
-//! The zip archive of a 3MF, and its relationships.
+//! Opens the zip archive of a 3MF, and finds its root model.
 
 use super::model::{self, Model};
 use super::xml::{Step, Xml};
@@ -9,7 +9,7 @@ use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceAr
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read};
 
-/// An open package with a limit on unpacked bytes.
+/// An open zip archive with a limit on the unpacked bytes.
 pub(super) struct Package<'a> {
     archive: ZipSliceArchive<&'a [u8]>,
     entries: BTreeMap<String, Entry>,
@@ -24,11 +24,11 @@ struct Entry {
     encrypted: bool,
 }
 
-/// The file that names the root model, and the usual path of the model.
+/// The path in the archive of the file that names the root model.
 const RELATIONSHIPS: &str = "_rels/.rels";
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// The suffix of the relationship type of the root model.
+/// The suffix of the relationship type that marks the root model.
 const MODEL_TYPE: &str = "/3dmodel";
 
 /// The buffer size for unpacking, in bytes.
@@ -56,12 +56,12 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// Returns the number of bytes unpacked so far.
+    /// Returns the number of bytes that have been unpacked from the archive.
     pub(super) fn unpacked(&self) -> u64 {
         self.limit - self.left
     }
 
-    /// Returns the path of the root model.
+    /// Returns the path of the root model in the archive.
     pub(super) fn first_model(&mut self) -> Result<String, MeshFault> {
         if !self.entries.contains_key(RELATIONSHIPS) {
             return if self.entries.contains_key(&normalized(USUAL_MODEL)) {
@@ -92,7 +92,7 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// Reads a model of the package.
+    /// Unpacks and parses one model of the package.
     #[expect(
         clippy::redundant_closure,
         reason = "a function has one lifetime, a closure any"
@@ -127,7 +127,7 @@ impl<'a> Package<'a> {
     }
 }
 
-/// The content of an entry: unpacked on reading, with its checksum verified at the end.
+/// A reader of one archive entry, which unpacks on reading and verifies the checksum at the end.
 struct Unpacking<'a> {
     content: Box<dyn Read + 'a>,
     left: &'a mut u64,

@@ -1,7 +1,8 @@
 use super::*;
 use ccd_core::glam::dvec3;
 
-/// Random points on the edges of triangles: two of each edge are kept, and a removed point is between them.
+/// Tests random points on the edges of triangles: two points of each edge are kept, and a removed point is between
+/// them.
 #[test]
 fn only_the_ends_of_edges_are_kept() {
     let mut seed = 1_u32;

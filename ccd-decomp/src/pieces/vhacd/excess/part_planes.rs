@@ -1,4 +1,4 @@
-//! The facet planes of a part.
+//! The facet planes of a convex part.
 
 use super::super::target::Target;
 use crate::bounds::Bounds;
@@ -7,29 +7,29 @@ use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// A part and the planes of its facets.
+/// A convex part and the planes of its facets.
 pub(super) struct PartPlanes<'a> {
     pub(super) part: &'a Hull,
-    /// The planes of well-shaped facets, which are accurate to within the slack.
+    /// The planes of well-shaped facets, which are accurate to within the slack of distances.
     pub(super) planes: Vec<Plane>,
     pub(super) bounds: Bounds,
     slack: f64,
 }
 
-/// A plane with a whole part behind it.
+/// A plane that has a whole convex part behind it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    /// The normal, of length 1.
+    /// The unit normal, which points away from the part.
     pub(super) normal: DVec3,
-    /// The height along the normal.
+    /// The dot product of the normal with any point of the plane.
     pub(super) height: f64,
 }
 
-/// The position of a box relative to a part's planes.
+/// The position of a box relative to the facet planes of a part.
 pub(super) struct Meeting {
-    /// Whether the centre is in the part.
+    /// Whether the box's centre is in the part.
     pub(super) has_centre: bool,
-    /// The numbers of the planes that the box is not entirely behind.
+    /// The numbers of the planes that do not have the whole box behind them.
     pub(super) planes: Vec<u32>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> PartPlanes<'a> {
         }
     }
 
-    /// Tests a box against the planes `among`. Returns `None` if the box does not meet the part.
+    /// Tests a box against the planes numbered `among`. Returns `None` if the box does not meet the part.
     pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
         let mut meeting = Meeting {
             has_centre: !self.planes.is_empty(),

@@ -1,4 +1,4 @@
-//! A bound for parts above a nearly flat surface.
+//! Bounds the excess of a part above a nearly flat surface.
 
 use super::super::target::Target;
 use super::super::voxels::cut_to_box;
@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
-/// Bounds the distance from the solid to a part within a box, by the surface near the box; `None` if that fails.
+/// Bounds the distance from the solid to a part within a box, using the surface near the box; `None` if that fails.
 ///
 /// Heights are measured along the mean normal of the surface in a box three times as large. The points of the large box
 /// below that surface are a convex set without surface, which is in the solid if one point is. The bound is how far a
@@ -44,8 +44,8 @@ pub(super) fn excess(
     stays.then_some(sinks + target.slack())
 }
 
-/// Returns an upper bound of the height of a part within a box, by planes that the part is behind: the upward direction
-/// is split into a multiple of each normal and a rest.
+/// Returns an upper bound of the height of a part within a box. The part is behind each plane: the upward direction
+/// is split into a multiple of the plane's normal and a rest.
 fn highest(
     planes: impl Iterator<Item = Plane>,
     up: DVec3,

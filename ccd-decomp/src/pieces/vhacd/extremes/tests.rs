@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// The hulls with and without inner points have the same corners; on a grid, in a ball and on a sphere.
+/// Tests that the hulls with and without inner points have the same corners, for points on a grid, in a ball and on a
+/// sphere.
 #[test]
 fn removed_points_are_no_corners() {
     let point = || [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64];
@@ -60,7 +61,7 @@ fn the_farthest_points_are_few() {
     assert!(farthest(&[], 96).is_empty());
 }
 
-/// The points of whole numbers in a cube.
+/// Returns the points of whole coordinates in a cube.
 fn grid() -> Vec<DVec3> {
     let point = |k: u32| DVec3::new((k % 10).into(), (k / 10 % 10).into(), (k / 100).into());
     (0..1000).map(point).collect()

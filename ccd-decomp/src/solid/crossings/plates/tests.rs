@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// Combs of integer and of uneven numbers, upright and turned, with tetrahedra in, on and next to them.
+/// Returns combs with teeth of whole or uneven heights, rotated by an angle, with tetrahedra in, on and next to them.
 fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     let comb = comb(heights);
     let thorn = tetrahedron();
@@ -26,7 +26,8 @@ fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     crate::test_meshes::mesh(turned.collect(), all.faces())
 }
 
-/// All pairs of faces that meet are reported, except those of one plate: compared with all pairs, exactly.
+/// Tests that all pairs of faces that meet are reported, except those of one plate. Compares with an exact test of
+/// all pairs.
 #[test]
 fn whoever_meets_is_reported() {
     let place = [-1..80_i32, -1..12_i32, -2..4_i32, 1..4_i32];
@@ -80,7 +81,7 @@ fn whoever_meets_is_reported() {
     assert!(asked < all / 100, "{asked} of {all}");
 }
 
-/// Faces glued to a plate, or on its rim, are next to it: no triangle of the plate is examined.
+/// Tests that faces glued to a plate, or on its boundary, are separated from it without a test of its triangles.
 #[test]
 fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);

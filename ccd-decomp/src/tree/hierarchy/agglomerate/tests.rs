@@ -3,7 +3,7 @@ use super::{best_neighbours, spread};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
-/// Boxes with corners on a coarse grid, so that many prices are equal.
+/// Generates boxes with corners on a coarse grid, so that many joint boxes have equal areas.
 fn row() -> impl Strategy<Value = Vec<Node>> {
     let number = || (0u8..8).prop_map(f32::from);
     let corner = move || [number(), number(), number()].prop_map(Vec3A::from);

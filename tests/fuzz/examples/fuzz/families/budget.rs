@@ -1,4 +1,4 @@
-//! Every small budget.
+//! Draws queries with budgets too small for most of them.
 
 use super::margins;
 use crate::case::Case;

@@ -1,4 +1,4 @@
-//! End poses and centres of rotation far from the origin, and tight tolerances.
+//! Draws queries with end poses and centres of rotation far from the origin, and with tight tolerances.
 
 use super::pass;
 use crate::case::Case;
@@ -34,7 +34,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Returns the same motion given by end poses, about any centre, far from the origin.
+/// Returns the same motion, given by end poses about any centre, and moved far from the origin.
 fn ended(draw: &mut Draw, course: &RawMotion, far: [f64; 3], duration: f64) -> RawMotion {
     let Goal::Velocities { linear, .. } = course.goal else {
         return *course;

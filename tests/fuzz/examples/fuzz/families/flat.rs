@@ -1,4 +1,4 @@
-//! Faces that fall flat on each other, or pass in one plane.
+//! Draws queries of faces that move flat onto each other, or pass each other in one plane.
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};

@@ -1,4 +1,4 @@
-//! Convex pieces of 4 to 2,000 points.
+//! Draws queries of convex pieces of 4 to 2,000 points each.
 
 use super::{pass, tolerance};
 use crate::case::Case;

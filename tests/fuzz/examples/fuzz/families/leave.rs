@@ -1,4 +1,4 @@
-//! Bodies in contact at the start that are released: they part, slide, approach or rotate.
+//! Draws queries of bodies in contact at the start that are released: they separate, slide, approach or rotate.
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
@@ -66,7 +66,8 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// Returns a shape with its lowest corner in the plane z = 0.
+/// Returns a shape moved so that its lowest corner is in the plane z = 0, and the height of its origin above its
+/// lowest corner, which is then 0.
 fn resting(shape: Shape) -> (Shape, f64) {
     let lowest = shape
         .vertices
@@ -75,7 +76,7 @@ fn resting(shape: Shape) -> (Shape, f64) {
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }
 
-/// Returns the velocity and angular velocity of the departure, and the expected result.
+/// Returns the velocity and the angular velocity of a released body, and the expected result.
 fn departure(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
     let along = times(draw.point(), draw.within(0.0..3.0));
     match draw.count(0..5) {

@@ -1,4 +1,4 @@
-//! Margins from a thousandth of the bodies to a hundred times their size.
+//! Draws queries with margins from a thousandth of the size of the bodies to a hundred times their size.
 
 use super::{pass, tolerance};
 use crate::case::Case;

@@ -1,4 +1,4 @@
-//! Needles and slivers, denormal components, faces without area.
+//! Draws queries of needles and slivers, with denormal components and faces without area.
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Shape};
@@ -48,7 +48,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Returns thin triangles of several kinds, in one plane or about one axis or anywhere.
+/// Returns thin triangles: in one plane, around one axis, or anywhere.
 fn thin(draw: &mut Draw) -> Shape {
     let width = match draw.count(0..3) {
         0 => draw.log(1e-300..1e-140),
@@ -84,7 +84,7 @@ fn thin(draw: &mut Draw) -> Shape {
     shape
 }
 
-/// Returns a direction of small whole numbers, or any direction.
+/// Returns a direction with small whole components, or any direction.
 fn lattice(draw: &mut Draw) -> [f64; 3] {
     if draw.chance(0.3) {
         return draw.direction();

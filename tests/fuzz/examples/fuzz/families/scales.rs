@@ -1,4 +1,4 @@
-//! Bodies of very different size.
+//! Draws queries of bodies of very different sizes.
 
 use super::{pass, tolerance};
 use crate::case::Case;

@@ -1,4 +1,4 @@
-//! Closed parts side by side and nested, oriented outward or inward.
+//! Draws queries of closed parts next to each other and nested, oriented outward or inward.
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Expect, Form, Shape};
@@ -43,7 +43,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// Returns one to four closed parts, some of them inside out, some nested.
+/// Returns one to four closed parts. Some are inside out, and some are nested.
 fn several(draw: &mut Draw) -> Shape {
     let count = draw.count(1..5);
     let mut all = Shape::default();

@@ -1,4 +1,4 @@
-//! Rotations of up to a thousand radians.
+//! Draws queries with rotations of up to a thousand radians.
 
 use super::{pass, tolerance};
 use crate::case::Case;
