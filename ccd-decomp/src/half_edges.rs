@@ -9,17 +9,17 @@ pub(crate) struct Edges {
     lower: Vec<u32>,
     /// For each smaller end, the end of its range in the list of uses.
     ends: Vec<u32>,
-    uses: Vec<Use>,
+    uses: Vec<EdgeUse>,
 }
 
 /// A half-edge on an edge, packed in one number: the upper end, the half-edge, and in the lowest bit whether it
 /// starts at the upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Use(u64);
+pub(crate) struct EdgeUse(u64);
 
-impl Use {
+impl EdgeUse {
     fn new(upper: u32, half_edge: HalfEdge, backward: bool) -> Self {
-        Use(u64::from(upper) << 32 | u64::from(half_edge) << 1 | u64::from(backward))
+        EdgeUse(u64::from(upper) << 32 | u64::from(half_edge) << 1 | u64::from(backward))
     }
 
     fn upper(self) -> u32 {
@@ -82,12 +82,12 @@ impl Edges {
         for next in &mut ends {
             end += std::mem::replace(next, end);
         }
-        let mut uses = vec![Use(0); end as usize];
+        let mut uses = vec![EdgeUse(0); end as usize];
         for (t, &[a, b, c]) in (0..).zip(triangles) {
             for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
                 if v != w {
                     let end = &mut ends[slot(v.min(w))];
-                    uses[*end as usize] = Use::new(v.max(w), 3 * t + k, v > w);
+                    uses[*end as usize] = EdgeUse::new(v.max(w), 3 * t + k, v > w);
                     *end += 1;
                 }
             }
@@ -101,7 +101,7 @@ impl Edges {
     }
 
     /// Iterates over the edges: the two end vertices, and the half-edges on the edge in ascending order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Use])> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[EdgeUse])> {
         let starts = std::iter::once(&0).chain(&self.ends);
         let slots = (0..).zip(starts.zip(&self.ends));
         slots.flat_map(|(slot, (&start, &end))| {

@@ -9,9 +9,9 @@ pub(crate) mod exact_hull;
 mod flat;
 pub(crate) mod polygons;
 
-use crate::exact::predicates::{lexicographic, too_fine, too_large};
+use crate::exact::predicates::{first_out_of_range, lexicographic, too_fine};
 use crate::hull::exact_hull::ExactHull;
-use crate::hull::polygons::loops;
+use crate::hull::polygons::merged_polygons;
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, Loops};
 
@@ -35,19 +35,19 @@ pub struct HullError {
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
-    if let Some(point) = too_large(points).or_else(|| too_fine(points)) {
+    if let Some(point) = first_out_of_range(points).or_else(|| too_fine(points)) {
         let point = point as u32;
         return Err(HullError { point });
     }
-    let points = each_once(points);
+    let points = distinct_points(points);
     Ok(match ExactHull::facets_of(&points) {
-        Some(triangles) => of_facets(&points, loops(&points, &triangles)),
+        Some(triangles) => hull_from_facets(&points, merged_polygons(&points, &triangles)),
         None => flat::hull(&points),
     })
 }
 
 /// Creates a hull from its facets, with those of the points that are corners.
-fn of_facets(points: &[DVec3], mut facets: Loops) -> Hull {
+fn hull_from_facets(points: &[DVec3], mut facets: Loops) -> Hull {
     let mut corners: Vec<u32> = facets.corners().to_vec();
     corners.sort_unstable();
     corners.dedup();
@@ -65,7 +65,7 @@ fn of_facets(points: &[DVec3], mut facets: Loops) -> Hull {
 }
 
 /// Returns the distinct points of a list, in the order in which they first appear.
-fn each_once(points: &[DVec3]) -> Vec<DVec3> {
+fn distinct_points(points: &[DVec3]) -> Vec<DVec3> {
     let at = |k: u32| points[k as usize];
     let mut first: Vec<u32> = (0..points.len() as u32).collect();
     first.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));

@@ -165,7 +165,7 @@ impl TriangleMesh {
     }
 
     /// Copies the mesh, with the given triangles reversed.
-    pub(crate) fn turned(&self, faces: &[u32]) -> Self {
+    pub(crate) fn with_reversed_faces(&self, faces: &[u32]) -> Self {
         let mut mesh = self.clone();
         for &face in faces {
             mesh.faces[face as usize].swap(1, 2);

@@ -8,7 +8,7 @@ pub(crate) mod report;
 
 use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose};
 use crate::pieces::vhacd::approximate;
 use crate::solid::bounding_solid;
@@ -125,7 +125,7 @@ impl Choice {
             Detail::Triangles | Detail::Surface => (Parts::Triangles, Why::Asked),
             Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
             Detail::Hull => {
-                let polytope = as_polytope(&bounding_solid(mesh)?)?;
+                let polytope = convex_polytope(&bounding_solid(mesh)?)?;
                 (Parts::Hull(Box::new(polytope)), Why::Asked)
             }
             Detail::Vhacd { hulls } => {

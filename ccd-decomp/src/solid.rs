@@ -32,7 +32,7 @@ use topology::Topology;
 /// # Errors
 /// [`DecomposeError`] if the mesh bounds no solid.
 pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
-    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
+    let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh))?;
     check_solid(&manifold, &Work::unbounded())?;
     Ok(manifold)
 }

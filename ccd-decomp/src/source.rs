@@ -123,13 +123,13 @@ impl BodySource {
                 radius,
                 half_height,
                 excess,
-            } => Prepared::round(&Round::cylinder(radius, half_height)?, excess)?,
+            } => Prepared::from_round(&Round::cylinder(radius, half_height)?, excess)?,
             BodySource::Cone {
                 radius,
                 half_height,
                 excess,
-            } => Prepared::round(&Round::cone(radius, half_height)?, excess)?,
-            BodySource::Stored(ref path) if adjustments.need_mesh() => {
+            } => Prepared::from_round(&Round::cone(radius, half_height)?, excess)?,
+            BodySource::Stored(ref path) if adjustments.apply_to_meshes_only() => {
                 return Err(SourceError::Prepared { file: path.clone() }.into());
             }
             BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
@@ -216,14 +216,16 @@ impl FromStr for BodySource {
                 })
             }
             Some(("cylinder", given)) => {
-                round("cylinder", given).map(|(radius, half_height, excess)| BodySource::Cylinder {
-                    radius,
-                    half_height,
-                    excess,
+                from_round("cylinder", given).map(|(radius, half_height, excess)| {
+                    BodySource::Cylinder {
+                        radius,
+                        half_height,
+                        excess,
+                    }
                 })
             }
             Some(("cone", given)) => {
-                round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
+                from_round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
                     radius,
                     half_height,
                     excess,
@@ -259,7 +261,7 @@ const SHAPES: [(&str, usize); 5] = [
 ];
 
 /// Parses the radius, half height and optional excess of a cylinder or cone.
-fn round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
+fn from_round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
     if given.matches(',').count() == 2 {
         let [radius, half_height, excess] = lengths(shape, given)?;
         return Ok((radius, half_height, Some(excess)));

@@ -58,17 +58,17 @@ impl Projection {
 /// along one axis differ by a factor of more than 1e90.
 pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
-    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_to_one));
+    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_up_to_one));
     is_degenerate(triangle.map(|p| p * scale))
 }
 
 /// Returns the power of two that scales a number below 1 to about 1; 1 for any other number.
-fn scale_to_one(x: f64) -> f64 {
-    if x < 1.0 { to_one(x) } else { 1.0 }
+fn scale_up_to_one(x: f64) -> f64 {
+    if x < 1.0 { scale_to_one(x) } else { 1.0 }
 }
 
 /// Returns the power of two that scales a positive number to about 1; 1 for any other number.
-fn to_one(x: f64) -> f64 {
+fn scale_to_one(x: f64) -> f64 {
     const EXPONENT: u64 = f64::INFINITY.to_bits();
     if x > 0.0 && x.is_finite() {
         greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip()
@@ -81,12 +81,12 @@ fn to_one(x: f64) -> f64 {
 /// until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
 /// differ by a factor of more than 1e90.
 pub(crate) fn determinant(columns: [DVec3; 3]) -> Ordering {
-    let [x, y, z] = columns.map(|column| column * to_one(column.abs().max_element()));
+    let [x, y, z] = columns.map(|column| column * scale_to_one(column.abs().max_element()));
     side([DVec3::ZERO, x, y], z)
 }
 
 /// Returns the index of the first point with a coordinate that is not finite or exceeds the supported range.
-pub(crate) fn too_large(points: &[DVec3]) -> Option<usize> {
+pub(crate) fn first_out_of_range(points: &[DVec3]) -> Option<usize> {
     // Written so that NaN fails.
     let is_good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
     points.iter().position(|p| !is_good(p))

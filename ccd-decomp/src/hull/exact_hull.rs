@@ -33,7 +33,7 @@ pub(crate) struct Growth {
 impl ExactHull {
     /// Creates the flat hull of a strictly convex polygon: two triangle fans, back to back. It has no volume, and
     /// only points off its plane may be inserted.
-    pub(crate) fn polygon(corners: &[u32]) -> Self {
+    pub(crate) fn from_polygon(corners: &[u32]) -> Self {
         let fan = |k: usize| [corners[0], corners[k], corners[k + 1]];
         let front = (1..corners.len() - 1).map(fan);
         let back = front.clone().map(|[a, b, c]| [a, c, b]);
@@ -110,7 +110,7 @@ impl ExactHull {
     }
 
     /// Returns the bounding box of all facets that an insertion adds or removes.
-    pub(crate) fn changed(&self, points: &[DVec3], growth: &Growth) -> Bounds {
+    pub(crate) fn changed_bounds(&self, points: &[DVec3], growth: &Growth) -> Bounds {
         let removed = self.facets.iter().zip(&growth.seen);
         let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
         let corners = removed.chain(&growth.fan).flatten();

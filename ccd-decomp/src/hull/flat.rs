@@ -1,6 +1,6 @@
 //! Exact hulls of coplanar points.
 
-use super::of_facets;
+use super::hull_from_facets;
 use crate::exact::predicates::{Projection, is_degenerate, lexicographic};
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, Loops};
@@ -20,7 +20,7 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
         _ => None,
     };
     match plane {
-        Some(projection) => of_facets(points, facets(points, projection)),
+        Some(projection) => hull_from_facets(points, facets(points, projection)),
         None => Hull {
             points: ends,
             facets: Loops::default(),

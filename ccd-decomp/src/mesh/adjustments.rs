@@ -142,7 +142,7 @@ impl Adjustments {
     }
 
     /// Returns whether the adjustments apply to meshes only, not to prepared bodies.
-    pub(crate) fn need_mesh(&self) -> bool {
+    pub(crate) fn apply_to_meshes_only(&self) -> bool {
         let others = Adjustments {
             wanted: None,
             ..*self

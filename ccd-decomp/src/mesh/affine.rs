@@ -66,7 +66,7 @@ impl AffineMap {
 
     /// Returns whether the map takes all points to one point.
     #[cfg(feature = "gltf")]
-    pub(crate) fn is_point(&self) -> bool {
+    pub(crate) fn collapses_to_point(&self) -> bool {
         let matrix = self.0.matrix3;
         [matrix.x_axis, matrix.y_axis, matrix.z_axis] == [DVec3::ZERO; 3]
     }

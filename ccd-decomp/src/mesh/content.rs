@@ -75,7 +75,7 @@ impl Content {
 
     /// Returns all faces as one list. Those of a list keep the file's numbers; those of an assembly are numbered part
     /// by part.
-    pub(crate) fn whole(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
+    pub(crate) fn all_faces(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
         let mut faces = match self.layout {
             Layout::List(polygons, _) => converted(polygons, conversion),
             Layout::Assembly(assembly) => assembly.expanded(0..assembly.parts.len(), conversion)?,
@@ -105,7 +105,7 @@ impl From<Polygons> for Content {
         Content {
             unit: None,
             remarks: std::mem::take(&mut polygons.remarks),
-            layout: Layout::List(polygons, Groups::one()),
+            layout: Layout::List(polygons, Groups::single()),
         }
     }
 }

@@ -215,7 +215,7 @@ impl fmt::Display for Extension<'_> {
             "" => write!(f, "has no extension, which tells the format of a mesh; ")?,
             other => write!(f, "{other:?} is not the extension of a mesh; ")?,
         }
-        match conversion(self.0) {
+        match conversion_advice(self.0) {
             Some(advice) => f.write_str(&advice),
             None => write!(f, "use .gltf, .glb, .3mf, .obj, .stl, .ply or .off"),
         }
@@ -231,7 +231,7 @@ fn cad_advice(extension: &str) -> String {
 }
 
 /// Returns advice on converting a file of a well-known format to a mesh.
-fn conversion(extension: &str) -> Option<String> {
+fn conversion_advice(extension: &str) -> Option<String> {
     let advice = match extension {
         "step" | "stp" | "iges" | "igs" | "brep" => return Some(cad_advice(extension)),
         "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {

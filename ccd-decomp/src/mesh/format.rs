@@ -96,7 +96,7 @@ impl Format {
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
-            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) && !is_step(&text::decoded(bytes)) => {
+            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) && !is_step(&text::utf8(bytes)) => {
                 gltf::references(bytes)
             }
             _ => Ok(Vec::new()),
@@ -105,7 +105,7 @@ impl Format {
 
     /// Parses a file's content. `linked` holds the contents of the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
-        let unmarked = text::decoded(bytes);
+        let unmarked = text::utf8(bytes);
         if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
         }
@@ -113,10 +113,10 @@ impl Format {
             return Err(MeshFault::Step);
         }
         match self {
-            Format::Obj => obj::parse(&text::plain(bytes)),
+            Format::Obj => obj::parse(&text::utf8_with_line_feeds(bytes)),
             Format::Stl => stl::parse(bytes).map(Content::from),
             Format::Ply => ply::parse(&unmarked).map(Content::from),
-            Format::Off => off::parse(&text::plain(bytes)).map(Content::from),
+            Format::Off => off::parse(&text::utf8_with_line_feeds(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]

@@ -54,7 +54,12 @@ impl MeshFile {
             let references = format.references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
             let linked: Result<LinkedFiles, _> = references
-                .map(|reference| Ok((reference.name.clone(), neighbour(folder, &reference)?)))
+                .map(|reference| {
+                    Ok((
+                        reference.name.clone(),
+                        read_linked_file(folder, &reference)?,
+                    ))
+                })
                 .collect();
             format.parse(&bytes, &linked?)
         };
@@ -187,7 +192,7 @@ impl MeshFile {
             path,
             ..
         } = self;
-        let whole = content.whole(conversion);
+        let whole = content.all_faces(conversion);
         whole
             .and_then(TriangleMesh::from_polygons)
             .map_err(|fault| error(fault, path.as_deref()))
@@ -235,7 +240,7 @@ pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut files = vec![path.to_owned()];
         for reference in format.references(&bytes)? {
-            files.push(folder.join(relative(&reference.name)?));
+            files.push(folder.join(checked_relative_path(&reference.name)?));
         }
         Ok(files)
     };
@@ -259,9 +264,9 @@ fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
 }
 
 /// Reads a file that a mesh refers to, up to the needed length. Only regular files are read: a pipe might never end.
-fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
+fn read_linked_file(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
     let Reference { name, bytes } = reference;
-    let path = folder.join(relative(name)?);
+    let path = folder.join(checked_relative_path(name)?);
     let read = || {
         if !fs::metadata(&path)?.is_file() {
             return Err(std::io::Error::other("it is no file"));
@@ -277,7 +282,7 @@ fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault>
 }
 
 /// Converts a reference to a path, and checks that it stays in the mesh's folder or below it.
-fn relative(name: &str) -> Result<PathBuf, MeshFault> {
+fn checked_relative_path(name: &str) -> Result<PathBuf, MeshFault> {
     let path = PathBuf::from(name);
     let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     if path.components().all(stays) && path.file_name().is_some() {

@@ -39,16 +39,16 @@ impl HasPosition for Corner {
 /// Expected `n log n` for `n` corners: corners and edges are inserted in a pseudorandom order. A sweep takes `n²` for
 /// corners on or near a line.
 pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
-    let places = projected(points)?;
+    let places = project(points)?;
     // A fault of the library may panic; the fan is used then.
-    let (plane, at) = catch_unwind(|| triangulated(&places)).ok()??;
-    let mut triangles = within(&plane, &at)?;
+    let (plane, at) = catch_unwind(|| triangulate_constrained(&places)).ok()??;
+    let mut triangles = triangles_inside(&plane, &at)?;
     triangles.sort_unstable();
     (triangles.len() == points.len() - 2).then_some(triangles)
 }
 
 /// Projects the corners to the coordinate plane nearest to the polygon's plane, counterclockwise.
-fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
+fn project(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let first = *points.first()?;
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
     let normal: DVec3 = pairs.map(|(&p, &q)| (p - first).cross(q - first)).sum();
@@ -66,9 +66,9 @@ fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
 
 /// Triangulates the points with the outline as constraint edges. Returns the triangulation's vertex for each point;
 /// `None` if it fails.
-fn triangulated(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>)> {
+fn triangulate_constrained(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>)> {
     let count = places.len();
-    let order = order(places)?;
+    let order = insertion_order(places)?;
     let mut plane = Plane::new();
     let mut at = vec![FixedVertexHandle::from_index(0); count];
     for (done, &number) in order.iter().enumerate() {
@@ -90,7 +90,7 @@ fn triangulated(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>
 
 /// Returns the order of insertion: first three corners that span a triangle, then the others in pseudorandom order.
 /// The library scans all points while they are collinear. Returns `None` if all are collinear.
-fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
+fn insertion_order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     let point = |k: usize| DVec3::new(places[k].x, places[k].y, 0.0);
     let second = (1..places.len()).find(|&k| places[k] != places[0])?;
     let spans = |&k: &usize| !is_without_area([point(0), point(second), point(k)]);
@@ -100,14 +100,14 @@ fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
         if [0, second, third].contains(&k) {
             0
         } else {
-            mixed(k as u64)
+            hash(k as u64)
         }
     });
     Some(order)
 }
 
 /// Hashes a number by the finalizer of SplitMix64.
-fn mixed(number: u64) -> u64 {
+fn hash(number: u64) -> u64 {
     let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -115,7 +115,7 @@ fn mixed(number: u64) -> u64 {
 }
 
 /// Collects the triangles of a triangulation that are inside the outline.
-fn within(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usize; 3]>> {
+fn triangles_inside(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usize; 3]>> {
     let mut seen = vec![false; plane.num_all_faces()];
     let (mut stack, count) = (Vec::new(), at.len());
     for k in 0..count {

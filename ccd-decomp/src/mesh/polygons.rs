@@ -4,7 +4,7 @@ use super::error::MeshFault;
 use super::outline;
 use super::remark::Remarks;
 use super::repair::Repairs;
-use crate::exact::predicates::{is_without_area, too_large};
+use crate::exact::predicates::{first_out_of_range, is_without_area};
 use ccd_core::glam::DVec3;
 
 /// The vertices and faces of a file, not yet checked.
@@ -63,11 +63,11 @@ impl Polygons {
     }
 
     pub(super) fn faces(&self) -> impl Iterator<Item = &[i64]> {
-        (0..self.ends.len()).map(|face| self.face(face))
+        (0..self.ends.len()).map(|face| self.face_corners(face))
     }
 
     /// Returns the vertex numbers of a face's corners.
-    pub(super) fn face(&self, face: usize) -> &[i64] {
+    pub(super) fn face_corners(&self, face: usize) -> &[i64] {
         let start = face.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.corners[start..self.ends[face]]
     }
@@ -92,8 +92,8 @@ impl Polygons {
             if corners.len() > 3 {
                 repairs.polygons.add(id);
                 let fan = &mut faces[start..];
-                let overhangs = overhangs(&self.vertices, fan);
-                if !(overhangs || has_flat(&self.vertices, fan)) {
+                let overhangs = has_flipped_triangle(&self.vertices, fan);
+                if !(overhangs || has_degenerate_triangle(&self.vertices, fan)) {
                     continue;
                 }
                 let points: Vec<DVec3> =
@@ -125,7 +125,7 @@ pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFa
 
 /// Checks that all coordinates are in the supported range.
 pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
-    let Some(vertex) = too_large(vertices) else {
+    let Some(vertex) = first_out_of_range(vertices) else {
         return Ok(());
     };
     let line = lines.get(vertex).copied();
@@ -137,13 +137,13 @@ pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), 
 }
 
 /// Returns whether a triangle of a fan is degenerate.
-fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+fn has_degenerate_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     fan.iter()
         .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
 }
 
 /// Returns whether a triangle of a fan is oriented against the sum of the fan's normals.
-fn overhangs(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+fn has_flipped_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| vertices[v as usize]);
         (b - a).cross(c - a)

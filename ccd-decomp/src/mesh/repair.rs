@@ -1,7 +1,7 @@
 //! Faults of a mesh: which faces are dropped, and the report.
 
 use super::remark::Remarks;
-use crate::hull::polygons::smallest_first;
+use crate::hull::polygons::rotated_to_smallest;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -42,7 +42,7 @@ impl Repairs {
 
     /// Returns the repairs that happened before triangulation. Rebuilding the mesh from its triangles would not find
     /// them again.
-    pub(crate) fn before_triangles(&self) -> Self {
+    pub(crate) fn before_triangulation(&self) -> Self {
         Repairs {
             zero_area: Tally::default(),
             ..self.clone()
@@ -112,7 +112,7 @@ pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     let mut keyed: Vec<([u32; 3], u32)> = faces
         .iter()
         .zip(0..)
-        .map(|(face, k)| (smallest_first(face.map(|v| positions[v as usize])), k))
+        .map(|(face, k)| (rotated_to_smallest(face.map(|v| positions[v as usize])), k))
         .collect();
     keyed.sort_unstable();
     let mut duplicate = vec![false; faces.len()];

@@ -16,8 +16,8 @@ use ccd_core::Polytope;
 ///
 /// # Errors
 /// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`] with the number of parts.
-pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
-    if let Some([v, w]) = bad_edge(manifold) {
+pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
+    if let Some([v, w]) = first_non_convex_edge(manifold) {
         let edge = Edge(v.min(w), v.max(w));
         return Err(DecomposeError::NotConvex { edge });
     }
@@ -44,7 +44,7 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
 }
 
 /// Returns the first edge that is reflex or folded, by its vertices; `None` for a convex surface.
-fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
+fn first_non_convex_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
     let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
     (0..3 * manifold.faces().len() as u32)
         .find(is_bad)

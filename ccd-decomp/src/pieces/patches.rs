@@ -9,7 +9,7 @@ pub use order::Order;
 pub use patch::Patch;
 
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::solid::bounding_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::Flats;
@@ -65,7 +65,7 @@ pub(crate) fn decompose_flats(
     order: Order,
     work: &Work,
 ) -> Result<Decomposition, DecomposeError> {
-    if let Ok(polytope) = as_polytope(manifold) {
+    if let Ok(polytope) = convex_polytope(manifold) {
         let faces = (0..manifold.faces().len() as u32).collect();
         let patches = vec![Patch { faces, polytope }];
         return Ok(Decomposition { patches });
@@ -75,12 +75,12 @@ pub(crate) fn decompose_flats(
         flats,
         order,
         work,
-        taken: vec![false; flats.len()],
-        tried: vec![u32::MAX; flats.len()],
+        in_patch: vec![false; flats.len()],
+        last_tried_by: vec![u32::MAX; flats.len()],
     };
     let mut patches = Vec::new();
     for seed in seeds(manifold, flats, order) {
-        if !grower.taken[seed as usize] {
+        if !grower.in_patch[seed as usize] {
             let region = grower.grow(seed, patches.len() as u32);
             work.check()?;
             patches.push(Patch::new(manifold, flats, &region));
@@ -95,24 +95,24 @@ struct Grower<'a, 'm> {
     order: Order,
     work: &'a Work,
     /// By polygon, whether it belongs to a patch.
-    taken: Vec<bool>,
+    in_patch: Vec<bool>,
     /// By polygon, the last patch that it was tested with. A refusal is final, because the hull only grows.
-    tried: Vec<u32>,
+    last_tried_by: Vec<u32>,
 }
 
 impl Grower<'_, '_> {
     fn grow(&mut self, seed: u32, patch: u32) -> GrowingPatch {
         let mut region = GrowingPatch::new(self.flats, seed);
-        self.taken[seed as usize] = true;
+        self.in_patch[seed as usize] = true;
         let mut frontier = Frontier::new(self.order);
-        self.reach(&mut frontier, seed);
+        self.push_neighbours(&mut frontier, seed);
         // A flat patch takes no coplanar polygon, because the union need not be convex. These are tried again once the
         // patch has volume.
         let mut in_plane = Vec::new();
         // Polygons are pushed when another one joins, and each joins once.
         while let Some(next) = frontier.pop() {
-            let tried = &mut self.tried[next as usize];
-            if self.taken[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
+            let tried = &mut self.last_tried_by[next as usize];
+            if self.in_patch[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
                 continue;
             }
             *tried = patch;
@@ -121,10 +121,10 @@ impl Grower<'_, '_> {
                 Join::Refused => {}
                 Join::InPlane => in_plane.push(next),
                 Join::Joined => {
-                    self.taken[next as usize] = true;
-                    self.reach(&mut frontier, next);
+                    self.in_patch[next as usize] = true;
+                    self.push_neighbours(&mut frontier, next);
                     for waiting in in_plane.drain(..) {
-                        self.tried[waiting as usize] = u32::MAX;
+                        self.last_tried_by[waiting as usize] = u32::MAX;
                         frontier.push(waiting);
                     }
                 }
@@ -134,7 +134,7 @@ impl Grower<'_, '_> {
     }
 
     /// Adds the neighbours of a polygon to the frontier, except beyond reflex edges.
-    fn reach(&self, frontier: &mut Frontier, flat: u32) {
+    fn push_neighbours(&self, frontier: &mut Frontier, flat: u32) {
         for &edge in &self.flats.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {
                 frontier.push(self.flats.of_face(self.manifold.twin(edge) / 3));

@@ -17,7 +17,7 @@ mod voxels;
 
 use crate::hull::{HullError, hull};
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::is_star_shaped;
 use crate::solid::topology::Topology;
@@ -103,16 +103,16 @@ pub(crate) fn approximate(
     let parts = match voxels {
         Some(voxels) => {
             let (contents, labels) = rayon::join(
-                || cover::contents(&target, &voxels),
-                || labels::labels(&target, &voxels, hulls),
+                || cover::classify_voxels(&target, &voxels),
+                || labels::label_voxels(&target, &voxels, hulls),
             );
             let labels = labels.ok_or(VhacdError::Library)?;
             cover::points_by_part(&target, &voxels, &contents, labels)
         }
-        None => vec![cover::each_once(target.corners().collect())],
+        None => vec![cover::remove_duplicates(target.corners().collect())],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
-    let parts: Vec<Hull> = merge::down_to(parts.collect(), hulls as usize)
+    let parts: Vec<Hull> = merge::merge_to_count(parts.collect(), hulls as usize)
         .par_iter()
         .map(|points| hull(points))
         .collect::<Result<_, HullError>>()
@@ -121,10 +121,10 @@ pub(crate) fn approximate(
     let excess = if is_convex {
         0.0
     } else {
-        excess::bound(&target, &parts)
+        excess::excess_bound(&target, &parts)
     };
     let sticks_out = (excess + uncovered).next_up();
-    let limit = tolerance::TOO_COARSE * target.reach() + 2.0 * uncovered;
+    let limit = tolerance::TOO_COARSE * target.half_diagonal() + 2.0 * uncovered;
     // Written so that NaN fails.
     if !(sticks_out <= limit) {
         return Err(VhacdError::TooCoarse { sticks_out, limit });
@@ -151,8 +151,8 @@ fn polytope(hull: Hull, radius: f64) -> Polytope {
 
 /// Returns whether the mesh is known to be a convex solid, whose hull has no error.
 fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
-    let manifold = Manifold::unchecked(mesh, topology);
-    manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && as_polytope(&manifold).is_ok())
+    let manifold = Manifold::without_intersection_check(mesh, topology);
+    manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && convex_polytope(&manifold).is_ok())
 }
 
 #[cfg(test)]

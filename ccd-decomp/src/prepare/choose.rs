@@ -4,11 +4,11 @@ use super::parts::Parts;
 use super::report::{Estimate, Why};
 use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose_flats};
 use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
-use crate::solid::flats::{Merger, PlanarRegion};
+use crate::solid::flats::{PlanarRegion, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
 use crate::tolerance::{AUTO_WORK, FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
@@ -34,12 +34,12 @@ fn within(
     edges: Option<Edges>,
     work: &Work,
 ) -> (Parts, Why) {
-    let manifold = match Manifold::with_edges(mesh, topology, edges) {
+    let manifold = match Manifold::from_edges(mesh, topology, edges) {
         Ok(manifold) => manifold,
         Err(error) => return only_triangles(error),
     };
-    let convex = as_polytope(&manifold);
-    let mut merger = Merger::merged(&manifold);
+    let convex = convex_polytope(&manifold);
+    let mut merger = RegionMerger::merged(&manifold);
     let estimate = merger.largest_plane().estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));

@@ -114,7 +114,7 @@ impl Prepared {
 
     /// Creates the body of a cylinder or a cone. `excess` is the upper bound on how far its polytope extends beyond
     /// the shape.
-    pub(crate) fn round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
+    pub(crate) fn from_round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
         let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()))?;
         let mut prepared = Prepared::primitive(enclosure.body()?);
         prepared.report.sticks_out = enclosure.excess();

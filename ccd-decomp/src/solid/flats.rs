@@ -30,9 +30,9 @@ pub(crate) struct Flat {
 }
 
 impl Flats {
-    /// Merges adjacent coplanar faces, as [`Merger`] does.
+    /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        Merger::merged(manifold).finish()
+        RegionMerger::merged(manifold).finish()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -60,7 +60,7 @@ pub(crate) struct PlanarRegion {
 
 /// Coplanar regions that are merged to convex polygons. Two disjoint convex regions share a single run of edges.
 /// Their union is convex if it is convex at both ends of the run.
-pub(crate) struct Merger<'a, 'm> {
+pub(crate) struct RegionMerger<'a, 'm> {
     manifold: &'a Manifold<'m>,
     /// By half-edge, the next and the previous half-edge on the boundary of its region.
     next: Vec<HalfEdge>,
@@ -70,14 +70,14 @@ pub(crate) struct Merger<'a, 'm> {
     planes: DisjointSets,
 }
 
-impl<'a, 'm> Merger<'a, 'm> {
+impl<'a, 'm> RegionMerger<'a, 'm> {
     /// Merges adjacent regions while their union is convex, in order of the longest common edge: a diagonal is
     /// removed before an edge of the outline `[HM83]`.
     ///
     /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
     /// covers a convex polygon once.
     pub(crate) fn merged(manifold: &'a Manifold<'m>) -> Self {
-        let mut merger = Merger::new(manifold);
+        let mut merger = RegionMerger::new(manifold);
         let mut edges = merger.flat_edges();
         for &edge in &edges {
             merger.planes.join(edge / 3, manifold.twin(edge) / 3);
@@ -109,7 +109,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         let faces = manifold.faces().len() as u32;
         // The half-edges of a face are numbered from a multiple of 3.
         let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
-        Merger {
+        RegionMerger {
             manifold,
             next: turn(1).collect(),
             previous: turn(2).collect(),

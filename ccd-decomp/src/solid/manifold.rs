@@ -41,17 +41,18 @@ pub(crate) enum Dihedral {
 }
 
 impl<'m> Manifold<'m> {
-    /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. Takes a
-    /// tenth of the time of [`bounding_solid`](super::bounding_solid).
-    pub(crate) fn unchecked(
+    /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. It
+    /// takes a tenth of the time of [`bounding_solid`](super::bounding_solid).
+    pub(crate) fn without_intersection_check(
         mesh: &'m TriangleMesh,
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
-        Manifold::with_edges(mesh, topology, None)
+        Manifold::from_edges(mesh, topology, None)
     }
 
-    /// Creates the manifold like [`Manifold::unchecked`], with the edges between welded vertices, if they are known.
-    pub(crate) fn with_edges(
+    /// Creates the manifold like [`Manifold::without_intersection_check`]. `edges` are the edges between welded
+    /// vertices, if they are known.
+    pub(crate) fn from_edges(
         mesh: &'m TriangleMesh,
         topology: &Topology,
         edges: Option<Edges>,

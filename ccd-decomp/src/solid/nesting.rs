@@ -5,7 +5,7 @@ mod closed_parts;
 use crate::bounds::{Bounds, BoundsTree};
 use crate::disjoint_sets::members;
 use crate::exact::predicates::{is_degenerate, too_fine};
-use crate::exact::rays::{crossing, probe};
+use crate::exact::rays::{crossing, probe_segment};
 use crate::exact::triangles::meet;
 use crate::exact::volume::SignedVolume;
 use crate::half_edges::Edges;
@@ -196,7 +196,7 @@ impl<'m> Shells<'m> {
         let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
         corners
             .chain(middles)
-            .find_map(|(k, from)| self.winding_before(shell, probe(from, size, k)))
+            .find_map(|(k, from)| self.winding_before(shell, probe_segment(from, size, k)))
     }
 
     /// Returns the centre of a face, up to rounding; `None` if another shell is within that rounding.

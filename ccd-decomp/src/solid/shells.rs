@@ -3,7 +3,7 @@
 use super::error::DecomposeError;
 use super::manifold::Manifold;
 use crate::disjoint_sets::{DisjointSets, members};
-use crate::exact::rays::{crossing, probe};
+use crate::exact::rays::{crossing, probe_segment};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
 use crate::tolerance::RAY_TRIES;
@@ -72,7 +72,7 @@ fn winding_of_others(
     (0..RAY_TRIES).find_map(|k| {
         // Shells may touch at a corner: every attempt uses another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
-        let ray = probe(from, size, k);
+        let ray = probe_segment(from, size, k);
         let mut windings = Some(0);
         manifold
             .boxes()

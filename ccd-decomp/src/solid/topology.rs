@@ -88,7 +88,8 @@ impl Topology {
         let nesting = Nesting::new(mesh, edges);
         topology.wrong_way = nesting.wrong;
         topology.unclear = nesting.unclear;
-        let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));
+        let turned =
+            (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));
         if let Some(turned) = &turned {
             topology.signed_volume = signed_volume(turned);
         }

@@ -42,7 +42,11 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
         Below::Children(first) => HierarchyNode::Inner(first, first + 1),
     };
     Hierarchy::new(
-        nodes.par_iter().with_min_len(SHARE).map(node).collect(),
+        nodes
+            .par_iter()
+            .with_min_len(PIECES_PER_TASK)
+            .map(node)
+            .collect(),
         pieces.len(),
     )
 }
@@ -61,12 +65,12 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let all = 0..pieces.len();
     let boxes: Vec<Bounds> = all
         .into_par_iter()
-        .with_min_len(SHARE)
+        .with_min_len(PIECES_PER_TASK)
         .map(bounds)
         .collect();
     // Shares of fixed size do not depend on the number of threads.
     let corners = |share: &[Bounds]| Bounds::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
-    let shares: Vec<Bounds> = boxes.par_chunks(SHARE).map(corners).collect();
+    let shares: Vec<Bounds> = boxes.par_chunks(PIECES_PER_TASK).map(corners).collect();
     let Bounds { lo, hi } = corners(&shares);
     // A tiny length has no finite reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
@@ -78,12 +82,12 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
         };
         Node::leaf(piece as u32, cuboid)
     };
-    let leaves = boxes.par_iter().with_min_len(SHARE).enumerate();
+    let leaves = boxes.par_iter().with_min_len(PIECES_PER_TASK).enumerate();
     leaves.map(leaf).collect()
 }
 
 /// The number of pieces in a parallel task. Smaller tasks cost more than they gain.
-const SHARE: usize = 4096;
+const PIECES_PER_TASK: usize = 4096;
 
 /// Splits leaves at the medians of their centres into clusters, and agglomerates each cluster. Returns the nodes, the
 /// root first.
@@ -119,7 +123,7 @@ struct Splitter<'l> {
 impl Splitter<'_> {
     /// Builds the subtree over some pieces, in parallel if they are many.
     fn side_by_side(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
-        if centres.len() <= SHARE {
+        if centres.len() <= PIECES_PER_TASK {
             return self.one_by_one(centres, slot, &mut Workspace::default());
         }
         halve(centres, slot, |[left, right]| {

@@ -75,7 +75,7 @@ fn a_polygon_grows_to_either_side() {
         dvec3(0.5, 0.5, -1.0),
         dvec3(0.5, 0.5, 1.0),
     ];
-    let mut hull = ExactHull::polygon(&[0, 1, 2, 3]);
+    let mut hull = ExactHull::from_polygon(&[0, 1, 2, 3]);
     assert_eq!(hull.facets().len(), 4);
     let growth = hull.growth(&points, 4).unwrap();
     hull.grow(growth);

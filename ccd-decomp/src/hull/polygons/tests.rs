@@ -9,7 +9,7 @@ fn the_squares_of_a_box_are_polygons() {
         .map(|k| dvec3(f64::from(k % 3), f64::from(k / 3 % 3), f64::from(k / 9)))
         .collect();
     let triangles = ExactHull::facets_of(&points).unwrap();
-    let polygons = loops(&points, &triangles);
+    let polygons = merged_polygons(&points, &triangles);
     assert_eq!(polygons.len(), 6);
     for corners in polygons.iter() {
         assert_eq!(corners.len(), 4, "middles of edges are no corners");

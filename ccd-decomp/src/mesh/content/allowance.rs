@@ -27,7 +27,7 @@ impl Allowance {
     }
 
     /// Spends a cost from the budget; returns an error if too little is left.
-    pub(crate) fn take(&mut self, cost: u64) -> Result<(), MeshFault> {
+    pub(crate) fn spend(&mut self, cost: u64) -> Result<(), MeshFault> {
         match self.left.checked_sub(cost) {
             Some(left) => {
                 self.left = left;

@@ -25,12 +25,12 @@ pub(crate) struct Assembly {
 pub(crate) struct Object {
     /// Triangles whose corners are all among its vertices; it may be empty.
     pub(crate) shape: Polygons,
-    pub(crate) members: Vec<Placed>,
+    pub(crate) members: Vec<PlacedObject>,
 }
 
 /// A reference to an object, with the transform that places it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedObject {
     pub(crate) object: usize,
     pub(crate) map: AffineMap,
 }
@@ -39,11 +39,11 @@ pub(crate) struct Placed {
 #[derive(Debug)]
 pub(crate) struct Part {
     pub(crate) name: Option<String>,
-    pub(crate) placed: Placed,
+    pub(crate) placed: PlacedObject,
 }
 
 /// The error for an object that contains itself, directly or through its members.
-pub(crate) struct Circle {
+pub(crate) struct Cycle {
     pub(crate) object: usize,
 }
 
@@ -53,7 +53,7 @@ impl Assembly {
         objects: Vec<Object>,
         mut parts: Vec<Part>,
         allowance: Allowance,
-    ) -> Result<Self, Circle> {
+    ) -> Result<Self, Cycle> {
         let order = members_first(&objects)?;
         let (mut sizes, mut has_faces) = (vec![0_u64; objects.len()], vec![false; objects.len()]);
         for k in order {
@@ -82,11 +82,11 @@ impl Assembly {
         self.check_size(parts.clone())?;
         let mut all = Polygons::default();
         let parts = self.parts[parts].iter();
-        let mut waiting: Vec<Placed> = parts.rev().map(|part| part.placed).collect();
-        while let Some(Placed { object, map }) = waiting.pop() {
+        let mut waiting: Vec<PlacedObject> = parts.rev().map(|part| part.placed).collect();
+        while let Some(PlacedObject { object, map }) = waiting.pop() {
             let Object { shape, members } = &self.objects[object];
-            add(&mut all, shape, &map, conversion);
-            waiting.extend(members.iter().rev().map(|member| Placed {
+            append_image(&mut all, shape, &map, conversion);
+            waiting.extend(members.iter().rev().map(|member| PlacedObject {
                 object: member.object,
                 map: map.after(&member.map),
             }));
@@ -100,13 +100,13 @@ impl Assembly {
         let mut sizes = self.parts[parts]
             .iter()
             .map(|part| self.sizes[part.placed.object]);
-        sizes.try_for_each(|size| allowance.take(size))
+        sizes.try_for_each(|size| allowance.spend(size))
     }
 }
 
 /// Appends the image of a shape under an affine map. A mirroring map reverses the triangles, so that a solid stays
 /// one.
-fn add(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
+fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
     let first = all.vertices.len() as i64;
     let image = |&point| conversion.apply(map.apply(point));
     all.vertices.extend(shape.vertices.iter().map(image));
@@ -123,7 +123,7 @@ fn add(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conver
 }
 
 /// Sorts the objects so that each comes after its members. Returns an error if one contains itself.
-fn members_first(objects: &[Object]) -> Result<Vec<usize>, Circle> {
+fn members_first(objects: &[Object]) -> Result<Vec<usize>, Cycle> {
     let mut owners = vec![Vec::new(); objects.len()];
     let mut waits_for = vec![0_usize; objects.len()];
     for (k, object) in objects.iter().enumerate() {
@@ -143,14 +143,14 @@ fn members_first(objects: &[Object]) -> Result<Vec<usize>, Circle> {
             }
         }
     }
-    match circle(objects, &waits_for) {
+    match find_cycle(objects, &waits_for) {
         None => Ok(order),
-        Some(object) => Err(Circle { object }),
+        Some(object) => Err(Cycle { object }),
     }
 }
 
 /// Finds an object on a cycle: follows members without a place in the order until one repeats.
-fn circle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
+fn find_cycle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
     let mut object = waits_for.iter().position(|&count| count > 0)?;
     let mut seen = vec![false; objects.len()];
     while !std::mem::replace(&mut seen[object], true) {

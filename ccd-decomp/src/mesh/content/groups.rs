@@ -13,7 +13,7 @@ pub(crate) struct Groups {
 
 impl Groups {
     /// Returns a single unnamed group that contains all faces.
-    pub(crate) fn one() -> Self {
+    pub(crate) fn single() -> Self {
         Groups {
             names: vec![None],
             of_face: Vec::new(),
@@ -64,7 +64,7 @@ impl<'a> Copier<'a> {
         let Copier { list, numbers } = self;
         let mut part = Polygons::default();
         for &face in faces {
-            part.corners.extend(list.face(face as usize));
+            part.corners.extend(list.face_corners(face as usize));
             part.ends.push(part.corners.len());
             part.face_lines.extend(list.face_lines.get(face as usize));
         }

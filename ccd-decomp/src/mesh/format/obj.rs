@@ -25,18 +25,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
         match statement.split_whitespace().next().unwrap_or_default() {
             keyword @ ("v" | "f") => {
                 continues = false;
-                let statement = continued(statement, lines.by_ref().map(|(_, line)| line));
+                let statement =
+                    join_continued_lines(statement, lines.by_ref().map(|(_, line)| line));
                 if keyword == "v" {
                     file.add_vertex(&statement, number)?;
                 } else {
                     file.add_face(&statement, number)?;
                 }
             }
-            "o" => file.objects.set(name(line)),
-            "g" => file.groups.set(name(line)),
+            "o" => file.objects.set(name_after_keyword(line)),
+            "g" => file.groups.set(name_after_keyword(line)),
             "" => {}
             word if may_continue && word.parse::<f64>().is_ok() => {}
-            other => pass_over(other, number, &mut file.polygons.remarks)
+            other => skip_statement(other, number, &mut file.polygons.remarks)
                 .map_err(|fault| fault.at(format!("line {number}")))?,
         }
     }
@@ -48,7 +49,10 @@ fn without_comment(line: &str) -> &str {
 }
 
 /// Joins a statement with the lines that continue it. A line that ends in a backslash continues on the next one.
-fn continued<'a>(statement: &'a str, mut lines: impl Iterator<Item = &'a str>) -> Cow<'a, str> {
+fn join_continued_lines<'a>(
+    statement: &'a str,
+    mut lines: impl Iterator<Item = &'a str>,
+) -> Cow<'a, str> {
     let mut statement = Cow::from(statement);
     while statement.ends_with('\\') {
         let next = without_comment(lines.next().unwrap_or_default());
@@ -119,7 +123,7 @@ impl Reader {
         polygons.ends.push(polygons.corners.len());
         polygons.face_lines.push(line);
         for labels in [&mut self.objects, &mut self.groups] {
-            labels.of_face.push(labels.now);
+            labels.of_face.push(labels.current);
         }
         Ok(())
     }
@@ -177,14 +181,14 @@ fn vertex_number(corner: &str) -> Option<i64> {
 struct Labels {
     /// The number of each name, from 1, in the file's order. The number 0 means that a face has no name.
     numbers: HashMap<String, u32>,
-    now: u32,
+    current: u32,
     of_face: Vec<u32>,
 }
 
 impl Labels {
     fn set(&mut self, name: &str) {
         let next = self.numbers.len() as u32 + 1;
-        self.now = match self.numbers.get(name) {
+        self.current = match self.numbers.get(name) {
             _ if name.is_empty() => 0,
             Some(&number) => number,
             None => *self.numbers.entry(name.into()).or_insert(next),
@@ -217,7 +221,7 @@ impl Labels {
 
 /// Returns the name after a keyword, without a comment. A comment begins at a `#` after a space, because names such
 /// as `lid#2` are common.
-fn name(statement: &str) -> &str {
+fn name_after_keyword(statement: &str) -> &str {
     let statement = statement.trim_start();
     let name = statement.get(1..).unwrap_or_default();
     let comment = name.match_indices('#').find(|(at, _)| {
@@ -236,7 +240,7 @@ const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp
 ///
 /// # Errors
 /// The statement defines faces.
-fn pass_over(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
+fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
     let unsupported = |what: &str, instead| {
         Err(MeshFault::Unsupported {
             what: what.to_owned(),

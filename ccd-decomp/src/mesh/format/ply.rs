@@ -79,10 +79,10 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     let end = bytes.windows(END.len()).position(|window| window == END);
     match (bytes, end.map(|end| end + END.len())) {
         ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
-            let mut header = text::lines(bytes[..end].into()).into_owned();
+            let mut header = text::with_line_feeds(bytes[..end].into()).into_owned();
             let is_text = header.windows(12).any(|window| window == b"format ascii");
             if is_text {
-                header.extend_from_slice(&text::lines(bytes[end..].into()));
+                header.extend_from_slice(&text::with_line_feeds(bytes[end..].into()));
             } else {
                 header.extend_from_slice(&bytes[end..]);
             }

@@ -20,10 +20,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    if is_whole(bytes) {
+    if has_announced_length(bytes) {
         return parse_binary(bytes);
     }
-    let plain = text::plain(bytes);
+    let plain = text::utf8_with_line_feeds(bytes);
     if is_text(&plain) {
         parse_text(&String::from_utf8_lossy(&plain).to_ascii_lowercase())
     } else {
@@ -32,8 +32,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
 }
 
 /// Returns whether a binary file has the length that its number of facets requires.
-fn is_whole(bytes: &[u8]) -> bool {
-    announced(bytes).is_some_and(|facets| {
+fn has_announced_length(bytes: &[u8]) -> bool {
+    facet_count(bytes).is_some_and(|facets| {
         (bytes.len() - HEADER_BYTES - COUNT_BYTES) as u64 == facets as u64 * FACET_BYTES as u64
     })
 }
@@ -47,13 +47,13 @@ fn is_text(plain: &[u8]) -> bool {
 }
 
 /// Reads the number of facets from the header of a binary file.
-fn announced(bytes: &[u8]) -> Option<u32> {
+fn facet_count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER_BYTES..HEADER_BYTES + COUNT_BYTES)?;
     Some(u32::from_le_bytes(count.try_into().ok()?))
 }
 
 fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
-    let Some(facets) = announced(bytes) else {
+    let Some(facets) = facet_count(bytes) else {
         let missing = "the header of 84 bytes".into();
         return Err(MeshFault::Truncated { missing });
     };

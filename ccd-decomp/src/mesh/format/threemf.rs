@@ -10,13 +10,13 @@ mod xml;
 
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::Allowance;
-use crate::mesh::content::assembly::{Assembly, Object, Part, Placed};
+use crate::mesh::content::assembly::{Assembly, Object, Part, PlacedObject};
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, Quote};
 use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
-use model::{Model, Shape, Use};
+use model::{Model, ObjectRef, Shape};
 use package::Package;
 use std::collections::BTreeMap;
 
@@ -73,7 +73,7 @@ struct Named {
 impl<'a> Models<'a> {
     /// Reads the root model and all models that it refers to.
     fn read(mut package: Package<'a>) -> Result<Self, MeshFault> {
-        let first = package.first_model()?;
+        let first = package.root_model_path()?;
         let mut models = Models {
             package,
             list: Vec::new(),
@@ -81,11 +81,11 @@ impl<'a> Models<'a> {
             known: BTreeMap::new(),
             places: Vec::new(),
         };
-        models.number(&first)?;
+        models.model_number(&first)?;
         let mut next = 0;
         while let Some(Named { model, .. }) = models.list.get(next) {
             for path in model.paths() {
-                models.number(&path)?;
+                models.model_number(&path)?;
             }
             next += 1;
         }
@@ -95,8 +95,8 @@ impl<'a> Models<'a> {
     }
 
     /// Returns the number of the model at a path, and reads the model on the first call.
-    fn number(&mut self, path: &str) -> Result<usize, MeshFault> {
-        let key = package::normalized(path);
+    fn model_number(&mut self, path: &str) -> Result<usize, MeshFault> {
+        let key = package::normalized_path(path);
         if let Some(&number) = self.numbers.get(&key) {
             return Ok(number);
         }
@@ -142,10 +142,10 @@ impl<'a> Models<'a> {
             let problem = "has no items in its build: nothing of it is to be made".into();
             return Err(MeshFault::syntax(None, problem));
         }
-        let part = |(k, item): (usize, &Use)| {
-            let found = self.find(0, item);
+        let part = |(k, item): (usize, &ObjectRef)| {
+            let found = self.find_object(0, item);
             let object = found.map_err(|fault| fault.at(format!("item {k} of the build")))?;
-            let placed = Placed {
+            let placed = PlacedObject {
                 object,
                 map: item.map,
             };
@@ -158,10 +158,10 @@ impl<'a> Models<'a> {
     }
 
     /// Returns the object number that a build item or component of the model `from` refers to.
-    fn find(&self, from: usize, used: &Use) -> Result<usize, MeshFault> {
+    fn find_object(&self, from: usize, used: &ObjectRef) -> Result<usize, MeshFault> {
         let model = match &used.path {
             None => Some(&from),
-            Some(path) => self.numbers.get(&package::normalized(path)),
+            Some(path) => self.numbers.get(&package::normalized_path(path)),
         };
         let object = model.and_then(|&model| self.known.get(&(model, used.object)));
         object.copied().ok_or_else(|| {
@@ -192,16 +192,16 @@ impl<'a> Models<'a> {
         Ok(objects)
     }
 
-    fn members(&self, number: usize) -> Result<Vec<Placed>, MeshFault> {
+    fn members(&self, number: usize) -> Result<Vec<PlacedObject>, MeshFault> {
         let (model, place) = self.places[number];
         let Shape::Components(components) = &self.list[model].model.objects[place].shape else {
             return Ok(Vec::new());
         };
-        let member = |(k, component): (usize, &Use)| {
-            let found = self.find(model, component);
+        let member = |(k, component): (usize, &ObjectRef)| {
+            let found = self.find_object(model, component);
             let at = |fault: MeshFault| fault.at(format!("{}, component {k}", self.place(number)));
             let map: AffineMap = component.map;
-            Ok(Placed {
+            Ok(PlacedObject {
                 object: found.map_err(at)?,
                 map,
             })

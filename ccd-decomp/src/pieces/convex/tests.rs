@@ -6,7 +6,7 @@ use ccd_core::Origin;
 use ccd_core::glam::dvec3;
 
 fn polytope(mesh: &TriangleMesh) -> Result<Polytope, DecomposeError> {
-    as_polytope(&bounding_solid(mesh)?)
+    convex_polytope(&bounding_solid(mesh)?)
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
-use crate::hull::polygons::loops;
+use crate::hull::polygons::merged_polygons;
 use crate::search::region::Region;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::Manifold;
@@ -35,7 +35,7 @@ impl GrowingPatch {
     pub(super) fn new(flats: &Flats, seed: u32) -> Self {
         GrowingPatch {
             flats: vec![seed],
-            hull: ExactHull::polygon(&flats.get(seed).corners),
+            hull: ExactHull::from_polygon(&flats.get(seed).corners),
             has_volume: false,
         }
     }
@@ -57,7 +57,7 @@ impl GrowingPatch {
     /// Returns the facets of the hull, with coplanar triangles merged; a flat hull has two facets.
     pub(super) fn facets(&self, points: &[DVec3]) -> Loops {
         if self.has_volume {
-            return loops(points, self.hull.facets());
+            return merged_polygons(points, self.hull.facets());
         }
         let mut front = self.hull.corners().to_vec();
         let least = (0..front.len()).min_by_key(|&k| front[k]);
@@ -81,7 +81,7 @@ impl GrowingPatch {
         }
         let plane = |f: u32| manifold.faces()[flats.get(f).faces[0] as usize];
         // The hull so far must lie behind the polygon, …
-        match self.highest_over(points, plane(flat)) {
+        match self.side_of_highest_corner(points, plane(flat)) {
             Ordering::Greater => return Join::Refused,
             Ordering::Equal if !self.has_volume && self.lies_in(points, plane(flat)) => {
                 return Join::InPlane;
@@ -105,7 +105,7 @@ impl GrowingPatch {
         }
         // … and the new hull within the solid.
         work.spend(new.len() * self.hull.facets().len());
-        let (hull, changed) = self.grown(points, &new);
+        let (hull, changed) = self.hull_with(points, &new);
         if let Some(changed) = changed {
             let obstacle = Obstacle::new(points, &hull);
             let is_apart = |face: u32| {
@@ -130,7 +130,7 @@ impl GrowingPatch {
     }
 
     /// Compares the highest corner of the hull above a plane to the plane: in front, on or behind.
-    fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
+    fn side_of_highest_corner(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;
         for &v in corners {
@@ -157,12 +157,12 @@ impl GrowingPatch {
 
     /// Returns the hull with the points `new` added, and the bounding box of the change; `None` if the hull is
     /// unchanged.
-    fn grown(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
+    fn hull_with(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;
         for &v in new {
             if let Some(growth) = hull.growth(points, v) {
-                let more = hull.changed(points, &growth);
+                let more = hull.changed_bounds(points, &growth);
                 changed = Some(changed.map_or(more, |bounds| bounds.union(more)));
                 hull.grow(growth);
             }

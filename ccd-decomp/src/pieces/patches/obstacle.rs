@@ -1,7 +1,7 @@
 //! Tests exactly whether triangles enter the interior of a hull.
 
 use crate::exact::predicates::side_of;
-use crate::half_edges::{Edges, Use};
+use crate::half_edges::{EdgeUse, Edges};
 use crate::hull::exact_hull::ExactHull;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
@@ -13,7 +13,7 @@ pub(super) struct Obstacle<'a> {
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
     /// Pairs of a corner and an adjacent facet, sorted by corner.
-    meeting: OnceCell<Vec<(u32, u32)>>,
+    corner_facets: OnceCell<Vec<(u32, u32)>>,
 }
 
 /// An edge of a hull, with the facets on both sides.
@@ -30,7 +30,7 @@ impl<'a> Obstacle<'a> {
             points,
             hull,
             edges: OnceCell::new(),
-            meeting: OnceCell::new(),
+            corner_facets: OnceCell::new(),
         }
     }
 
@@ -51,7 +51,7 @@ impl<'a> Obstacle<'a> {
 
     /// Returns whether the triangle is in front of a facet at one of its corners.
     fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
-        let meeting = self.meeting.get_or_init(|| {
+        let meeting = self.corner_facets.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());
             let corners = facets.flat_map(|(k, facet)| facet.map(|v| (v, k)));
             let mut meeting: Vec<(u32, u32)> = corners.collect();
@@ -105,7 +105,7 @@ impl<'a> Obstacle<'a> {
     fn edges(&self) -> &[Edge] {
         self.edges.get_or_init(|| {
             let edges = Edges::new(self.hull.facets());
-            let edge = |(ends, uses): ([u32; 2], &[Use])| match *uses {
+            let edge = |(ends, uses): ([u32; 2], &[EdgeUse])| match *uses {
                 [one, other] => Some(Edge {
                     ends,
                     facets: [one.face(), other.face()],

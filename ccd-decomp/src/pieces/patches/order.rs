@@ -20,14 +20,14 @@ pub enum Order {
 pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == Order::Cresting {
-        let height = heights(manifold, flats);
+        let height = steps_to_reflex(manifold, flats);
         seeds.sort_by_key(|&flat| std::cmp::Reverse(height[flat as usize]));
     }
     seeds
 }
 
 /// Returns, for each polygon, the number of steps to a polygon with a reflex edge; `u32::MAX` if there is none.
-fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
+fn steps_to_reflex(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();
     for flat in 0..flats.len() as u32 {

@@ -31,7 +31,7 @@ impl Patch {
         let facets = region.facets(manifold.mesh().vertices());
         let facets = facets
             .iter()
-            .map(|corners| covered(manifold, &members, corners));
+            .map(|corners| covered_facet(manifold, &members, corners));
         let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
         Patch { faces, polytope }
     }
@@ -44,7 +44,7 @@ impl Patch {
 }
 
 /// Returns a facet of a patch's hull with the numbers of the mesh faces that lie in it.
-fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
+fn covered_facet(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
     let triangle = [corners[0], corners[1], corners[2]];

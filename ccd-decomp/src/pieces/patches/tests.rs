@@ -211,7 +211,8 @@ fn patches_of_slivers_take_linear_work() {
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {
         for mesh in [prism(&teeth(count)), notched(count)] {
-            let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+            let manifold =
+                Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
             let work = Work::unbounded();
             let flats = Flats::new(&manifold);
             let found = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();

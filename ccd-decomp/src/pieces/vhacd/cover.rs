@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 /// The relation of a voxel to the solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Content {
+pub(super) enum VoxelClass {
     /// The voxel is not classified yet.
     Unknown,
     /// The voxel meets the surface.
@@ -33,7 +33,7 @@ pub(super) enum Content {
 pub(super) fn points_by_part(
     target: &Target<'_>,
     voxels: &Voxels,
-    contents: &[Content],
+    contents: &[VoxelClass],
     mut labels: Vec<u32>,
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
@@ -41,50 +41,50 @@ pub(super) fn points_by_part(
     let near = on_edge(target.farthest_coordinate());
     let triangles: Vec<_> = target.triangles().collect();
     let pieces: Vec<_> = triangles
-        .par_chunks(SHARE)
-        .map(|triangles| pieces(triangles, voxels, &labels, near))
+        .par_chunks(TRIANGLES_PER_TASK)
+        .map(|triangles| cut_triangles(triangles, voxels, &labels, near))
         .collect();
     for (part, point) in pieces.into_iter().flatten() {
         parts[part as usize].push(point);
     }
     for (label, content) in labels.iter_mut().zip(contents) {
-        if *content == Content::Nothing {
+        if *content == VoxelClass::Nothing {
             *label = NO_PART;
         }
     }
     add_corners(target, voxels, contents, &labels, &mut parts);
-    parts.into_par_iter().map(each_once).collect()
+    parts.into_par_iter().map(remove_duplicates).collect()
 }
 
 /// The label of a voxel outside the solid.
 const NO_PART: u32 = u32::MAX;
 
 /// The number of triangles in a parallel task.
-const SHARE: usize = 1024;
+const TRIANGLES_PER_TASK: usize = 1024;
 
 /// Classifies every voxel as on the surface, inside or outside.
-pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
+pub(super) fn classify_voxels(target: &Target<'_>, voxels: &Voxels) -> Vec<VoxelClass> {
     let triangles: Vec<_> = target.triangles().collect();
     let met = |triangles: &[[DVec3; 3]]| {
         let mut cells = Vec::new();
         for &triangle in triangles {
-            voxels.for_each_met(triangle, |cell| cells.push(cell));
+            voxels.for_each_voxel_met(triangle, |cell| cells.push(cell));
         }
         cells.sort_unstable();
         cells.dedup();
         cells
     };
-    let met: Vec<_> = triangles.par_chunks(SHARE).map(met).collect();
-    let mut contents = vec![Content::Unknown; voxels.len()];
+    let met: Vec<_> = triangles.par_chunks(TRIANGLES_PER_TASK).map(met).collect();
+    let mut contents = vec![VoxelClass::Unknown; voxels.len()];
     for cell in met.into_iter().flatten() {
-        contents[cell] = Content::Surface;
+        contents[cell] = VoxelClass::Surface;
     }
-    fill(target, voxels, &mut contents);
+    classify_remaining(target, voxels, &mut contents);
     contents
 }
 
 /// Cuts triangles at the voxels of different parts. Returns the corners of the polygons, each with its part number.
-fn pieces(
+fn cut_triangles(
     triangles: &[[DVec3; 3]],
     voxels: &Voxels,
     labels: &[u32],
@@ -98,7 +98,7 @@ fn pieces(
         of_one.sort_unstable_by_key(|&(part, _)| part);
         for of_part in of_one.chunk_by(|one, next| one.0 == next.0) {
             let points = of_part.iter().map(|&(_, point)| point).collect();
-            let kept = without_between(points, triangle, near);
+            let kept = remove_between(points, triangle, near);
             all.extend(kept.into_iter().map(|point| (of_part[0].0, point)));
         }
         of_one.clear();
@@ -107,7 +107,7 @@ fn pieces(
 }
 
 /// Removes points on an edge of the triangle that are between two others, up to rounding.
-fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
+fn remove_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
     for [from, to] in [[a, b], [b, c], [c, a]] {
         let Some(along) = unit(to - from) else {
             continue;
@@ -123,29 +123,29 @@ fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> 
 }
 
 /// Removes duplicate points.
-pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
+pub(super) fn remove_duplicates(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points.sort_unstable_by(|&p, &q| lexicographic(p, q));
     points.dedup();
     points
 }
 
 /// Classifies the voxels that do not meet the surface: connected ones are all inside or all outside.
-fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
+fn classify_remaining(target: &Target<'_>, voxels: &Voxels, contents: &mut [VoxelClass]) {
     let mut stack = Vec::new();
     for seed in 0..contents.len() {
-        if contents[seed] != Content::Unknown {
+        if contents[seed] != VoxelClass::Unknown {
             continue;
         }
         let content = if target.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded()) {
-            Content::Full
+            VoxelClass::Full
         } else {
-            Content::Nothing
+            VoxelClass::Nothing
         };
         contents[seed] = content;
         stack.push(seed);
         while let Some(cell) = stack.pop() {
             for next in voxels.neighbours(voxels.cell(cell)) {
-                if contents[next] == Content::Unknown {
+                if contents[next] == VoxelClass::Unknown {
                     contents[next] = content;
                     stack.push(next);
                 }
@@ -158,7 +158,7 @@ fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
 fn add_corners(
     target: &Target<'_>,
     voxels: &Voxels,
-    contents: &[Content],
+    contents: &[VoxelClass],
     labels: &[u32],
     parts: &mut [Vec<DVec3>],
 ) {
@@ -173,7 +173,7 @@ fn add_corners(
                 }
                 let corner = voxels.corner([i, j, k]);
                 let has = |content| around.iter().any(|&cell| contents[cell] == content);
-                let inside = match (has(Content::Full), has(Content::Nothing)) {
+                let inside = match (has(VoxelClass::Full), has(VoxelClass::Nothing)) {
                     (true, _) => true,
                     (_, true) => false,
                     _ => target.winds_about(corner, &Work::unbounded()),

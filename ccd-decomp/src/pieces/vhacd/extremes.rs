@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// Returns the extreme points in `directions` evenly spread directions, without duplicates, in the order of the list.
 ///
 /// The directions are spread evenly over the box of the points, stretched to a cube.
-pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
+pub(super) fn extreme_points(points: &[DVec3], directions: u32) -> Vec<DVec3> {
     let Bounds { lo, hi } = Bounds::enclosing(points.iter().copied());
     let stretch = |x: f64| if x > 0.0 { x.recip() } else { 0.0 };
     let scale = DVec3::from_array((hi - lo).to_array().map(stretch));
@@ -44,11 +44,11 @@ const DIRECTIONS: u32 = 32;
 /// # Guarantee
 /// Exact: a removed point is in the hull of the others. No point is removed if a coordinate is too near to 0 for exact
 /// predicates.
-pub(super) fn without_inner(points: Vec<DVec3>) -> Vec<DVec3> {
+pub(super) fn remove_inner_points(points: Vec<DVec3>) -> Vec<DVec3> {
     if points.len() <= DIRECTIONS as usize || too_fine(&points).is_some() {
         return points;
     }
-    let far = farthest(&points, DIRECTIONS);
+    let far = extreme_points(&points, DIRECTIONS);
     let Some(facets) = ExactHull::facets_of(&far) else {
         return points;
     };

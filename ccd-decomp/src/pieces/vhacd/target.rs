@@ -88,7 +88,7 @@ impl<'a> Target<'a> {
     }
 
     /// Returns half the diagonal of the mesh's bounding box.
-    pub(super) fn reach(&self) -> f64 {
+    pub(super) fn half_diagonal(&self) -> f64 {
         (self.bounds[1] - self.bounds[0]).length() / 2.0
     }
 
@@ -99,12 +99,12 @@ impl<'a> Target<'a> {
 
     /// Returns a bound on the rounding error of distances to the mesh.
     pub(super) fn slack(&self) -> f64 {
-        NEAREST_SLACK * self.reach()
+        NEAREST_SLACK * self.half_diagonal()
     }
 
     /// Computes the location of a point relative to the target.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
-        let (found, reached) = self.nearest(point, work);
+        let (found, reached) = self.distance_bounds(point, work);
         if self.winds_about(point, work) {
             Location::Inside {
                 depth: greater(0.0, lesser(found, reached) - self.slack()),
@@ -119,7 +119,7 @@ impl<'a> Target<'a> {
     /// Returns bounds of the distance from a point to the surface. The first is a lower bound up to the slack. The
     /// second is the distance to a point that is certainly on a triangle: the library's projection with clamped
     /// weights, which may be wrong for needles.
-    fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
+    fn distance_bounds(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = vector(point);
         let project = |corners: [DVec3; 3]| {
             let [a, b, c] = corners.map(vector);

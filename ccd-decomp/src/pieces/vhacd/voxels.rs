@@ -60,7 +60,12 @@ impl Voxels {
     }
 
     fn is_affordable(&self, target: &Target<'_>) -> bool {
-        let boxed = |t| self.ranges(t).map(|r| r.count()).iter().product::<usize>();
+        let boxed = |t| {
+            self.voxel_ranges(t)
+                .map(|r| r.count())
+                .iter()
+                .product::<usize>()
+        };
         target.triangles().map(boxed).sum::<usize>() <= VOXELS_TESTED
     }
 
@@ -69,7 +74,7 @@ impl Voxels {
     }
 
     /// Converts a point to grid units. The origin is the centre of the first voxel.
-    pub(super) fn in_steps(&self, point: DVec3) -> DVec3 {
+    pub(super) fn in_grid_units(&self, point: DVec3) -> DVec3 {
         (point - self.origin) / self.step
     }
 
@@ -110,7 +115,7 @@ impl Voxels {
     }
 
     /// Returns the range of voxels along each axis that a triangle's bounding box may meet, slightly widened.
-    fn ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
+    fn voxel_ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
         let counts = self.counts();
         [0, 1, 2].map(|axis| {
             let place = |p: DVec3| (p[axis] - self.origin[axis]) / self.step + 0.5;
@@ -124,15 +129,15 @@ impl Voxels {
     }
 
     /// Calls `visit` with the index of every voxel that a triangle meets.
-    pub(super) fn for_each_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
-        let [xs, ys, zs] = self.ranges(triangle);
+    pub(super) fn for_each_voxel_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
+        let [xs, ys, zs] = self.voxel_ranges(triangle);
         let (mut slab, mut beam, mut part) = (Vec::new(), Vec::new(), Vec::new());
         for i in xs {
-            self.cut(&triangle, 0, i..=i, &mut slab);
+            self.clip_to_layers(&triangle, 0, i..=i, &mut slab);
             for j in ys.clone() {
-                self.cut(&slab, 1, j..=j, &mut beam);
+                self.clip_to_layers(&slab, 1, j..=j, &mut beam);
                 for k in zs.clone() {
-                    self.cut(&beam, 2, k..=k, &mut part);
+                    self.clip_to_layers(&beam, 2, k..=k, &mut part);
                     if !part.is_empty() {
                         visit(self.index([i, j, k]));
                     }
@@ -152,7 +157,7 @@ impl Voxels {
         labels: &[u32],
         mut visit: impl FnMut(u32, &[DVec3]),
     ) {
-        let mut stack = vec![(self.ranges(triangle), triangle.to_vec())];
+        let mut stack = vec![(self.voxel_ranges(triangle), triangle.to_vec())];
         // Terminates: blocks are halved, and a single voxel has one label.
         while let Some((block, polygon)) = stack.pop() {
             if polygon.is_empty() {
@@ -177,7 +182,7 @@ impl Voxels {
             let middle = start + (end - start) / 2;
             for half in [middle + 1..=end, start..=middle] {
                 let (mut piece, mut block) = (Vec::new(), block.clone());
-                self.cut(&polygon, axis, half.clone(), &mut piece);
+                self.clip_to_layers(&polygon, axis, half.clone(), &mut piece);
                 block[axis] = half;
                 stack.push((block, piece));
             }
@@ -185,7 +190,7 @@ impl Voxels {
     }
 
     /// Clips a polygon to some layers of voxels, widened by the margin.
-    fn cut(
+    fn clip_to_layers(
         &self,
         polygon: &[DVec3],
         axis: usize,
@@ -196,24 +201,24 @@ impl Voxels {
         let lo = planes[*layers.start()] - self.margin;
         let hi = planes[*layers.end() + 1] + self.margin;
         let mut above = Vec::with_capacity(polygon.len() + 1);
-        cut_at(polygon, axis, |x| x >= lo, lo, &mut above);
-        cut_at(&above, axis, |x| x <= hi, hi, part);
+        clip_to_half_space(polygon, axis, |x| x >= lo, lo, &mut above);
+        clip_to_half_space(&above, axis, |x| x <= hi, hi, part);
     }
 }
 
 /// Clips a triangle to a box.
-pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
+pub(super) fn clip_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
     let mut rest = Vec::new();
     part.clear();
     part.extend(triangle);
     for axis in 0..3 {
-        cut_at(part, axis, |x| x >= lo[axis], lo[axis], &mut rest);
-        cut_at(&rest, axis, |x| x <= hi[axis], hi[axis], part);
+        clip_to_half_space(part, axis, |x| x >= lo[axis], lo[axis], &mut rest);
+        clip_to_half_space(&rest, axis, |x| x <= hi[axis], hi[axis], part);
     }
 }
 
 /// Clips a convex polygon to one side of a plane (Sutherland and Hodgman).
-fn cut_at(
+fn clip_to_half_space(
     polygon: &[DVec3],
     axis: usize,
     keeps: impl Fn(f64) -> bool,

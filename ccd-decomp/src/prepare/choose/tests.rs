@@ -46,14 +46,14 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = bounding_solid(&mesh).unwrap();
-    let plane = Merger::merged(&manifold).largest_plane();
+    let plane = RegionMerger::merged(&manifold).largest_plane();
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
 }
 
 /// Returns the largest planar part, by a walk over adjacent coplanar polygons.
 fn largest_slowly(manifold: &Manifold<'_>) -> PlanarRegion {
-    let flats = Merger::merged(manifold).finish();
+    let flats = RegionMerger::merged(manifold).finish();
     let mut seen = vec![false; flats.len()];
     let mut largest = PlanarRegion::default();
     for seed in 0..flats.len() as u32 {
@@ -89,7 +89,7 @@ fn the_largest_plane_is_that_of_a_walk() {
     ];
     for mesh in &solids {
         let manifold = bounding_solid(mesh).unwrap();
-        let plane = Merger::merged(&manifold).largest_plane();
+        let plane = RegionMerger::merged(&manifold).largest_plane();
         assert_eq!(plane, largest_slowly(&manifold));
     }
 }

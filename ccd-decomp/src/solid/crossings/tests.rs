@@ -106,7 +106,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
             dvec3(angle.cos(), angle.sin(), 0.0)
         };
         let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
-        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
         let work = Work::with_steps(100 * mesh.faces().len() as u64);
         assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
@@ -115,7 +115,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 
 /// Returns the steps of work per face that checking a mesh takes.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
-    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
+    let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
     let too_few = Work::with_steps(100);
     assert_eq!(
@@ -171,7 +171,7 @@ fn crossings_are_those_of_all_pairs() {
     for _ in 0..150 {
         let (radii, on_grid, turn) = given.new_tree(&mut runner).unwrap().current();
         let mesh = rough_prism(&radii, on_grid, turn);
-        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
         let faces = 0..mesh.faces().len() as u32;

@@ -97,7 +97,7 @@ fn folds_are_no_polygons() {
         (beside(&flat), 6),
     ];
     for (mesh, polygons) in cases {
-        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
         assert_eq!(Flats::new(&manifold).len(), polygons);
         assert!(check_solid(&manifold, &Work::unbounded()).is_err());
     }

@@ -2,7 +2,7 @@
 
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side, too_fine};
-use crate::half_edges::{Edges, Use};
+use crate::half_edges::{EdgeUse, Edges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -33,8 +33,9 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
 
 /// Returns the half-edges on one edge of the parts that are open there. An open part has more half-edges in one
 /// direction than in the other.
-fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
-    let mut of_parts: Vec<(u32, Use)> = edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
+fn open_at(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
+    let mut of_parts: Vec<(u32, EdgeUse)> =
+        edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
     of_parts.sort_by_key(|of| of.0);
     of_parts
         .chunk_by(|one, next| one.0 == next.0)
@@ -46,7 +47,7 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
 
 /// Returns the pairs of faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all
 /// are paired.
-fn across_material(mesh: &TriangleMesh, ends: [u32; 2], edge: &[Use]) -> Vec<(u32, u32)> {
+fn across_material(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
     let Some(around) = AngularOrder::new(mesh, ends, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face(), pair[1].face())).collect();
@@ -92,7 +93,7 @@ struct AngularOrder<'m> {
 impl<'m> AngularOrder<'m> {
     /// Creates the order, starting at the first face. Returns `None` if a face is degenerate or a coordinate is too
     /// near to 0 for exact predicates.
-    fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[Use]) -> Option<Self> {
+    fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Self> {
         let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
         let first = *apexes.first()?;
@@ -109,7 +110,7 @@ impl<'m> AngularOrder<'m> {
         })
     }
 
-    fn order(&self, one: Use, other: Use) -> Ordering {
+    fn order(&self, one: EdgeUse, other: EdgeUse) -> Ordering {
         let [v, w] = self.points();
         let [one, other] = [one, other].map(|of| apex(self.mesh, self.ends, of));
         let by_turn = || side([v, w, other], one);
@@ -137,7 +138,7 @@ impl<'m> AngularOrder<'m> {
 }
 
 /// Returns the corner of a face that is opposite to the edge with the given ends.
-fn apex(mesh: &TriangleMesh, ends: [u32; 2], of: Use) -> DVec3 {
+fn apex(mesh: &TriangleMesh, ends: [u32; 2], of: EdgeUse) -> DVec3 {
     let face = of.face();
     let mut at = mesh.welded_face(face).into_iter().zip(mesh.triangle(face));
     let off = at.find(|(v, _)| !ends.contains(v));

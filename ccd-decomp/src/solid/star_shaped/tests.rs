@@ -5,7 +5,7 @@ use crate::solid::topology::Topology;
 use crate::test_meshes::{block, cubes, joined, mesh, placed, star, tetrahedron, turned};
 
 fn is_seen(mesh: &TriangleMesh) -> bool {
-    is_star_shaped(&Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap())
+    is_star_shaped(&Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap())
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::tolerance::REINSERTED_SHARE;
 use rayon::prelude::*;
 
 /// The number of subtrees in a parallel task. Smaller tasks cost more than they gain.
-const SHARE: usize = 32;
+const SUBTREES_PER_TASK: usize = 32;
 
 /// Improves a tree in several rounds. Each round has fewer nodes, nearer to the root.
 pub(super) fn reinsert(nodes: &mut [Node]) {
@@ -61,7 +61,7 @@ impl<'a> Tree<'a> {
         }
         largest.sort_unstable_by(by_area);
         // The tree is not changed until all places are found, so that the search is parallel.
-        let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SHARE))
+        let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SUBTREES_PER_TASK))
             .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
             .flatten_iter()
             .collect();

@@ -1,6 +1,6 @@
 use super::*;
 use crate::hull::exact_hull::{ExactHull, conflicts};
-use crate::hull::polygons::loops;
+use crate::hull::polygons::merged_polygons;
 use proptest::prelude::*;
 
 proptest! {
@@ -19,7 +19,7 @@ proptest! {
         let Some(simplex) = ExactHull::simplex(&points) else { return Ok(()) };
         let sorted = |triangles: Vec<[u32; 3]>| {
             let mut sorted: Vec<Vec<[u64; 3]>> = Vec::new();
-            for polygon in loops(&points, &triangles).iter() {
+            for polygon in merged_polygons(&points, &triangles).iter() {
                 // Each hull may use any of several equal points.
                 let place = |&v: &u32| points[v as usize].to_array().map(|x| (x + 0.0).to_bits());
                 let mut corners: Vec<[u64; 3]> = polygon.iter().map(place).collect();

@@ -51,17 +51,17 @@ impl<'a> Accessors<'a> {
 
     /// Spends the cost of `count` face corners from the allowance.
     pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
-        self.allowance.take(cost(0, count as u64))
+        self.allowance.spend(cost(0, count as u64))
     }
 
     /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        self.at(accessor, |accessors, about| {
+        self.read_named(accessor, |accessors, about| {
             check_kind(about, "VEC3")?;
             let component = Component::from_code(about.component_type)?;
             let size = component.size();
             let point = |row: &[u8]| {
-                let number = |k: usize| component.number(&row[k * size..], about.normalized);
+                let number = |k: usize| component.coordinate(&row[k * size..], about.normalized);
                 DVec3::new(number(0), number(1), number(2))
             };
             let price = cost(about.count, 0);
@@ -70,8 +70,8 @@ impl<'a> Accessors<'a> {
     }
 
     /// Reads the indices of a `SCALAR` accessor.
-    pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        self.at(accessor, |accessors, about| {
+    pub(super) fn indices(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
+        self.read_named(accessor, |accessors, about| {
             check_kind(about, "SCALAR")?;
             let component = Component::index_from_code(about.component_type)?;
             let whole = |row: &[u8]| component.whole(row);
@@ -80,7 +80,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// Calls `read` for an accessor, and names the accessor in faults.
-    fn at<T>(
+    fn read_named<T>(
         &mut self,
         accessor: usize,
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
@@ -99,7 +99,7 @@ impl<'a> Accessors<'a> {
         read: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, MeshFault> {
         let rows = self.rows(about, size)?;
-        self.allowance.take(price)?;
+        self.allowance.spend(price)?;
         let mut elements: Vec<T> = match rows {
             Some(rows) => rows.iter().map(&read).collect(),
             // The allowance bounds the number.
@@ -162,7 +162,7 @@ impl<'a> Accessors<'a> {
         let component = Component::index_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
-        self.allowance.take(cost(0, sparse.count))?;
+        self.allowance.spend(cost(0, sparse.count))?;
         let checked = |row| match component.whole(row) as usize {
             number if number < length => Ok(number),
             number => {
@@ -237,7 +237,7 @@ impl Component {
     }
 
     /// Reads a coordinate from its bytes. A normalized integer is a fraction of the largest value of its type.
-    fn number(self, bytes: &[u8], normalized: bool) -> f64 {
+    fn coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
         let number = self.exact(bytes);
         let largest: f64 = match self {
             _ if !normalized => return number,
@@ -253,23 +253,23 @@ impl Component {
 
     fn exact(self, bytes: &[u8]) -> f64 {
         match self {
-            Component::I8 => i8::from_le_bytes(array(bytes)).into(),
-            Component::I16 => i16::from_le_bytes(array(bytes)).into(),
-            Component::F32 => f32::from_le_bytes(array(bytes)).into(),
+            Component::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
+            Component::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
+            Component::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
             Component::U8 | Component::U16 | Component::U32 => self.whole(bytes).into(),
         }
     }
 
     fn whole(self, bytes: &[u8]) -> u32 {
         match self {
-            Component::U8 => u8::from_le_bytes(array(bytes)).into(),
-            Component::U16 => u16::from_le_bytes(array(bytes)).into(),
-            _ => u32::from_le_bytes(array(bytes)),
+            Component::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
+            Component::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),
+            _ => u32::from_le_bytes(first_bytes(bytes)),
         }
     }
 }
 
 /// Returns the first `N` bytes, or zeros if there are too few.
-fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
+fn first_bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

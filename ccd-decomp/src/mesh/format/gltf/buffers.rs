@@ -81,10 +81,10 @@ fn content<'a>(
             Some(binary) => binary.into(),
             None => return Ok(None),
         },
-        Some(uri) => match data(uri) {
+        Some(uri) => match data_uri_payload(uri) {
             Some(data) => decode(data?)?.into(),
             None => {
-                let name = decoded(uri)?;
+                let name = percent_decoded(uri)?;
                 let bytes = linked.get(&name).map(Vec::as_slice);
                 bytes.ok_or_else(|| alone(name))?.into()
             }
@@ -109,10 +109,13 @@ fn alone(name: String) -> MeshFault {
 
 /// Returns the reference to the file of a buffer; `None` for an embedded buffer.
 pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
-    let outside = buffer.uri.as_ref().filter(|uri| data(uri).is_none());
+    let outside = buffer
+        .uri
+        .as_ref()
+        .filter(|uri| data_uri_payload(uri).is_none());
     let reference = outside.map(|uri| {
         Ok(Reference {
-            name: decoded(uri)?,
+            name: percent_decoded(uri)?,
             bytes: buffer.byte_length,
         })
     });
@@ -120,7 +123,7 @@ pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault>
 }
 
 /// Returns the encoded data of a data URI; `None` for any other URI.
-fn data(uri: &str) -> Option<Result<&str, MeshFault>> {
+fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
     let rest = match uri.split_at_checked(5) {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("data:") => rest,
         _ => return None,
@@ -142,7 +145,7 @@ fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
 }
 
 /// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
-fn decoded(uri: &str) -> Result<String, MeshFault> {
+fn percent_decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
         Err(MeshFault::syntax(
             None,
@@ -171,13 +174,13 @@ fn decoded(uri: &str) -> Result<String, MeshFault> {
         rest = &rest[2..];
     }
     match String::from_utf8(bytes) {
-        Ok(path) => Ok(without_dots(&path)),
+        Ok(path) => Ok(normalized_path(&path)),
         Err(_) => problem("is no UTF-8"),
     }
 }
 
 /// Removes empty and `.` components from a path, so that one file has one name. Absolute paths and `..` are kept.
-fn without_dots(path: &str) -> String {
+fn normalized_path(path: &str) -> String {
     let root = if path.starts_with('/') { "/" } else { "" };
     let steps = path.split('/').filter(|step| !matches!(*step, "" | "."));
     let steps: Vec<&str> = steps.collect();

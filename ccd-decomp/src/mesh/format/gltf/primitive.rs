@@ -65,7 +65,7 @@ fn add(
         }
     };
     let corners = match primitive.indices {
-        Some(indices) => accessors.numbers(indices)?,
+        Some(indices) => accessors.indices(indices)?,
         None => (0..vertices.count as u32).collect(),
     };
     mode.check(corners.len())?;

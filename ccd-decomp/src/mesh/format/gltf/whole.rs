@@ -5,12 +5,12 @@ use std::fmt;
 use std::marker::PhantomData;
 
 /// Deserializes a required whole number.
-pub(super) fn one<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
+pub(super) fn required<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
     Whole::deserialize(from).map(|Whole(number)| number)
 }
 
 /// Deserializes an optional whole number.
-pub(super) fn maybe<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+pub(super) fn optional<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Option<T>, D::Error> {
     let number = Option::<Whole<T>>::deserialize(from)?;

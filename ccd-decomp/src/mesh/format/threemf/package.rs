@@ -1,7 +1,7 @@
 //! Opens the zip archive of a 3MF, and finds its root model.
 
 use super::model::{self, Model};
-use super::xml::{Step, Xml};
+use super::xml::{Xml, XmlEvent};
 use crate::mesh::error::{MeshFault, Quote};
 use crate::tolerance::{UNPACKED, UNPACKED_RATIO};
 use flate2::bufread::DeflateDecoder;
@@ -41,7 +41,7 @@ impl<'a> Package<'a> {
         let mut records = archive.entries();
         while let Some(record) = records.next_entry().map_err(|error| unzip(&error))? {
             let path = String::from_utf8_lossy(record.file_path().as_ref()).into_owned();
-            entries.entry(normalized(&path)).or_insert(Entry {
+            entries.entry(normalized_path(&path)).or_insert(Entry {
                 wayfinder: record.wayfinder(),
                 method: record.compression_method(),
                 encrypted: record.flags().is_encrypted(),
@@ -62,9 +62,9 @@ impl<'a> Package<'a> {
     }
 
     /// Returns the path of the root model in the archive.
-    pub(super) fn first_model(&mut self) -> Result<String, MeshFault> {
+    pub(super) fn root_model_path(&mut self) -> Result<String, MeshFault> {
         if !self.entries.contains_key(RELATIONSHIPS) {
-            return if self.entries.contains_key(&normalized(USUAL_MODEL)) {
+            return if self.entries.contains_key(&normalized_path(USUAL_MODEL)) {
                 Ok(USUAL_MODEL.into())
             } else {
                 let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
@@ -74,11 +74,11 @@ impl<'a> Package<'a> {
         let found = self.read(RELATIONSHIPS, |xml| {
             loop {
                 let element = match xml.next()? {
-                    Step::Start(element) if element.name() == "Relationship" => element,
-                    Step::Done => return Ok(None),
+                    XmlEvent::Start(element) if element.name() == "Relationship" => element,
+                    XmlEvent::Done => return Ok(None),
                     _ => continue,
                 };
-                let [kind, target] = element.values(["Type", "Target"])?;
+                let [kind, target] = element.attribute_values(["Type", "Target"])?;
                 let is_model = kind.is_some_and(|kind| kind.ends_with(MODEL_TYPE));
                 if let Some(target) = target.filter(|_| is_model) {
                     return Ok(Some(target.into_owned()));
@@ -112,7 +112,7 @@ impl<'a> Package<'a> {
             limit,
             left,
         } = self;
-        let Some(entry) = entries.get(&normalized(path)) else {
+        let Some(entry) = entries.get(&normalized_path(path)) else {
             return Err(MeshFault::syntax(None, "is not in the package".into()));
         };
         let limit = *limit;
@@ -186,7 +186,7 @@ impl Read for Unpacking<'_> {
 }
 
 /// Normalizes a path for comparison: part names are case-insensitive.
-pub(super) fn normalized(path: &str) -> String {
+pub(super) fn normalized_path(path: &str) -> String {
     path.trim_start_matches('/').to_lowercase()
 }
 

@@ -21,13 +21,13 @@ pub(super) struct Xml<R> {
 type Namespace = Option<String>;
 
 /// The next event of the XML reader.
-pub(super) enum Step<'a> {
+pub(super) enum XmlEvent<'a> {
     /// The start of an element.
     Start(Element<'a>),
     /// The end of the innermost open element.
     End,
     /// Text or a comment, which is skipped.
-    Between,
+    TextOrComment,
     /// The end of the document.
     Done,
 }
@@ -66,7 +66,7 @@ impl<R: BufRead> Xml<R> {
         self.reader.into_inner()
     }
 
-    pub(super) fn next(&mut self) -> Result<Step<'_>, MeshFault> {
+    pub(super) fn next(&mut self) -> Result<XmlEvent<'_>, MeshFault> {
         self.buffer.clear();
         let event = self.reader.read_event_into(&mut self.buffer);
         match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
@@ -80,11 +80,11 @@ impl<R: BufRead> Xml<R> {
                 } else {
                     Origin::Extension
                 };
-                Ok(Step::Start(Element { start, origin }))
+                Ok(XmlEvent::Start(Element { start, origin }))
             }
             Event::End(_) => {
                 self.depth = self.depth.saturating_sub(1);
-                Ok(Step::End)
+                Ok(XmlEvent::End)
             }
             Event::DocType(_) => {
                 let problem = "has a document type, which a 3MF must not have";
@@ -94,8 +94,8 @@ impl<R: BufRead> Xml<R> {
                 let missing = "its XML".into();
                 Err(MeshFault::Truncated { missing })
             }
-            Event::Eof => Ok(Step::Done),
-            _ => Ok(Step::Between),
+            Event::Eof => Ok(XmlEvent::Done),
+            _ => Ok(XmlEvent::TextOrComment),
         }
     }
 }
@@ -113,12 +113,12 @@ impl<'a> Element<'a> {
 
     /// Returns the values of the named attributes. A plain name matches attributes without prefix; a name that begins
     /// with a colon matches any prefix.
-    pub(super) fn values<const N: usize>(
+    pub(super) fn attribute_values<const N: usize>(
         &self,
         names: [&str; N],
     ) -> Result<[Option<Cow<'_, str>>; N], MeshFault> {
         let mut values = [const { None }; N];
-        self.each(|prefix, local, value| {
+        self.for_each_attribute(|prefix, local, value| {
             let is = |name: &&str| match name.strip_prefix(':') {
                 Some(name) => prefix.is_some() && name == local,
                 None => prefix.is_none() && *name == local,
@@ -131,7 +131,7 @@ impl<'a> Element<'a> {
     }
 
     /// Calls the closure with the prefix, the name without it, and the value of every attribute.
-    pub(super) fn each<'s>(
+    pub(super) fn for_each_attribute<'s>(
         &'s self,
         mut visit: impl FnMut(Option<&str>, &str, Cow<'s, str>),
     ) -> Result<(), MeshFault> {

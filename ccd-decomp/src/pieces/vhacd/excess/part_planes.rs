@@ -26,7 +26,7 @@ pub(super) struct Plane {
 }
 
 /// The position of a box relative to the facet planes of a part.
-pub(super) struct Meeting {
+pub(super) struct BoxOverlap {
     /// Whether the box's centre is in the part.
     pub(super) has_centre: bool,
     /// The numbers of the planes that do not have the whole box behind them.
@@ -48,14 +48,14 @@ impl<'a> PartPlanes<'a> {
     }
 
     /// Tests a box against the planes numbered `among`. Returns `None` if the box does not meet the part.
-    pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
-        let mut meeting = Meeting {
+    pub(super) fn overlap(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<BoxOverlap> {
+        let mut meeting = BoxOverlap {
             has_centre: !self.planes.is_empty(),
             planes: Vec::new(),
         };
         for &k in among {
             let plane = self.planes[k as usize];
-            let above = plane.above(centre);
+            let above = plane.signed_distance(centre);
             let reach = plane.normal.abs().dot(half) + self.slack;
             if above > reach {
                 return None;
@@ -91,7 +91,7 @@ impl Plane {
     }
 
     /// Returns the signed distance of a point from the plane, positive in front.
-    pub(super) fn above(&self, point: DVec3) -> f64 {
+    pub(super) fn signed_distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.height
     }
 }

@@ -27,7 +27,7 @@ fn removed_points_are_no_corners() {
             corners.sort_unstable();
             corners
         };
-        let fewer = without_inner(points.clone());
+        let fewer = remove_inner_points(points.clone());
         assert_eq!(corners(&fewer), corners(&points));
         kept[kind as usize] += fewer.len();
         all[kind as usize] += points.len();
@@ -45,20 +45,20 @@ fn points_too_fine_or_in_a_plane_are_kept() {
     let plane: Vec<DVec3> = (0..100)
         .map(|k| DVec3::new(f64::from(k % 10), f64::from(k / 10), 0.0))
         .collect();
-    assert_eq!(without_inner(plane.clone()), plane);
+    assert_eq!(remove_inner_points(plane.clone()), plane);
     let mut fine = grid();
-    assert!(without_inner(fine.clone()).len() < 600);
+    assert!(remove_inner_points(fine.clone()).len() < 600);
     fine.push(DVec3::splat(1e-95));
-    assert_eq!(without_inner(fine.clone()), fine);
+    assert_eq!(remove_inner_points(fine.clone()), fine);
 }
 
 #[test]
 fn the_farthest_points_are_few() {
     let points = grid();
-    let far = farthest(&points, 96);
+    let far = extreme_points(&points, 96);
     // The corners of a cube.
     assert_eq!(far.len(), 8);
-    assert!(farthest(&[], 96).is_empty());
+    assert!(extreme_points(&[], 96).is_empty());
 }
 
 /// Returns the points of whole coordinates in a cube.

@@ -58,13 +58,13 @@ fn worst_distance() {
         let (corners, point) = setting(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
         let target = Target::new(&mesh, &Topology::of(&mesh));
-        let (found, reached) = target.nearest(point, &Work::unbounded());
+        let (found, reached) = target.distance_bounds(point, &Work::unbounded());
         let scale = exact(2f64.powi(400));
         let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);
         // Inside, the lesser of the two is the depth; outside, the second is the distance.
         let error = greater(lesser(found, reached) - truth, truth - reached);
         // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
-        let near = truth <= 2.0 * target.reach() && target.reach() > 0.0;
+        let near = truth <= 2.0 * target.half_diagonal() && target.half_diagonal() > 0.0;
         near.then(|| share(error, target.slack()))
     });
     // The search must find triangles that are barely not needles.

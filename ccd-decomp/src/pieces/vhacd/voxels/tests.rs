@@ -1,6 +1,6 @@
 //! Compares cuts of an edge with exact fractions, in the worst cases that a search finds.
 
-use super::cut_at;
+use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
 use crate::tolerance::{clip_rounding, on_edge};
 use crate::worst::{Tape, Worst, share};
@@ -34,7 +34,7 @@ fn cut(tape: &mut Tape, polygon: &mut Vec<DVec3>) -> Option<()> {
     let (p, q) = (polygon[0][axis], polygon[1][axis]);
     let plane = p + (q - p) * tape.fraction();
     let mut part = Vec::new();
-    cut_at(polygon, axis, |x| (x >= plane) == keep, plane, &mut part);
+    clip_to_half_space(polygon, axis, |x| (x >= plane) == keep, plane, &mut part);
     part.dedup();
     part.truncate(2);
     let more = part.len() == 2 && part[0] != part[1];

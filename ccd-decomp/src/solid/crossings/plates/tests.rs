@@ -43,7 +43,7 @@ fn whoever_meets_is_reported() {
     for _ in 0..60 {
         let (heights, places, turn) = given.new_tree(&mut runner).unwrap().current();
         let mesh = beset(&heights, &places, turn);
-        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
         let Some(plates) = Plates::find(&manifold) else {
@@ -85,7 +85,7 @@ fn whoever_meets_is_reported() {
 #[test]
 fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);
-    let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+    let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
     let plates = Plates::find(&manifold).unwrap();
     assert_eq!(plates.plates.len(), 2);
     assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));
