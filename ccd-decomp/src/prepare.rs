@@ -116,7 +116,7 @@ impl Detail {
 impl Choice {
     fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
         let edges = Edges::new(&mesh.welded_faces());
-        let (topology, turned) = Topology::by_edges(mesh, &edges);
+        let (topology, turned) = Topology::from_edges(mesh, &edges);
         // A mesh with reversed shells has other half-edges.
         let edges = turned.is_none().then_some(edges);
         let mesh = turned.as_ref().unwrap_or(mesh);

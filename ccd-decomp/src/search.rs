@@ -62,7 +62,7 @@ impl TriangleBoxes {
     }
 
     /// Returns an upper bound, up to rounding, of the largest distance from `point` to any point of the triangles.
-    pub(crate) fn reach(&self, point: DVec3) -> f64 {
+    pub(crate) fn farthest_distance(&self, point: DVec3) -> f64 {
         let single = self.single.bounds();
         let all = self.fans.iter().map(Fan::bounds).chain(single);
         let far = all.map(|b| (point - b.lo).abs().max((b.hi - point).abs()).length());

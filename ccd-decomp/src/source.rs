@@ -144,7 +144,7 @@ impl BodySource {
                 );
             }
         };
-        let unit = adjustments.wanted();
+        let unit = adjustments.target_unit();
         Ok(Prepared { unit, ..prepared })
     }
 
@@ -216,7 +216,7 @@ impl FromStr for BodySource {
                 })
             }
             Some(("cylinder", given)) => {
-                from_round("cylinder", given).map(|(radius, half_height, excess)| {
+                parse_round("cylinder", given).map(|(radius, half_height, excess)| {
                     BodySource::Cylinder {
                         radius,
                         half_height,
@@ -225,7 +225,7 @@ impl FromStr for BodySource {
                 })
             }
             Some(("cone", given)) => {
-                from_round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
+                parse_round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
                     radius,
                     half_height,
                     excess,
@@ -261,7 +261,7 @@ const SHAPES: [(&str, usize); 5] = [
 ];
 
 /// Parses the radius, half height and optional excess of a cylinder or cone.
-fn from_round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
+fn parse_round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
     if given.matches(',').count() == 2 {
         let [radius, half_height, excess] = lengths(shape, given)?;
         return Ok((radius, half_height, Some(excess)));

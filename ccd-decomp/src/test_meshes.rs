@@ -71,7 +71,7 @@ pub(crate) fn tetrahedron() -> TriangleMesh {
 }
 
 /// Merges several meshes into one.
-pub(crate) fn joined(parts: &[&TriangleMesh]) -> TriangleMesh {
+pub(crate) fn merged_meshes(parts: &[&TriangleMesh]) -> TriangleMesh {
     TriangleMesh::merge(parts.iter().copied()).unwrap()
 }
 
@@ -82,7 +82,7 @@ pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> Triangle
 }
 
 /// Reverses every face of a mesh.
-pub(crate) fn turned(part: &TriangleMesh) -> TriangleMesh {
+pub(crate) fn reversed_faces(part: &TriangleMesh) -> TriangleMesh {
     let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     mesh(part.vertices().to_vec(), &faces)
 }
@@ -165,7 +165,7 @@ pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
 
 /// Returns a convex prism with a number of corners under a narrower, longer one: large caps on a solid that is not
 /// star-shaped.
-pub(crate) fn notched(corners: u32) -> TriangleMesh {
+pub(crate) fn prism_under_prism(corners: u32) -> TriangleMesh {
     let ring = |radius: f64, z: f64| {
         (0..corners).map(move |k| {
             let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);

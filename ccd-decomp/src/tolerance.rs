@@ -9,7 +9,7 @@ pub(crate) use rounding::*;
 ///
 /// Unit: pieces. Larger: better trees by a few percent, but pieces with one common centre take time
 /// that grows with it.
-pub(crate) const AGGLOMERATED_PIECES: usize = 256;
+pub(crate) const MAX_CLUSTER_PIECES: usize = 256;
 
 /// The number of initial passes of agglomeration in which only adjacent nodes are compared.
 ///
@@ -48,7 +48,7 @@ pub(crate) const PATCH_CORNERS: usize = 256;
 /// The least fraction of a node's pieces in each child of a hull tree. If a split gives less, it is at the median.
 ///
 /// Unit: one. At 1/8 a tree of n pieces is at most `log n / log (8/7)` deep: 104 for a million.
-pub(crate) const LEAST_SHARE: f64 = 1.0 / 8.0;
+pub(crate) const MIN_CHILD_SHARE: f64 = 1.0 / 8.0;
 
 /// The maximum number of iterations for the eigenvectors of a 3 × 3 matrix.
 ///
@@ -64,13 +64,13 @@ pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
 }
 
 /// The smallest useful number of voxels along the longest side.
-pub(crate) const LEAST_RESOLUTION: u32 = 8;
+pub(crate) const MIN_RESOLUTION: u32 = 8;
 
 /// The maximum number of pairs of a triangle and a voxel to examine: a third of a second of work.
-pub(crate) const VOXELS_TESTED: usize = 1 << 21;
+pub(crate) const MAX_VOXEL_TESTS: usize = 1 << 21;
 
 /// The minimum size of a voxel, in units of the rounding of cuts.
-pub(crate) const COARSE_VOXELS: f64 = 1024.0;
+pub(crate) const MIN_VOXEL_SIZE: f64 = 1024.0;
 
 /// V-HACD's concavity: the fraction of excess volume above which a part is split. It is so small that nearly convex
 /// meshes also use all requested hulls.
@@ -85,15 +85,15 @@ pub(crate) const BALANCE: f64 = 0.5;
 pub(crate) const PARTS_PER_HULL: u32 = 2;
 
 /// The maximum number of parts to request from V-HACD. The time of merging grows with their cube.
-pub(crate) const MOST_PARTS: u32 = 512;
+pub(crate) const MAX_PARTS: u32 = 512;
 
 /// The number of points of a part from which the cost of merging is estimated.
 ///
 /// Unit: points. More: hardly better choices, and more time.
-pub(crate) const PRICED_POINTS: u32 = 96;
+pub(crate) const COST_SAMPLE_POINTS: u32 = 96;
 
 /// The maximum accepted excess of hulls, in units of half the mesh's diagonal.
-pub(crate) const TOO_COARSE: f64 = 0.5;
+pub(crate) const MAX_RELATIVE_EXCESS: f64 = 0.5;
 
 /// The work budget of the search for a bound on the excess of hulls.
 ///
@@ -114,7 +114,7 @@ pub(crate) const EXCESS_RATIO: f64 = 1.01;
 pub(crate) const EXCESS_FLOOR: f64 = 1e-4;
 
 /// The maximum number of triangles near a box from which the excess within the box is bounded.
-pub(crate) const TRIANGLES_UNDER: usize = 64;
+pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
 
 /// The measured time of queries with one kind of pieces.
 #[derive(Clone, Copy, Debug)]
@@ -130,7 +130,7 @@ pub(crate) struct PieceCost {
 /// Measured on a perforated plate (coarse and fine), an L-prism, a comb and a gear of 460 to 7,452
 /// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
 /// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
-pub(crate) const TRIANGLES: PieceCost = PieceCost {
+pub(crate) const TRIANGLE_COST: PieceCost = PieceCost {
     usual: 23.0,
     resting: 5.0,
 };
@@ -140,21 +140,21 @@ pub(crate) const TRIANGLES: PieceCost = PieceCost {
 /// A query takes 2.4 times as long with patches, the median of random pairs of parts of real robots
 /// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
 /// laid flat.
-pub(crate) const PATCHES: PieceCost = PieceCost {
+pub(crate) const PATCH_COST: PieceCost = PieceCost {
     usual: 55.0,
     resting: 6.0,
 };
 
 /// The assumed fraction of queries in which bodies rest flat on each other, so that all pieces of a plane are
 /// examined. It is a guess: with it, patches are chosen from about three hundred triangles in one plane on.
-pub(crate) const FLAT_SHARE: f64 = 1.0 / 50.0;
+pub(crate) const RESTING_QUERY_SHARE: f64 = 1.0 / 50.0;
 
 /// The number of length bins per doubling of the length. Edges in one bin count as equally long, so that rounding
 /// does not separate the edges of a grid.
-pub(crate) const LENGTHS: f64 = 16.0;
+pub(crate) const LENGTH_BINS: f64 = 16.0;
 
 /// The number of direction bins per unit of each coordinate of a unit vector.
-pub(crate) const DIRECTIONS: f64 = 64.0;
+pub(crate) const DIRECTION_BINS: f64 = 64.0;
 
 /// The maximum number of points for the incremental hull without a conflict graph.
 ///
@@ -164,7 +164,7 @@ pub(crate) const FEW_POINTS: usize = 32;
 /// The minimum number of pieces for which the two sides of a hull tree node are built in parallel.
 ///
 /// Unit: pieces. Fewer: tasks cost more than they gain. More: a core idles at the end.
-pub(crate) const SIDE_BY_SIDE: usize = 256;
+pub(crate) const PARALLEL_PIECES: usize = 256;
 
 /// The maximum number of piece centres from which the split axis of a hull tree node is computed.
 ///
@@ -180,12 +180,12 @@ pub(crate) const FAN_TRIANGLES: u32 = 32;
 /// The number of axis-aligned boxes that may meet the box of a shape before oriented boxes are tested.
 ///
 /// Unit: boxes. A smaller value is slower for triangles that are not slivers.
-pub(crate) const BOXES_MET: usize = 32;
+pub(crate) const BOXES_BEFORE_ORIENTED: usize = 32;
 
 /// The maximum number of pairs of intersecting faces in a report.
 ///
 /// Unit: pairs. The fan of a non-convex polygon may have as many as the square of its corners.
-pub(crate) const CROSSINGS: usize = 1000;
+pub(crate) const MAX_CROSSINGS: usize = 1000;
 
 /// The work budget of `Detail::Auto` for testing and making patches.
 ///
@@ -199,26 +199,26 @@ pub(crate) const VERTEX_COST: u64 = 4;
 ///
 /// Unit: the cost of a corner, and of an object. More: a hostile file of a kilobyte takes more memory. Fewer: small
 /// files with many instances are refused.
-pub(crate) const REPEATED: u64 = 1 << 20;
+pub(crate) const EXPANSION_BASE: u64 = 1 << 20;
 
 /// The part of the limit on what a file may expand to that is proportional to its size, per byte. An assembly of
 /// 1,000 screws of 1,000 triangles takes about 50.
-pub(crate) const REPEATED_PER_BYTE: u64 = 1 << 8;
+pub(crate) const EXPANSION_PER_BYTE: u64 = 1 << 8;
 
 /// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
 /// prepare.
-pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
+pub(crate) const EXPANSION_MAX: u64 = 1 << 25;
 
 /// The constant part of the limit on the unpacked size of a compressed file, in bytes.
 ///
 /// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
 #[cfg(feature = "3mf")]
-pub(crate) const UNPACKED: u64 = 1 << 24;
+pub(crate) const UNPACKED_BASE: u64 = 1 << 24;
 
 /// The part of the limit on the unpacked size that is proportional to the file's size. Models of slicers and CAD
 /// programs unpack to five to thirty times the size.
 #[cfg(feature = "3mf")]
-pub(crate) const UNPACKED_RATIO: u64 = 128;
+pub(crate) const UNPACKED_PER_BYTE: u64 = 128;
 
 #[cfg(test)]
 mod tests;

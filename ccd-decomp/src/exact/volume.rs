@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 pub(crate) struct SignedVolume {
     sum: f64,
     /// The sum of the rounding errors of the additions.
-    lost: f64,
+    addition_errors: f64,
     size: f64,
     terms: f64,
 }
@@ -16,7 +16,7 @@ pub(crate) struct SignedVolume {
 impl SignedVolume {
     /// Sums six times the signed volumes of the tetrahedra between each triangle and the point `near`, which is near
     /// the surface.
-    pub(crate) fn of(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
+    pub(crate) fn from_triangles(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
         let mut volume = SignedVolume::default();
         triangles.for_each(|triangle| volume.add(triangle, near));
         volume
@@ -29,7 +29,7 @@ impl SignedVolume {
         let sum = self.sum + term;
         // The exact rounding error of the addition (Knuth's two-sum).
         let added = sum - self.sum;
-        self.lost += (self.sum - (sum - added)) + (term - added);
+        self.addition_errors += (self.sum - (sum - added)) + (term - added);
         self.sum = sum;
         self.size += arm.length() * sides[0].length() * sides[1].length();
         self.terms += 1.0;
@@ -37,7 +37,7 @@ impl SignedVolume {
 
     /// Returns whether the sum is positive; `None` if [rounding](volume_rounding) could change the sign.
     pub(crate) fn is_positive(&self) -> Option<bool> {
-        let sum = self.sum + self.lost;
+        let sum = self.sum + self.addition_errors;
         let rounding = volume_rounding(self.size, self.terms);
         // Written so that NaN has no sign.
         (sum.abs() > rounding).then_some(sum > 0.0)

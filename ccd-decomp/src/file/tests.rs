@@ -208,7 +208,7 @@ fn check(bytes: &[u8]) {
 }
 
 /// Wraps a changed payload in a frame with a matching checksum.
-fn reframed(payload: &[u8]) -> Vec<u8> {
+fn frame_payload(payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     frame::write(&mut bytes, payload).unwrap();
     bytes
@@ -219,7 +219,7 @@ fn a_payload_cut_anywhere_is_an_error() {
     for bytes in FILES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for end in 0..payload.len() {
-            let fault = fault(&reframed(&payload[..end]));
+            let fault = fault(&frame_payload(&payload[..end]));
             assert!(
                 matches!(fault, StoreFault::Invalid { .. }),
                 "{end}: {fault}"
@@ -236,7 +236,7 @@ fn no_single_change_of_a_payload_panics() {
             for value in [0, 1, 2, 0x7f, 0x80, 0xff] {
                 let mut changed = payload.clone();
                 changed[at] = value;
-                check(&reframed(&changed));
+                check(&frame_payload(&changed));
             }
         }
     }
@@ -246,7 +246,7 @@ proptest! {
     #[test]
     fn no_bytes_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         check(&bytes);
-        check(&reframed(&bytes));
+        check(&frame_payload(&bytes));
     }
 
     #[test]
@@ -261,8 +261,8 @@ proptest! {
             let at = at.index(payload.len());
             payload[at] = byte;
         }
-        check(&reframed(&payload));
-        check(&reframed(&payload[cut.index(payload.len())..]));
+        check(&frame_payload(&payload));
+        check(&frame_payload(&payload[cut.index(payload.len())..]));
     }
 }
 

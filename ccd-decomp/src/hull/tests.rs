@@ -6,13 +6,13 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 /// A brute-force hull. A triple of points spans a facet if no point is in front of its plane.
-struct Twin {
+struct BruteForceHull {
     corners: Vec<DVec3>,
     /// The indices of the points on each facet, corners or not.
     planes: BTreeSet<Vec<u32>>,
 }
 
-impl Twin {
+impl BruteForceHull {
     fn of(points: &[DVec3]) -> Self {
         let n = points.len();
         let first_at = |k: usize| (0..n).find(|&l| points[l] == points[k]) == Some(k);
@@ -35,11 +35,11 @@ impl Twin {
         let on: BTreeSet<u32> = planes.iter().flatten().copied().collect();
         // A corner is on three planes; in a plane, it is in no triangle or segment of others.
         let is_corner = |k: &u32| match planes.len() {
-            1 => !is_amid(points, &distinct, *k as usize),
+            1 => !is_in_coplanar_hull(points, &distinct, *k as usize),
             _ => planes.iter().filter(|plane| plane.contains(k)).count() >= 3,
         };
         let corners = on.into_iter().filter(is_corner);
-        Twin {
+        BruteForceHull {
             corners: corners.map(|k| points[k as usize]).collect(),
             planes,
         }
@@ -47,7 +47,7 @@ impl Twin {
 }
 
 /// Returns whether a point is in the convex hull of coplanar points.
-fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
+fn is_in_coplanar_hull(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     let others = || distinct.iter().filter(|&&l| l != k).map(|&l| points[l]);
     let point = points[k];
     let in_segment =
@@ -91,8 +91,8 @@ fn assert_proper(points: &[DVec3], hull: &Hull) {
 }
 
 /// Checks the hull of any points, and that it has no facets exactly if all points are on a line.
-fn assert_right(points: &[DVec3]) {
-    let (hull, twin) = (hull(points).expect("in range"), Twin::of(points));
+fn assert_hull_of(points: &[DVec3]) {
+    let (hull, twin) = (hull(points).expect("in range"), BruteForceHull::of(points));
     if hull.facets.is_empty() {
         assert!(twin.planes.is_empty() && (1..=2).contains(&hull.points.len()));
     } else {
@@ -172,7 +172,7 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 #[case::tetrahedron(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])]
 fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
     let hull = proper(&points);
-    let twin = Twin::of(&points);
+    let twin = BruteForceHull::of(&points);
     assert_eq!(hull.points, twin.corners);
     // A flat hull has two facets in one plane.
     let planes = twin.planes.len();
@@ -247,7 +247,7 @@ proptest! {
     #[test]
     fn coarse_points(points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 1..18)) {
         let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_right(&points);
+        assert_hull_of(&points);
     }
 
     /// Tests the hulls of points within a few units in the last place of a plane, a line or each other.
@@ -258,6 +258,6 @@ proptest! {
         seed in 0_u64..1000,
     ) {
         let points = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_right(&shaken(points, scale, seed));
+        assert_hull_of(&shaken(points, scale, seed));
     }
 }

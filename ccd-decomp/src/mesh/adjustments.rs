@@ -107,7 +107,7 @@ impl Adjustments {
     /// # Errors
     /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.
     pub fn and(self, other: &Adjustments) -> Result<Self, InputError> {
-        let mirrored = other.axes().fold(self, Adjustments::mirrored);
+        let mirrored = other.mirrored_axes().fold(self, Adjustments::mirrored);
         let both = match other.scale() {
             1.0 => mirrored,
             scale => mirrored.scaled(scale)?,
@@ -121,12 +121,12 @@ impl Adjustments {
     }
 
     /// Returns the unit of the numbers in the file, if the adjustments set it.
-    pub(crate) fn stated(&self) -> Option<Unit> {
+    pub(crate) fn stated_unit(&self) -> Option<Unit> {
         self.stated
     }
 
     /// Returns the unit to convert the coordinates to, if the adjustments set it.
-    pub(crate) fn wanted(&self) -> Option<Unit> {
+    pub(crate) fn target_unit(&self) -> Option<Unit> {
         self.wanted
     }
 
@@ -155,7 +155,7 @@ impl Adjustments {
     }
 
     /// Iterates over the axes along which the mesh is mirrored.
-    fn axes(&self) -> impl Iterator<Item = Axis> {
+    fn mirrored_axes(&self) -> impl Iterator<Item = Axis> {
         let factors = self.factors;
         let axes = [Axis::X, Axis::Y, Axis::Z].into_iter();
         axes.filter(move |&axis| factors[axis as usize] < 0.0)
@@ -230,7 +230,7 @@ impl fmt::Display for Adjustments {
         if self.scale() != 1.0 {
             write!(f, "@scale={}", self.scale())?;
         }
-        for axis in self.axes() {
+        for axis in self.mirrored_axes() {
             write!(f, "@mirror={axis}")?;
         }
         if self.is_hollow {

@@ -124,7 +124,7 @@ pub(crate) fn approximate(
         excess::excess_bound(&target, &parts)
     };
     let sticks_out = (excess + uncovered).next_up();
-    let limit = tolerance::TOO_COARSE * target.half_diagonal() + 2.0 * uncovered;
+    let limit = tolerance::MAX_RELATIVE_EXCESS * target.half_diagonal() + 2.0 * uncovered;
     // Written so that NaN fails.
     if !(sticks_out <= limit) {
         return Err(VhacdError::TooCoarse { sticks_out, limit });

@@ -11,7 +11,7 @@ use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegion, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
-use crate::tolerance::{AUTO_WORK, FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
+use crate::tolerance::{AUTO_WORK, PATCH_COST, PieceCost, RESTING_QUERY_SHARE, TRIANGLE_COST};
 use crate::work::Work;
 
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
@@ -40,7 +40,7 @@ fn within(
     };
     let convex = convex_polytope(&manifold);
     let mut merger = RegionMerger::merged(&manifold);
-    let estimate = merger.largest_plane().estimate();
+    let estimate = merger.largest_planar_region().estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));
     }
@@ -50,7 +50,7 @@ fn within(
     if let Ok(polytope) = convex {
         return (Parts::Hull(Box::new(polytope)), Why::Convex);
     }
-    let flats = merger.finish();
+    let flats = merger.into_flats();
     match decompose_flats(&manifold, &flats, Order::default(), work) {
         Ok(decomposition) => (Parts::Patches(decomposition), Why::PatchesFaster(estimate)),
         Err(error) => only_triangles(error),
@@ -68,10 +68,12 @@ fn only_triangles(error: DecomposeError) -> (Parts, Why) {
 impl PlanarRegion {
     /// Estimates the time of a query whose largest planar part rests on another body in some queries.
     fn estimate(self) -> Estimate {
-        let cost = |of: PieceCost, count: usize| of.usual + FLAT_SHARE * of.resting * count as f64;
+        let cost = |of: PieceCost, count: usize| {
+            of.usual + RESTING_QUERY_SHARE * of.resting * count as f64
+        };
         Estimate {
-            triangles: cost(TRIANGLES, self.triangles),
-            patches: cost(PATCHES, self.polygons),
+            triangles: cost(TRIANGLE_COST, self.triangles),
+            patches: cost(PATCH_COST, self.polygons),
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::Apart;
+use super::planes::SeparationTests;
 use super::region::Region;
 use crate::bounds::Bounds;
-use crate::tolerance::BOXES_MET;
+use crate::tolerance::BOXES_BEFORE_ORIENTED;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -74,17 +74,17 @@ impl BoxTree {
                 return true;
             }
             met.set(met.get() + 1);
-            met.get() > BOXES_MET
+            met.get() > BOXES_BEFORE_ORIENTED
                 && apart
-                    .get_or_init(|| Apart::from(region.shape()))
-                    .has(oriented)
+                    .get_or_init(|| SeparationTests::for_shape(region.shape()))
+                    .separates(oriented)
         };
-        self.all_but(is_far, work, |element| holds(element.face))
+        self.all_except_far(is_far, work, |element| holds(element.face))
     }
 
     /// Calls `holds` for all elements, except those in boxes for which `is_far` is true. Stops when `holds`
     /// returns false or the work is spent.
-    pub(super) fn all_but(
+    pub(super) fn all_except_far(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,
@@ -110,7 +110,7 @@ impl BoxTree {
     }
 
     /// Returns the elements of a leaf, or the two children of an inner node.
-    pub(super) fn below(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
+    pub(super) fn elements_and_children(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
         let Some(node) = self.nodes.get(at) else {
             return (&[], None);
         };
@@ -130,14 +130,14 @@ impl BoxTree {
 }
 
 /// The number of elements above which subtrees are built in parallel.
-const SHARED: usize = 4096;
+const PARALLEL_ELEMENTS: usize = 4096;
 
 /// Appends the subtree over some elements to `nodes`, and sorts these elements; `first` is the index of the first
 /// one.
 ///
 /// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
-    let oriented = OrientedBox::about(elements);
+    let oriented = OrientedBox::around(elements);
     let at = nodes.len();
     let split = elements.len() / 2;
     let is_leaf = elements.len() <= LEAF;
@@ -152,13 +152,13 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
         count: 1,
     });
     if !is_leaf {
-        let along = nodes[at].oriented.widest(elements);
+        let along = nodes[at].oriented.axis_of_largest_spread(elements);
         let height = |element: &Element| along.dot(element.middle());
         elements.select_nth_unstable_by(split, |a, b| {
             let order = height(a).total_cmp(&height(b));
             order.then(a.face.cmp(&b.face))
         });
-        let is_shared = elements.len() > SHARED;
+        let is_shared = elements.len() > PARALLEL_ELEMENTS;
         let (left, right) = elements.split_at_mut(split);
         let all_of = |elements: &mut [Element], first: usize| {
             let mut nodes = Vec::new();

@@ -3,7 +3,7 @@
 use super::box_tree::BoxTree;
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::{planes_beside, planes_within};
+use super::planes::{separating_planes, separating_planes_in_plane};
 use super::region::{Hull, Shape};
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
@@ -79,7 +79,7 @@ impl Fan {
 
     /// Returns whether the fan is flat and a hull lies on one side of its plane, so that no part of the fan is inside
     /// the hull.
-    fn is_beside(&self, hull: &Hull) -> bool {
+    fn is_on_one_side_of(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
             let sides = hull.corners.iter().map(|&corner| side(plane, corner));
             let mut sides = sides.filter(|&side| side != Ordering::Equal);
@@ -89,7 +89,7 @@ impl Fan {
     }
 
     /// Returns whether a triangle lies in the plane of a flat fan without the hub as a corner.
-    fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
+    fn is_coplanar_off_hub(&self, corners: &[DVec3; 3]) -> bool {
         let level = |plane: [DVec3; 3]| {
             let mut sides = corners.iter().map(|&corner| side(plane, corner));
             sides.all(|side| side == Ordering::Equal)
@@ -111,20 +111,20 @@ impl Fan {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         if let Shape::Inside(hull) = shape
-            && self.is_beside(hull)
+            && self.is_on_one_side_of(hull)
         {
             return true;
         }
         let planes = match shape {
-            Shape::Triangle(corners) if self.has_beside_hub(corners) => {
-                planes_within(corners, self.hub)
+            Shape::Triangle(corners) if self.is_coplanar_off_hub(corners) => {
+                separating_planes_in_plane(corners, self.hub)
             }
-            _ => planes_beside(shape, self.hub),
+            _ => separating_planes(shape, self.hub),
         };
         let is_far = |_: &Bounds, oriented: &OrientedBox| {
             planes.iter().any(|plane| plane.has_in_front(oriented))
         };
         self.rim
-            .all_but(is_far, work, |element| holds(element.face))
+            .all_except_far(is_far, work, |element| holds(element.face))
     }
 }

@@ -6,7 +6,7 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 
 /// The cost of a node in a search by distance, in steps: nodes of a search by region.
-const NODE: usize = 4;
+const STEPS_PER_NODE: usize = 4;
 
 impl BoxTree {
     /// Returns the triangle nearest to a point; `measure` computes the distance of a triangle from the point.
@@ -27,8 +27,8 @@ impl BoxTree {
             if is_farther {
                 continue;
             }
-            work.spend(NODE);
-            let (elements, below) = self.below(at);
+            work.spend(STEPS_PER_NODE);
+            let (elements, below) = self.elements_and_children(at);
             for element in elements {
                 let distance = measure(element.corners);
                 // Written so that NaN is a distance only if there is no other.
@@ -58,7 +58,7 @@ impl BoxTree {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
-        self.all_but(is_far, work, |element| {
+        self.all_except_far(is_far, work, |element| {
             !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }

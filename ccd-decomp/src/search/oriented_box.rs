@@ -21,7 +21,7 @@ pub(super) struct OrientedBox {
 impl OrientedBox {
     /// Creates a box around some elements. It is aligned with their longest side and the corner farthest from that
     /// side.
-    pub(super) fn about(elements: &[Element]) -> Self {
+    pub(super) fn around(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
         let longer = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
@@ -39,7 +39,7 @@ impl OrientedBox {
         let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
         for p in corners() {
             let offset = p - centre;
-            let along = along_each(&axes, offset);
+            let along = dot_with_each(&axes, offset);
             let rest = offset - along.x * first - along.y * second - along.z * axes[2];
             halves = halves.max(along.abs());
             slack = greater(slack, rest.abs().max_element());
@@ -58,11 +58,11 @@ impl OrientedBox {
 
     /// Returns the axis of the box along which the centres of some elements spread most. For the teeth of a comb this
     /// is not the longest axis.
-    pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
+    pub(super) fn axis_of_largest_spread(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
             let offset = element.middle() - self.centre;
-            let along = along_each(&self.axes, offset);
+            let along = dot_with_each(&self.axes, offset);
             (lo, hi) = (lo.min(along), hi.max(along));
         }
         self.axes[(hi - lo).max_position()]
@@ -70,20 +70,20 @@ impl OrientedBox {
 
     /// Returns an upper bound of the dot product of a vector with any vector from the centre to the box.
     #[inline]
-    pub(super) fn depth(&self, vector: DVec3) -> f64 {
-        let along = along_each(&self.axes, vector).abs();
+    pub(super) fn support(&self, vector: DVec3) -> f64 {
+        let along = dot_with_each(&self.axes, vector).abs();
         along.dot(self.halves) + vector.abs().element_sum() * self.slack
     }
 
     /// Returns a lower bound, up to rounding, of the distance of a point from the box; negative inside. Each axis is
     /// tested separately, because they need not be orthogonal.
     pub(super) fn distance(&self, point: DVec3) -> f64 {
-        let along = along_each(&self.axes, point - self.centre).abs();
+        let along = dot_with_each(&self.axes, point - self.centre).abs();
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
     /// Returns whether an axis of the box certainly separates it from all points.
-    pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
+    pub(super) fn is_separated_from(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);
         (0..3).any(|k| {
@@ -98,7 +98,7 @@ impl OrientedBox {
 
 /// Returns the dot products of a vector with three axes.
 #[inline]
-fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
+fn dot_with_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
     DVec3::new(
         axes[0].dot(offset),
         axes[1].dot(offset),
@@ -142,7 +142,7 @@ impl Extent {
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);
-        let depth = oriented.depth(self.direction) + box_rounding(self.direction, reach);
+        let depth = oriented.support(self.direction) + box_rounding(self.direction, reach);
         // Written so that NaN does not miss.
         along - depth > self.hi || along + depth < self.lo
     }

@@ -38,18 +38,18 @@ impl Plane {
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
         let offset = oriented.centre - self.foot;
         let reach = oriented.reach + 2.0 * self.far;
-        let height = self.normal.dot(offset) - oriented.depth(self.normal);
+        let height = self.normal.dot(offset) - oriented.support(self.normal);
         // Written so that NaN is not in front.
         height > self.rounding * reach + f64::MIN_POSITIVE
     }
 }
 
 /// The maximum number of facets of a hull whose planes are tested with boxes.
-const PLANES: usize = 16;
+const TESTED_FACETS: usize = 16;
 
 /// Returns planes that have the shape on or behind them and the hub on or in front of them, exactly. A triangle of
 /// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
-pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
+pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => {
             vec![Plane::through([hub, *p, *q]), Plane::through([hub, *q, *p])]
@@ -62,15 +62,15 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
             // A hub inside the triangle is a common point.
-            if !corners.contains(&hub) && holds(*corners, hub) {
+            if !corners.contains(&hub) && contains_point(*corners, hub) {
                 return planes;
             }
             for k in 0..3 {
                 let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
                 through(&mut planes, hub, [p, q], r);
                 if hub == p {
-                    upright(&mut planes, [p, q], &[r], hub);
-                    upright(&mut planes, [p, r], &[q], hub);
+                    add_axis_parallel_planes(&mut planes, [p, q], &[r], hub);
+                    add_axis_parallel_planes(&mut planes, [p, r], &[q], hub);
                 }
             }
             let [p, q, r] = *corners;
@@ -85,15 +85,15 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
 }
 
 /// The tests by which oriented boxes are separated from a shape.
-pub(super) struct Apart<'a> {
+pub(super) struct SeparationTests<'a> {
     points: &'a [DVec3],
     extents: Vec<Extent>,
     planes: Vec<Plane>,
 }
 
-impl<'a> Apart<'a> {
-    pub(super) fn from(shape: &'a Shape) -> Self {
-        let apart = |points, extents| Apart {
+impl<'a> SeparationTests<'a> {
+    pub(super) fn for_shape(shape: &'a Shape) -> Self {
+        let apart = |points, extents| SeparationTests {
             points,
             extents,
             planes: Vec::new(),
@@ -101,10 +101,10 @@ impl<'a> Apart<'a> {
         match shape {
             Shape::Segment(ends) => apart(ends, Vec::new()),
             Shape::Triangle(corners) => apart(corners, extents(corners)),
-            Shape::Inside(Hull { facets, .. }) => Apart {
+            Shape::Inside(Hull { facets, .. }) => SeparationTests {
                 planes: facets
                     .iter()
-                    .take(PLANES)
+                    .take(TESTED_FACETS)
                     .map(|&facet| Plane::through(facet))
                     .collect(),
                 ..apart(&[], Vec::new())
@@ -112,10 +112,10 @@ impl<'a> Apart<'a> {
         }
     }
 
-    pub(super) fn has(&self, oriented: &OrientedBox) -> bool {
+    pub(super) fn separates(&self, oriented: &OrientedBox) -> bool {
         self.extents.iter().any(|extent| extent.misses(oriented))
             || self.planes.iter().any(|plane| plane.has_in_front(oriented))
-            || !self.points.is_empty() && oriented.is_beside(self.points)
+            || !self.points.is_empty() && oriented.is_separated_from(self.points)
     }
 }
 
@@ -131,24 +131,29 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
         .collect()
 }
 
-/// Returns planes like [`planes_beside`], for a triangle coplanar with the fan. They are parallel to a coordinate
+/// Returns planes like [`separating_planes`], for a triangle coplanar with the fan. They are parallel to a coordinate
 /// axis, through the hub and a corner, and along the edges.
-pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
+pub(super) fn separating_planes_in_plane(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     let mut planes = Vec::new();
-    if holds(*corners, hub) {
+    if contains_point(*corners, hub) {
         return planes;
     }
     for k in 0..3 {
         let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
-        upright(&mut planes, [hub, p], &[q, r], hub);
-        upright(&mut planes, [p, q], &[r], hub);
+        add_axis_parallel_planes(&mut planes, [hub, p], &[q, r], hub);
+        add_axis_parallel_planes(&mut planes, [p, q], &[r], hub);
     }
     planes
 }
 
 /// Adds the planes through a line, parallel to a coordinate axis, that have some points on or behind them and the hub
 /// on or in front of them.
-fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
+fn add_axis_parallel_planes(
+    planes: &mut Vec<Plane>,
+    [p, q]: [DVec3; 2],
+    behind: &[DVec3],
+    hub: DVec3,
+) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
         let turn = |x: DVec3| turn_along(axis, [p, q], x);
         let none = |of: Ordering| behind.iter().all(|&x| turn(x) != of);
@@ -162,7 +167,7 @@ fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: D
 }
 
 /// Returns whether a triangle contains a point of its plane.
-fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
+fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
         edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)

@@ -5,7 +5,7 @@ use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::Projection;
 use crate::half_edges::HalfEdge;
 use crate::hull::polygons::strict_corners;
-use crate::tolerance::{DIRECTIONS, LENGTHS};
+use crate::tolerance::{DIRECTION_BINS, LENGTH_BINS};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};
 use rayon::prelude::*;
@@ -32,7 +32,7 @@ pub(crate) struct Flat {
 impl Flats {
     /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        RegionMerger::merged(manifold).finish()
+        RegionMerger::merged(manifold).into_flats()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -94,7 +94,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     }
 
     /// Returns the planar part with the most triangles.
-    pub(crate) fn largest_plane(&mut self) -> PlanarRegion {
+    pub(crate) fn largest_planar_region(&mut self) -> PlanarRegion {
         let faces = self.manifold.faces().len();
         let mut planes = vec![PlanarRegion::default(); faces];
         for face in 0..faces as u32 {
@@ -125,8 +125,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         let rank = |h: HalfEdge| {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
             let offset = b - a;
-            let length = (length(offset).log2() * LENGTHS).round() as i32;
-            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTIONS;
+            let length = (length(offset).log2() * LENGTH_BINS).round() as i32;
+            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTION_BINS;
             let offset = offset.to_array().map(|x| x.round() as i32);
             (Reverse(length), offset.max(offset.map(|x| -x)), h)
         };
@@ -149,10 +149,13 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             return true;
         }
         // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
-        let Some(first) = self.walk(edge, |merger, h| merger.previous[h as usize], other) else {
+        let Some(first) =
+            self.last_beside_region(edge, |merger, h| merger.previous[h as usize], other)
+        else {
             return false;
         };
-        let Some(last) = self.walk(edge, |merger, h| merger.next[h as usize], other) else {
+        let Some(last) = self.last_beside_region(edge, |merger, h| merger.next[h as usize], other)
+        else {
             return false;
         };
         let twin = |h: HalfEdge| self.manifold.twin(h);
@@ -176,7 +179,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
 
     /// Follows the boundary from an edge to the last half-edge that has the given region on its other side; `None` if
     /// the whole boundary has.
-    fn walk(
+    fn last_beside_region(
         &mut self,
         edge: HalfEdge,
         step: impl Fn(&Self, HalfEdge) -> HalfEdge,
@@ -206,7 +209,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     }
 
     /// Returns the polygons that the regions have become.
-    pub(crate) fn finish(mut self) -> Flats {
+    pub(crate) fn into_flats(mut self) -> Flats {
         let flat_of = self.regions.numbers();
         let count = flat_of.iter().max().map_or(0, |&last| last as usize + 1);
         let mut flats = vec![Flat::default(); count];

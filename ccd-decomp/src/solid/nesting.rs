@@ -124,7 +124,7 @@ impl<'m> Shells<'m> {
                 _ => 1,
             };
             if *unknown || *crossed && windings > 0 && as_around != Some(1) {
-                unclear.add(self.name(shell));
+                unclear.add(self.name_in_reports(shell));
             }
         }
         let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
@@ -136,7 +136,7 @@ impl<'m> Shells<'m> {
         // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
             for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
-                nesting.wrong.add(self.name(shell));
+                nesting.wrong.add(self.name_in_reports(shell));
                 nesting.turned.extend(&self.faces_of[shell]);
             }
         }
@@ -144,7 +144,7 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the first face of a shell, by the file's number. Reports name the shell by it.
-    fn name(&self, shell: usize) -> u32 {
+    fn name_in_reports(&self, shell: usize) -> u32 {
         self.mesh.face_ids()[self.faces_of[shell][0] as usize]
     }
 
@@ -152,7 +152,7 @@ impl<'m> Shells<'m> {
     fn orientation(&self, faces: &[u32]) -> i32 {
         let near = self.mesh.triangle(faces[0])[0];
         let triangles = faces.iter().map(|&face| self.mesh.triangle(face));
-        match SignedVolume::of(triangles, near).is_positive() {
+        match SignedVolume::from_triangles(triangles, near).is_positive() {
             Some(true) => 1,
             Some(false) => -1,
             None => 0,
@@ -160,7 +160,7 @@ impl<'m> Shells<'m> {
     }
 
     fn surroundings(&self, shell: u32) -> Surroundings {
-        let Some(mut shells) = self.winding_about(shell) else {
+        let Some(mut shells) = self.shells_winding_about(shell) else {
             return Surroundings {
                 unknown: true,
                 ..Surroundings::default()
@@ -169,7 +169,7 @@ impl<'m> Shells<'m> {
         if shells.is_empty() {
             return Surroundings::default();
         }
-        let crossed = self.crossed_by(shell);
+        let crossed = self.shells_crossing(shell);
         shells.retain(|other| !crossed.contains(other));
         Surroundings {
             shells,
@@ -180,7 +180,7 @@ impl<'m> Shells<'m> {
 
     /// Returns the other shells with a winding number other than 0 about a shell; `None` if every ray meets an edge
     /// or vertex.
-    fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
+    fn shells_winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
         let is_own = |other: u32| other == shell;
@@ -188,20 +188,21 @@ impl<'m> Shells<'m> {
         if self.bounds.all_meeting(&at, is_own) {
             return Some(Vec::new());
         }
-        let size = self.boxes.reach(corner);
+        let size = self.boxes.farthest_distance(corner);
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
         // Shells may touch at a corner: every attempt uses another one.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
         // Shells that share faces touch at all corners.
-        let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
-        corners
-            .chain(middles)
-            .find_map(|(k, from)| self.winding_before(shell, probe_segment(from, size, k)))
+        let middles =
+            (0..RAY_TRIES).filter_map(|k| Some((k, self.isolated_centre(shell, face(k), size)?)));
+        corners.chain(middles).find_map(|(k, from)| {
+            self.shells_winding_about_start(shell, probe_segment(from, size, k))
+        })
     }
 
     /// Returns the centre of a face, up to rounding; `None` if another shell is within that rounding.
-    fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
-        let (middle, across) = around_middle(face, size)?;
+    fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+        let (middle, across) = centre_and_sides(face, size)?;
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
         let misses =
             |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
@@ -213,7 +214,7 @@ impl<'m> Shells<'m> {
 
     /// Returns the other shells with a winding number other than 0 about the start of a ray; `None` if the ray meets
     /// an edge or vertex.
-    fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
+    fn shells_winding_about_start(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
@@ -238,7 +239,7 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the other shells that intersect a shell outside shared corners and edges.
-    fn crossed_by(&self, shell: u32) -> Vec<u32> {
+    fn shells_crossing(&self, shell: u32) -> Vec<u32> {
         let mut crossed = Vec::new();
         let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
         // A degenerate face lies on an edge of its neighbours.
@@ -263,7 +264,7 @@ impl<'m> Shells<'m> {
 
 /// Returns the centre of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
 /// the mesh.
-fn around_middle([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
+fn centre_and_sides([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
     let middle = (a + b + c) / 3.0;
     // Far from the origin, rounding exceeds that of the mesh's size.
     let size = size + middle.abs().max_element();

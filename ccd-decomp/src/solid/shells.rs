@@ -25,7 +25,7 @@ pub(crate) fn check_orientation(
     let faces_of = members(&shell_of);
     for faces in &faces_of {
         let triangles = faces.iter().map(|&face| manifold.triangle(face));
-        let volume = SignedVolume::of(triangles, near);
+        let volume = SignedVolume::from_triangles(triangles, near);
         let face = manifold.mesh().face_ids()[faces[0] as usize];
         let Some(outward) = volume.is_positive() else {
             return Err(DecomposeError::NoVolume { face });
@@ -68,7 +68,7 @@ fn winding_of_others(
 ) -> Option<i32> {
     let shell = shell_of[faces[0] as usize];
     let near = manifold.triangle(faces[0])[0];
-    let size = manifold.boxes().reach(near);
+    let size = manifold.boxes().farthest_distance(near);
     (0..RAY_TRIES).find_map(|k| {
         // Shells may touch at a corner: every attempt uses another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];

@@ -55,18 +55,18 @@ impl Topology {
     /// assert_eq!(Topology::of(&open).boundary.count(), 3);
     /// ```
     pub fn of(mesh: &TriangleMesh) -> Self {
-        Topology::and_turned(mesh).0
+        Topology::with_reoriented_mesh(mesh).0
     }
 
     /// Computes the topology like [`Topology::of`]. Also returns the mesh with wrong shells reversed, if there are
     /// any.
-    pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
+    pub(crate) fn with_reoriented_mesh(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let edges = Edges::new(&mesh.welded_faces());
-        Topology::by_edges(mesh, &edges)
+        Topology::from_edges(mesh, &edges)
     }
 
-    /// Computes the same as [`Topology::and_turned`], given the edges between welded vertices.
-    pub(crate) fn by_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
+    /// Computes the same as [`Topology::with_reoriented_mesh`], given the edges between welded vertices.
+    pub(crate) fn from_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
             ..Topology::default()

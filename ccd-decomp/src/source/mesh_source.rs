@@ -43,10 +43,10 @@ impl MeshSource {
     /// [`MeshError`], which names the file.
     pub fn read(&self) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
         let mut file = MeshFile::read(&self.file)?;
-        if let Some(unit) = self.adjustments.stated() {
+        if let Some(unit) = self.adjustments.stated_unit() {
             file = file.stated_in(unit);
         }
-        if let Some(unit) = self.adjustments.wanted() {
+        if let Some(unit) = self.adjustments.target_unit() {
             file = file.in_unit(unit);
         }
         let unit = file.unit();
@@ -85,7 +85,7 @@ impl MeshSource {
 }
 
 /// Splits a text into file name, mark (`#` or `@`), and rest.
-fn split(text: &str) -> Option<(&str, char, &str)> {
+fn split_at_mark(text: &str) -> Option<(&str, char, &str)> {
     let mut ends = text.match_indices(['#', '@']);
     let (at, mark) = ends.find(|&(at, mark)| {
         let file = Path::new(&text[..at]);
@@ -101,7 +101,8 @@ impl FromStr for MeshSource {
     type Err = UnknownAdjustment;
 
     fn from_str(text: &str) -> Result<Self, UnknownAdjustment> {
-        let Some((file, mark, rest)) = split(text).filter(|_| !Path::new(text).is_file()) else {
+        let Some((file, mark, rest)) = split_at_mark(text).filter(|_| !Path::new(text).is_file())
+        else {
             return Ok(MeshSource::whole(text));
         };
         let (mut part, mut words) = (None, Vec::new());

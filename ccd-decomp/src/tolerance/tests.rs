@@ -27,6 +27,6 @@ fn more_hulls_take_finer_voxels() {
 /// Tests that the depth of a hull tree follows from the least fraction of each child.
 #[test]
 fn a_tree_of_a_million_pieces_has_few_levels() {
-    let levels = 1e6_f64.ln() / -(1.0 - LEAST_SHARE).ln();
+    let levels = 1e6_f64.ln() / -(1.0 - MIN_CHILD_SHARE).ln();
     assert!((103.0..104.0).contains(&levels), "{levels}");
 }

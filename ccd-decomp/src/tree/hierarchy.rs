@@ -5,7 +5,7 @@ mod nodes;
 mod reinsert;
 
 use crate::bounds::Bounds;
-use crate::tolerance::AGGLOMERATED_PIECES;
+use crate::tolerance::MAX_CLUSTER_PIECES;
 use crate::tree::slot::Slot;
 use agglomerate::{Workspace, agglomerate};
 use ccd_core::glam::{DVec3, Vec3A};
@@ -95,7 +95,7 @@ fn split(leaves: &[Node]) -> Vec<Node> {
     let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
     if let Some(slot) = Slot::whole(&mut nodes) {
-        Splitter { leaves }.side_by_side(&mut centres, slot);
+        Splitter { leaves }.build_subtree(&mut centres, slot);
     }
     nodes
 }
@@ -122,20 +122,20 @@ struct Splitter<'l> {
 
 impl Splitter<'_> {
     /// Builds the subtree over some pieces, in parallel if they are many.
-    fn side_by_side(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
+    fn build_subtree(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
         if centres.len() <= PIECES_PER_TASK {
             return self.one_by_one(centres, slot, &mut Workspace::default());
         }
         halve(centres, slot, |[left, right]| {
             rayon::join(
-                || self.side_by_side(left.0, left.1),
-                || self.side_by_side(right.0, right.1),
+                || self.build_subtree(left.0, left.1),
+                || self.build_subtree(right.0, right.1),
             );
         });
     }
 
     fn one_by_one(&self, centres: &mut [Centre], slot: Slot<'_, Node>, workspace: &mut Workspace) {
-        if centres.len() > AGGLOMERATED_PIECES {
+        if centres.len() > MAX_CLUSTER_PIECES {
             return halve(centres, slot, |sides| {
                 for (centres, slot) in sides {
                     self.one_by_one(centres, slot, workspace);

@@ -3,7 +3,7 @@
 mod split;
 
 use crate::hull::{HullError, hull};
-use crate::tolerance::SIDE_BY_SIDE;
+use crate::tolerance::PARALLEL_PIECES;
 use crate::tree::slot::Slot;
 use ccd_core::glam::DVec3;
 use ccd_core::{HullNode, HullTree, HullTreeError, InputError, Pieces};
@@ -60,7 +60,7 @@ impl Grower<'_> {
         let Some([left, right]) = slot.children(of_right.len()) else {
             return Ok(());
         };
-        let (grown_left, grown_right) = if count >= SIDE_BY_SIDE {
+        let (grown_left, grown_right) = if count >= PARALLEL_PIECES {
             rayon::join(|| self.grow(of_left, left), || self.grow(of_right, right))
         } else {
             (self.grow(of_left, left), self.grow(of_right, right))

@@ -25,7 +25,7 @@ fn rod(cells: u32) -> Vec<[DVec3; 3]> {
 fn the_sign_of_a_long_solids_volume_is_certain() {
     let triangles = rod(20_000);
     let sign = |triangles: &mut dyn Iterator<Item = [DVec3; 3]>| {
-        SignedVolume::of(triangles, DVec3::ZERO).is_positive()
+        SignedVolume::from_triangles(triangles, DVec3::ZERO).is_positive()
     };
     let turned = |[a, b, c]: [DVec3; 3]| [a, c, b];
     let outward = sign(&mut triangles.iter().copied()).expect("a volume");
@@ -67,7 +67,7 @@ fn worst_volume() {
             truth += p.minus(&near).dot(&q.minus(&p).cross(&r.minus(&p)));
         }
         // The last sum is rounded as well.
-        let error = error_of(volume.sum + volume.lost, &truth);
+        let error = error_of(volume.sum + volume.addition_errors, &truth);
         Some(share(error, volume_rounding(volume.size, volume.terms)))
     });
     found.is_within(40.0);

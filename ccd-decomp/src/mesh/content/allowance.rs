@@ -1,7 +1,7 @@
 //! The budget for the expansion of a file: it limits how much a few bytes can produce by repeated references.
 
 use crate::mesh::error::MeshFault;
-use crate::tolerance::{REPEATED, REPEATED_AT_MOST, REPEATED_PER_BYTE, VERTEX_COST};
+use crate::tolerance::{EXPANSION_BASE, EXPANSION_MAX, EXPANSION_PER_BYTE, VERTEX_COST};
 
 /// The remaining budget of elements that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +21,8 @@ impl Allowance {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);
-        let repeated = REPEATED.saturating_add(bytes.saturating_mul(REPEATED_PER_BYTE));
-        let all = once.saturating_add(repeated.min(REPEATED_AT_MOST));
+        let repeated = EXPANSION_BASE.saturating_add(bytes.saturating_mul(EXPANSION_PER_BYTE));
+        let all = once.saturating_add(repeated.min(EXPANSION_MAX));
         Allowance { left: all, all }
     }
 

@@ -2,7 +2,8 @@ use super::*;
 use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, joined, notched, placed, prism, star, teeth, tetrahedron, turned,
+    block, cubes, merged_meshes, placed, prism, prism_under_prism, reversed_faces, star, teeth,
+    tetrahedron,
 };
 use ccd_core::Origin;
 use ccd_core::glam::DVec3;
@@ -66,7 +67,7 @@ fn a_step_is_a_few_patches() {
 fn the_walls_of_a_cavity_are_flat_patches() {
     let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
     let inner = placed(&cubes(&block([1, 1, 1])), 2.0, DVec3::ONE);
-    let hollow = joined(&[&outer, &turned(&inner)]);
+    let hollow = merged_meshes(&[&outer, &reversed_faces(&inner)]);
     for order in ORDERS {
         let decomposition = decompose(&hollow, order).unwrap();
         check(&hollow, &decomposition);
@@ -122,7 +123,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
 
 /// Tests the exact number of patches of several solids: more patches are a regression.
 #[rstest]
-#[case::notched(notched(12), 2)]
+#[case::prism_under_prism(prism_under_prism(12), 2)]
 #[case::star(star(9, 0.4), 4)]
 #[case::teeth(prism(&teeth(7)), 7)]
 #[case::stairs(cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]), 4)]
@@ -210,7 +211,7 @@ fn patches_of_slivers_take_linear_work() {
 #[test]
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {
-        for mesh in [prism(&teeth(count)), notched(count)] {
+        for mesh in [prism(&teeth(count)), prism_under_prism(count)] {
             let manifold =
                 Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
             let work = Work::unbounded();

@@ -2,7 +2,7 @@
 
 use super::target::Target;
 use super::voxels::Voxels;
-use crate::tolerance::{BALANCE, CONCAVITY, MOST_PARTS, PARTS_PER_HULL};
+use crate::tolerance::{BALANCE, CONCAVITY, MAX_PARTS, PARTS_PER_HULL};
 use ccd_core::glam::DVec3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -51,7 +51,7 @@ fn run_vhacd(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([u
     } else {
         FillMode::SurfaceOnly
     };
-    let parts = hulls.saturating_mul(PARTS_PER_HULL).min(MOST_PARTS);
+    let parts = hulls.saturating_mul(PARTS_PER_HULL).min(MAX_PARTS);
     let parameters = VHACDParameters {
         resolution: voxels.resolution(),
         concavity: CONCAVITY,

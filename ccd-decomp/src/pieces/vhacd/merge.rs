@@ -3,7 +3,7 @@
 use super::extremes::{extreme_points, remove_inner_points};
 use crate::bounds::Bounds;
 use crate::hull::exact_hull::ExactHull;
-use crate::tolerance::PRICED_POINTS;
+use crate::tolerance::COST_SAMPLE_POINTS;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
 
@@ -95,7 +95,7 @@ impl PartMerger {
 impl MeasuredPart {
     fn new(points: Vec<DVec3>) -> Self {
         let points = remove_inner_points(points);
-        let sample_points = extreme_points(&points, PRICED_POINTS);
+        let sample_points = extreme_points(&points, COST_SAMPLE_POINTS);
         MeasuredPart {
             volume: volume(&sample_points).unwrap_or(0.0),
             bounds: Bounds::enclosing(points.iter().copied()),

@@ -1,7 +1,7 @@
 //! The voxel grid of a mesh, and cuts of triangles at voxels.
 
 use super::target::Target;
-use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
+use crate::tolerance::{self, MAX_VOXEL_TESTS, voxel_resolution};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
@@ -27,7 +27,7 @@ impl Voxels {
     pub(super) fn new(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
-        while resolution >= tolerance::LEAST_RESOLUTION {
+        while resolution >= tolerance::MIN_RESOLUTION {
             let voxels = Voxels::with_resolution(target, resolution)?;
             if voxels.is_affordable(target) {
                 return Some(voxels);
@@ -42,7 +42,7 @@ impl Voxels {
         let step = (hi - lo).max_element() / f64::from(resolution - 1);
         let margin = tolerance::clip_rounding(target.farthest_coordinate());
         // Written so that NaN fails.
-        if !(step > tolerance::COARSE_VOXELS * margin) {
+        if !(step > tolerance::MIN_VOXEL_SIZE * margin) {
             return None;
         }
         let planes = [0, 1, 2].map(|axis| {
@@ -66,7 +66,7 @@ impl Voxels {
                 .iter()
                 .product::<usize>()
         };
-        target.triangles().map(boxed).sum::<usize>() <= VOXELS_TESTED
+        target.triangles().map(boxed).sum::<usize>() <= MAX_VOXEL_TESTS
     }
 
     pub(super) fn resolution(&self) -> u32 {

@@ -21,7 +21,7 @@ fn setting(tape: &mut Tape) -> (OrientedBox, [DVec3; 3]) {
         face: 0,
     };
     let points = [point(), point(), point()];
-    (OrientedBox::about(&[element]), points)
+    (OrientedBox::around(&[element]), points)
 }
 
 /// Returns the exact extent of a box along a direction, from its centre.
@@ -44,7 +44,7 @@ fn worst_extent() {
         let extent = Extent::along(&points, direction);
         // The same as `Extent::misses`.
         let along = extent.direction.dot(of.centre - extent.base);
-        let apart = along - of.depth(extent.direction) - extent.hi;
+        let apart = along - of.support(extent.direction) - extent.hi;
         let exactly = Exact3::of(direction);
         let ahead = |p: &DVec3| exactly.dot(&Exact3::of(of.centre).minus(&Exact3::of(*p)));
         let least = points

@@ -54,7 +54,7 @@ struct Group {
 }
 
 /// The approximate number of exact predicates that separate a face from a polygon.
-const BESIDE: usize = 4;
+const STEPS_PER_PLATE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
     /// Finds the plates of a surface; `None` if no polygon has a large fan, so that the boxes of all triangles
@@ -118,10 +118,10 @@ impl<'a, 'm> Plates<'a, 'm> {
             if number == own {
                 return true;
             }
-            if !work.spend(BESIDE) {
+            if !work.spend(STEPS_PER_PLATE) {
                 return false;
             }
-            if self.is_beside(face, number) {
+            if self.is_separated_from_plate(face, number) {
                 return true;
             }
             let plate = &self.plates[number as usize];
@@ -140,7 +140,7 @@ impl<'a, 'm> Plates<'a, 'm> {
     ///
     /// The part of the face in the plate's plane is then outside the plate's box, or beyond a line along the rim with
     /// only a shared corner or edge on that line.
-    fn is_beside(&self, face: u32, number: u32) -> bool {
+    fn is_separated_from_plate(&self, face: u32, number: u32) -> bool {
         let plate = &self.plates[number as usize];
         let (corners, points) = (
             self.manifold.faces()[face as usize],

@@ -4,8 +4,10 @@ use crate::solid::error::DecomposeError;
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
 use crate::solid::{bounding_solid, check_solid};
-use crate::test_meshes::{comb, cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
-use crate::tolerance::CROSSINGS;
+use crate::test_meshes::{
+    comb, cubes, merged_meshes, mesh, placed, prism, prism_under_prism, teeth, tetrahedron,
+};
+use crate::tolerance::MAX_CROSSINGS;
 use crate::work::Work;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use proptest::prelude::*;
@@ -16,7 +18,7 @@ use rstest::rstest;
 /// Returns whether a tetrahedron and its copy moved by `offset` are reported to intersect.
 fn meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
-    let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);
+    let both = merged_meshes(&[&solid, &placed(&solid, 1.0, offset)]);
     match bounding_solid(&both).map(|_| ()) {
         Ok(()) => false,
         Err(DecomposeError::SelfIntersecting { pairs }) => {
@@ -48,7 +50,7 @@ fn a_shared_corner_is_no_intersection() {
     assert!(!meet(DVec3::X));
     let solid = tetrahedron();
     let inside = placed(&solid, 0.5, DVec3::ZERO);
-    let nested = joined(&[&solid, &inside]);
+    let nested = merged_meshes(&[&solid, &inside]);
     assert!(matches!(
         bounding_solid(&nested).err(),
         Some(DecomposeError::SelfIntersecting { .. } | DecomposeError::NotManifold { .. })
@@ -132,7 +134,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
         let leaning = steps_per_face(&prism(&teeth(count)));
-        let step = steps_per_face(&notched(count));
+        let step = steps_per_face(&prism_under_prism(count));
         let upright = steps_per_face(&comb(&vec![5.0; count as usize]));
         let steps = [leaning, step, upright];
         assert!(steps.iter().all(|&steps| steps < 400), "{count}: {steps:?}");
@@ -179,13 +181,13 @@ fn crossings_are_those_of_all_pairs() {
             .clone()
             .flat_map(|f| faces.clone().map(move |g| (f, g)));
         let all: Vec<_> = pairs
-            .filter(|&(f, g)| f < g && super::cross(&manifold, f, g))
+            .filter(|&(f, g)| f < g && super::faces_cross(&manifold, f, g))
             .collect();
         let found = super::crossings(&manifold, &Work::unbounded()).unwrap();
-        if all.len() < CROSSINGS {
+        if all.len() < MAX_CROSSINGS {
             assert_eq!(found, all);
         } else {
-            assert_eq!(found.len(), CROSSINGS);
+            assert_eq!(found.len(), MAX_CROSSINGS);
         }
         whole += u32::from(all.is_empty());
         crossed += u32::from(!all.is_empty());
@@ -205,5 +207,5 @@ fn crossings_are_counted_up_to_a_thousand() {
     let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&mesh).map(|_| ()) else {
         panic!("overlapping fans");
     };
-    assert_eq!(pairs.count(), CROSSINGS);
+    assert_eq!(pairs.count(), MAX_CROSSINGS);
 }

@@ -22,8 +22,8 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     }
     if !is_manifold {
         for (ends, uses) in edges.iter().filter(|(_, uses)| uses.len() > 2) {
-            let open = open_at(uses, &mut parts);
-            for (one, other) in across_material(mesh, ends, &open) {
+            let open = open_half_edges(uses, &mut parts);
+            for (one, other) in faces_of_wedges(mesh, ends, &open) {
                 parts.join(one, other);
             }
         }
@@ -33,7 +33,7 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
 
 /// Returns the half-edges on one edge of the parts that are open there. An open part has more half-edges in one
 /// direction than in the other.
-fn open_at(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
+fn open_half_edges(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
     let mut of_parts: Vec<(u32, EdgeUse)> =
         edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
     of_parts.sort_by_key(|of| of.0);
@@ -47,7 +47,7 @@ fn open_at(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
 
 /// Returns the pairs of faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all
 /// are paired.
-fn across_material(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
+fn faces_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
     let Some(around) = AngularOrder::new(mesh, ends, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face(), pair[1].face())).collect();
@@ -114,8 +114,8 @@ impl<'m> AngularOrder<'m> {
         let [v, w] = self.points();
         let [one, other] = [one, other].map(|of| apex(self.mesh, self.ends, of));
         let by_turn = || side([v, w, other], one);
-        self.quarter(one)
-            .cmp(&self.quarter(other))
+        self.angle_class(one)
+            .cmp(&self.angle_class(other))
             .then_with(by_turn)
     }
 
@@ -125,7 +125,7 @@ impl<'m> AngularOrder<'m> {
 
     /// Returns the class of a point's angle from the first face: 0 for no angle, 1 below half a turn, 2 for half a
     /// turn, 3 above.
-    fn quarter(&self, point: DVec3) -> u32 {
+    fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
         match side([v, w, self.first], point) {

@@ -1,6 +1,6 @@
 //! Compares the nesting of randomly oriented shells with winding numbers of one shell at a time.
 
-use super::around_middle;
+use super::centre_and_sides;
 use crate::rational::Exact3;
 use crate::test_meshes::CUBE;
 use crate::tolerance::FACE_ROUNDING;
@@ -159,7 +159,8 @@ fn worst_middle() {
         let [a, b, c] = face;
         let size = a.distance(b) + a.distance(c);
         let area = (b - a).cross(c - a).length();
-        let (middle, across) = around_middle(face, size).filter(|_| area > 1e-6 * size * size)?;
+        let (middle, across) =
+            centre_and_sides(face, size).filter(|_| area > 1e-6 * size * size)?;
         let [a, b, c] = face.map(Exact3::of);
         let normal = b.minus(&a).cross(&c.minus(&a));
         // The rounding here is far below the tested error.

@@ -74,7 +74,7 @@ impl<'a> Tree<'a> {
                 for node in changed {
                     self.touched[node] = true;
                 }
-                self.make(from, to);
+                self.apply(from, to);
             }
         }
     }
@@ -128,7 +128,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Makes a subtree the sibling of the node `to`. Its old sibling replaces its old parent.
-    fn make(&mut self, from: u32, to: u32) {
+    fn apply(&mut self, from: u32, to: u32) {
         let (beside, parent) = (sibling(from), self.parents[from as usize]);
         // A sibling is never chosen: it gains nothing, because a box is exactly the union of its children's.
         debug_assert_ne!(to, beside);

@@ -3,7 +3,7 @@
 use super::model::{self, Model};
 use super::xml::{Xml, XmlEvent};
 use crate::mesh::error::{MeshFault, Quote};
-use crate::tolerance::{UNPACKED, UNPACKED_RATIO};
+use crate::tolerance::{UNPACKED_BASE, UNPACKED_PER_BYTE};
 use flate2::bufread::DeflateDecoder;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 use std::collections::BTreeMap;
@@ -47,7 +47,7 @@ impl<'a> Package<'a> {
                 encrypted: record.flags().is_encrypted(),
             });
         }
-        let limit = UNPACKED + UNPACKED_RATIO.saturating_mul(bytes.len() as u64);
+        let limit = UNPACKED_BASE + UNPACKED_PER_BYTE.saturating_mul(bytes.len() as u64);
         Ok(Package {
             archive,
             entries,

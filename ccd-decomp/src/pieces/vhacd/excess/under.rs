@@ -3,7 +3,7 @@
 use super::super::target::Target;
 use super::super::voxels::clip_to_box;
 use super::part_planes::Plane;
-use crate::tolerance::TRIANGLES_UNDER;
+use crate::tolerance::MAX_NEARBY_TRIANGLES;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -21,7 +21,7 @@ pub(super) fn excess_above_surface(
     work: &Work,
 ) -> Option<f64> {
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
-    let near = target.triangles_in(bounds, TRIANGLES_UNDER, work)?;
+    let near = target.triangles_in(bounds, MAX_NEARBY_TRIANGLES, work)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
     let up = unit(target.orientation() * normals.sum::<DVec3>())?;
     let height = |p: DVec3| up.dot(p - centre);

@@ -1,5 +1,5 @@
 use super::super::nodes::{Cuboid, Node};
-use super::{best_neighbours, spread};
+use super::{best_neighbours, spread_bits};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
@@ -33,6 +33,6 @@ proptest! {
     #[test]
     fn every_bit_goes_to_three_times_its_place(bits in 0u32..1 << 21) {
         let slow: u64 = (0..21).map(|k| (u64::from(bits) >> k & 1) << (3 * k)).sum();
-        prop_assert_eq!(spread(bits), slow);
+        prop_assert_eq!(spread_bits(bits), slow);
     }
 }

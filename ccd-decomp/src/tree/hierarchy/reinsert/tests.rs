@@ -48,7 +48,7 @@ fn check(nodes: &[Node]) -> Vec<u32> {
 /// Returns the total area of all boxes after a move.
 fn total_after(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
-    Tree::new(&mut copy).make(from, to);
+    Tree::new(&mut copy).apply(from, to);
     check(&copy);
     area(&copy)
 }
