@@ -33,7 +33,7 @@ fn no_files_import_each_other_in_a_circle() {
     let mut files = 0;
     for name in CRATES {
         let root = workspace.join(name).join("src/lib.rs");
-        let texts = texts(&root);
+        let texts = parsed_modules(&root);
         files += texts.len();
         let circles = circles(&imports(&texts));
         assert!(circles.is_empty(), "{name}: {circles:#?}");
@@ -67,7 +67,7 @@ fn a_circle_is_found() {
 }
 
 /// Parses the file of a crate's root and the files of all its modules, except tests.
-fn texts(root: &Path) -> BTreeMap<Module, syn::File> {
+fn parsed_modules(root: &Path) -> BTreeMap<Module, syn::File> {
     let mut texts = BTreeMap::new();
     let mut waiting = vec![(Module::new(), root.to_owned(), root.with_file_name(""))];
     while let Some((module, path, folder)) = waiting.pop() {
@@ -104,7 +104,7 @@ fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
         let used = paths
             .0
             .iter()
-            .filter_map(|path| resolved(texts, module, path));
+            .filter_map(|path| module_of_path(texts, module, path));
         // A module is at home in those that it is a part of.
         let used = used.filter(|used| !module.starts_with(used));
         (module.clone(), used.collect())
@@ -113,7 +113,7 @@ fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
 }
 
 /// Returns the module of the crate that a path leads into; `None` if it leads out of the crate.
-fn resolved(
+fn module_of_path(
     texts: &BTreeMap<Module, syn::File>,
     module: &[String],
     path: &[String],
@@ -142,16 +142,16 @@ fn resolved(
 struct Paths(Vec<Module>);
 
 impl Paths {
-    fn of_tree(&mut self, tree: &syn::UseTree, above: &[String]) {
+    fn add_use_tree(&mut self, tree: &syn::UseTree, above: &[String]) {
         let below = |ident: &syn::Ident| [above, &[ident.to_string()]].concat();
         match tree {
-            syn::UseTree::Path(path) => self.of_tree(&path.tree, &below(&path.ident)),
+            syn::UseTree::Path(path) => self.add_use_tree(&path.tree, &below(&path.ident)),
             syn::UseTree::Name(name) => self.0.push(below(&name.ident)),
             syn::UseTree::Rename(name) => self.0.push(below(&name.ident)),
             syn::UseTree::Glob(_) => self.0.push(above.to_vec()),
             syn::UseTree::Group(group) => {
                 for tree in &group.items {
-                    self.of_tree(tree, above);
+                    self.add_use_tree(tree, above);
                 }
             }
         }
@@ -166,7 +166,7 @@ impl<'f> Visit<'f> for Paths {
     }
 
     fn visit_item_use(&mut self, item: &'f syn::ItemUse) {
-        self.of_tree(&item.tree, &[]);
+        self.add_use_tree(&item.tree, &[]);
     }
 
     fn visit_path(&mut self, path: &'f syn::Path) {

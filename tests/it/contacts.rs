@@ -6,7 +6,7 @@ use ccd_core::{Feature, FeaturePair, Outcome, Settings};
 use ccd_tests::analytic::scenes_named;
 use ccd_tests::backends::Backend;
 use ccd_tests::case::Case;
-use ccd_tests::checks::Law;
+use ccd_tests::checks::CheckResult;
 use ccd_tests::distances::distance_to_mesh_feature;
 use ccd_tests::models::Kind;
 use ccd_tests::query::{Actor, Bodies, Query};
@@ -15,7 +15,7 @@ use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Returns the time and the distance of the first contact, if there is one.
-fn touch(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
+fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
     match Backend::DEFAULT.solve(problem).outcome {
         Outcome::Contact { time, contact } => Some((time, contact.separation.upper)),
         Outcome::Touching { contact } => Some((0.0, contact.separation.upper)),
@@ -30,7 +30,7 @@ fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     let bodies = query.all_bodies();
     let of_kind = |bodies: &Bodies| {
         let problem = query.problem(bodies, &Settings::DEFAULT);
-        let (time, _) = touch(&problem).expect("a hit");
+        let (time, _) = first_contact(&problem).expect("a hit");
         (bodies.kinds, problem.contacts_at(time).expect("contacts"))
     };
     bodies.iter().map(of_kind).collect()
@@ -116,14 +116,14 @@ fn plates_meet_vertex_by_vertex() {
 #[test]
 fn contacts_of_random_cases_hold() {
     let (reported, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
-    let law = |case: &Case| -> Law {
+    let law = |case: &Case| -> CheckResult {
         let query = case.query();
         let mut at = None;
         let mut exact: Option<BTreeSet<Names>> = None;
         for bodies in query.all_bodies() {
             let settings = case.config();
             let problem = query.problem(&bodies, &settings);
-            let Some((time, upper)) = at.map_or_else(|| touch(&problem), Some) else {
+            let Some((time, upper)) = at.map_or_else(|| first_contact(&problem), Some) else {
                 continue;
             };
             at.get_or_insert((time, upper));
@@ -142,7 +142,7 @@ fn contacts_of_random_cases_hold() {
             };
             let count = if *exact == names { &same } else { &coarser };
             count.set(count.get() + 1);
-            if !matches(&query, &names, exact) {
+            if !same_feature_names(&query, &names, exact) {
                 return Err(format!("{:?}: {exact:?}, {names:?}", bodies.kinds));
             }
         }
@@ -161,7 +161,7 @@ type Names = [Feature; 2];
 
 /// Returns true if the names of the contacts are those of the mesh. A corner or an edge without a number in a patch
 /// may have the name of an adjacent face.
-fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
+fn same_feature_names(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {
         (0..2).all(|k| {
@@ -189,7 +189,7 @@ fn check_pairs(
     pairs: &[FeaturePair],
     [time, upper, apart]: [f64; 3],
     kinds: [Kind; 2],
-) -> Law {
+) -> CheckResult {
     let rounding = query.rounding();
     let nearest = pairs
         .first()

@@ -27,13 +27,13 @@ fn answer(a: &Body, b: &Body, velocity: DVec3, spin: DVec3) -> Answer {
             .first_contact(&problem, &mut Gjk)
             .unwrap(),
     ];
-    let [one, other] = [0, 1].map(|k| time(&answers[k]));
+    let [one, other] = [0, 1].map(|k| contact_time(&answers[k]));
     assert!((one - other).abs() <= 1e-3);
     let [answer, _] = answers;
     answer
 }
 
-fn time(answer: &Answer) -> f64 {
+fn contact_time(answer: &Answer) -> f64 {
     match answer.outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Free { .. } => 1.0,
@@ -64,7 +64,7 @@ fn a_dense_solid_answers_like_its_triangles() {
             let [found, twin] = [&one, &triangles].map(|a| answer(a, other, velocity, spin));
             // Both are early by less than the tolerance over the closing speed.
             assert!(
-                (time(&found) - time(&twin)).abs() <= 2e-3,
+                (contact_time(&found) - contact_time(&twin)).abs() <= 2e-3,
                 "{found:?} {twin:?}"
             );
             if let Outcome::Contact { contact, .. } = found.outcome {

@@ -53,7 +53,7 @@ fn sixty_million_pairs_touching_at_once() {
 /// Tests T19, two combs: the queue holds thousands of pairs of teeth.
 #[test]
 fn combs_of_many_teeth() {
-    let teeth = if slow() { 512 } else { 96 };
+    let teeth = if is_slow_run() { 512 } else { 96 };
     let scene = combs(teeth);
     let Expect::Hit { earliest, latest } = &scene.expect else {
         panic!("combs meet");
@@ -73,7 +73,7 @@ fn combs_of_many_teeth() {
 /// once.
 #[test]
 fn a_fine_screw() {
-    let scene = screw_in_nut("T18 fine screw", PITCH, if slow() { 4 } else { 2 });
+    let scene = screw_in_nut("T18 fine screw", PITCH, if is_slow_run() { 4 } else { 2 });
     let bodies = scene.query.triangles();
     let config = Settings {
         budget: u64::MAX,
@@ -81,9 +81,12 @@ fn a_fine_screw() {
     };
     let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &config));
     assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
-    assert!(!slow() || answer.stats.peak_front > 1_000_000, "{answer:?}");
+    assert!(
+        !is_slow_run() || answer.stats.peak_front > 1_000_000,
+        "{answer:?}"
+    );
 }
 
-fn slow() -> bool {
+fn is_slow_run() -> bool {
     std::env::var_os("CCD_TEST_SLOW").is_some()
 }

@@ -75,7 +75,7 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     );
     let a = (&ball, trajectory);
     let below =
-        Motion::still(Pose::at([0.0, 0.0, lowest(trajectory) - radius - gap - 1.0]).unwrap());
+        Motion::still(Pose::at([0.0, 0.0, least_height(trajectory) - radius - gap - 1.0]).unwrap());
     let b = (&cube, &below);
     let tolerance = if gap > 0.0 { 0.25 * gap } else { 1e-9 };
     let config = Settings {
@@ -110,7 +110,7 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
 }
 
 /// Returns the least height of a trajectory that has a single low point.
-fn lowest(trajectory: &dyn Trajectory) -> f64 {
+fn least_height(trajectory: &dyn Trajectory) -> f64 {
     let height = |time: f64| trajectory.pose(time).unwrap().translation().z;
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..100 {

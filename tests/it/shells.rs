@@ -19,7 +19,7 @@ const DETAILS: [Detail; 3] = [
 
 /// Returns a random closed shell around the origin that fits into a ball of radius 1 and contains a ball of radius
 /// 0.4.
-fn shell(rng: &mut Pcg64) -> Shape {
+fn random_shell(rng: &mut Pcg64) -> Shape {
     match rng.random_range(0..3) {
         0 => icosphere(1.0, rng.random_range(0..2)),
         1 => boulder(1, 0.3, rng.random()),
@@ -28,13 +28,13 @@ fn shell(rng: &mut Pcg64) -> Shape {
 }
 
 /// Returns nested shells, each with the number of shells around it.
-fn nests(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
+fn nested_shells(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
     let mut shells = Vec::new();
     for k in 0..rng.random_range(1..4) {
         let at = DVec3::new(3.0 * f64::from(k), rng.random(), rng.random());
         let mut size = rng.random_range(0.8..1.2);
         for depth in 0..rng.random_range(1..5) {
-            shells.push((shell(rng).scaled(size).moved(at).mesh, depth));
+            shells.push((random_shell(rng).scaled(size).moved(at).mesh, depth));
             size *= rng.random_range(0.25..0.35);
         }
     }
@@ -87,7 +87,7 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
     let mut rng = Pcg64::seed_from_u64(1);
     let mut counts = [0; 2];
     for case in 0..40 {
-        let shells = nests(&mut rng);
+        let shells = nested_shells(&mut rng);
         let mesh = with_random_windings(&shells, &mut rng);
         let solids: Vec<Solid<'_>> = shells.iter().map(|(mesh, _)| Solid::new(mesh)).collect();
         for detail in DETAILS {
@@ -123,7 +123,7 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut rng = Pcg64::seed_from_u64(2);
     let mut released = 0;
     for case in 0..60 {
-        let shells = nests(&mut rng);
+        let shells = nested_shells(&mut rng);
         let mesh = with_random_windings(&shells, &mut rng);
         let outer = body(&mesh, DETAILS[case % 3]);
         for _ in 0..5 {

@@ -19,7 +19,7 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
         "ccd-distance-vmarch",
         "ccd-decomp",
     ] {
-        collect(&root.join(member).join("src"), &mut files);
+        collect_sources(&root.join(member).join("src"), &mut files);
     }
     assert!(files.len() > 100, "{}", files.len());
     let mut allowed = 0;
@@ -47,7 +47,7 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
 }
 
 /// Collects all source files in a folder, except tests.
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+fn collect_sources(folder: &Path, files: &mut Vec<PathBuf>) {
     const TESTS: [&str; 2] = ["tests", "tests.rs"];
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -55,7 +55,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
             continue;
         }
         if path.is_dir() {
-            collect(&path, files);
+            collect_sources(&path, files);
         } else {
             files.extend((path.extension() == Some("rs".as_ref())).then_some(path));
         }

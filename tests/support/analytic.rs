@@ -78,7 +78,7 @@ impl Scene {
 impl Expect {
     /// Returns the outcome of a contact at an exactly known time. `distance` maps a distance to the first time at
     /// which the bodies are that near.
-    fn hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+    fn hit_at(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Expect::Hit {
             latest: distance(0.0),
             earliest: Box::new(distance),

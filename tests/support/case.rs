@@ -51,7 +51,7 @@ pub struct Part {
     /// The shape of the body, by name and numbers.
     pub shape: Model,
     /// The factor by which every coordinate is multiplied.
-    #[serde(default = "one")]
+    #[serde(default = "default_scale")]
     pub scale: f64,
     /// The position of the body's origin in the world at the start.
     #[serde(default)]
@@ -235,6 +235,6 @@ fn default_tolerance() -> f64 {
     Settings::DEFAULT.tolerance
 }
 
-fn one() -> f64 {
+fn default_scale() -> f64 {
     1.0
 }

@@ -11,9 +11,9 @@ use ccd_core::order::{greater, lesser};
 pub use samples::{Effort, samples};
 
 use crate::models::Mesh;
-use blend::Spot;
+use blend::LazyPoint;
 use ccd_core::glam::{DVec2, DVec3};
-use predicates::{VIEWS, holds, side, turn};
+use predicates::{VIEWS, side, triangle_contains, turn};
 use std::cmp::Ordering;
 
 /// The location of a point relative to a closed mesh.
@@ -36,18 +36,18 @@ pub struct Solid<'a> {
 /// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle that is
 /// counter-clockwise seen from above.
 pub fn side_of(triangle: [DVec3; 3], point: &Blend) -> Ordering {
-    side(triangle, &Spot::new(point))
+    side(triangle, &LazyPoint::new(point))
 }
 
 /// Returns, exactly, whether a closed triangle contains a point.
 pub fn triangle_holds(triangle: [DVec3; 3], point: &Blend) -> bool {
-    holds(triangle, &Spot::new(point))
+    triangle_contains(triangle, &LazyPoint::new(point))
 }
 
 /// Returns, exactly, whether a triangle has no area.
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     let point = Blend::mean([c]);
-    let spot = Spot::new(&point);
+    let spot = LazyPoint::new(&point);
     let in_line = |&view: &[usize; 2]| turn(view, [a, b], &spot) == Ordering::Equal;
     VIEWS.iter().all(in_line)
 }
@@ -59,7 +59,9 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
     VIEWS.iter().any(|&view| {
         let mut turns = (0..corners.len()).flat_map(|k| {
             let edge = [corners[k], corners[(k + 1) % corners.len()]];
-            spots.iter().map(move |p| turn(view, edge, &Spot::new(p)))
+            spots
+                .iter()
+                .map(move |p| turn(view, edge, &LazyPoint::new(p)))
         });
         let first = turns.find(|&turn| turn != Ordering::Equal);
         first.is_some_and(|first| !turns.any(|turn| turn == first.reverse()))
@@ -80,7 +82,7 @@ impl<'a> Solid<'a> {
     /// The ray is moved sideways by (ε, ε²), with ε smaller than any number. It therefore meets no
     /// edge and no upright face, and there are no special cases.
     pub fn locate(&self, point: &Blend) -> Location {
-        let p = Spot::new(point);
+        let p = LazyPoint::new(point);
         let mut windings = 0;
         for &face in self.columns.faces_over(&p) {
             let triangle = self.mesh.triangle(face as usize);
@@ -88,7 +90,7 @@ impl<'a> Solid<'a> {
             if top < p.near.z - p.rounding() || apart_from_above(triangle, &p) {
                 continue;
             }
-            if holds(triangle, &p) {
+            if triangle_contains(triangle, &p) {
                 return Location::Surface;
             }
             windings += crossing(triangle, &p);
@@ -101,7 +103,7 @@ impl<'a> Solid<'a> {
 }
 
 /// Returns true if a point is certainly outside a triangle in the view from above.
-fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
+fn apart_from_above([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
             lesser(lesser(a[axis], b[axis]), c[axis]),
@@ -113,13 +115,13 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
 
 /// Returns 1 if the displaced upward ray from a point leaves through a triangle, −1 if it enters, and 0 if it misses.
 /// The triangle must not contain the point.
-fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
+fn crossing(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> i32 {
     let [a, b, c] = triangle;
     let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(VIEWS[0], edge, p) {
         // The shift by (ε, ε²) changes (b − a) × (p − a) by ε (a − b).y + ε² (b − a).x.
         Ordering::Equal => {
             let [a, b] = edge;
-            ordered(a.y, b.y).then(ordered(b.x, a.x))
+            compare_finite(a.y, b.y).then(compare_finite(b.x, a.x))
         }
         turn => turn,
     });
@@ -135,7 +137,7 @@ fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
 }
 
 /// Compares two finite numbers.
-fn ordered(x: f64, y: f64) -> Ordering {
+fn compare_finite(x: f64, y: f64) -> Ordering {
     x.partial_cmp(&y).expect("finite coordinates")
 }
 
@@ -184,7 +186,7 @@ impl Columns {
     }
 
     /// Returns a superset of the faces that a point could be over, under or on.
-    fn faces_over(&self, p: &Spot<'_>) -> &[u32] {
+    fn faces_over(&self, p: &LazyPoint<'_>) -> &[u32] {
         let [x, y] = self.cell_of(p.near.truncate());
         &self.faces[x * self.count + y]
     }

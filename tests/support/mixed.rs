@@ -73,7 +73,7 @@ impl Mixed {
     }
 
     /// Returns body A (0) or B (1) of a query with its motion.
-    pub fn moving(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
+    pub fn moving_body(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
         (&self.bodies[query.bodies[which]], query.motions[which]).into()
     }
 }

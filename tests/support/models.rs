@@ -138,7 +138,7 @@ impl Shape {
 
     /// Rotates the shape, then translates it, within the body's frame.
     pub fn placed(mut self, rotation: DQuat, offset: DVec3) -> Self {
-        self.each_point(|p| rotation * p + offset);
+        self.map_points(|p| rotation * p + offset);
         self
     }
 
@@ -149,13 +149,13 @@ impl Shape {
 
     /// Multiplies every coordinate by a positive factor.
     pub fn scaled(mut self, factor: f64) -> Self {
-        self.each_point(|p| factor * p);
+        self.map_points(|p| factor * p);
         self
     }
 
     /// Multiplies each coordinate by a positive factor for its axis.
     pub fn stretched(mut self, factors: DVec3) -> Self {
-        self.each_point(|p| factors * p);
+        self.map_points(|p| factors * p);
         self
     }
 
@@ -207,7 +207,7 @@ impl Shape {
         model.body().expect("a good body")
     }
 
-    fn each_point<'a>(&'a mut self, map: impl Fn(DVec3) -> DVec3) {
+    fn map_points<'a>(&'a mut self, map: impl Fn(DVec3) -> DVec3) {
         let of_part = |part: &'a mut Polytope| {
             let corners = part.faces.iter_mut().flat_map(|face| &mut face.corners);
             part.points.iter_mut().chain(corners)

@@ -53,12 +53,12 @@ pub fn check_cases(
 /// Generates two small bodies aimed at each other, of size about 1 and a few units apart. Each may move and rotate,
 /// up to three turns.
 pub fn cases() -> impl Strategy<Value = Case> {
-    aimed(model(), model())
+    aimed_cases(model(), model())
 }
 
 /// Generates [`cases`] with convex shapes only.
 pub fn convex_cases() -> impl Strategy<Value = Case> {
-    aimed(convex_model(), convex_model())
+    aimed_cases(convex_model(), convex_model())
 }
 
 /// Generates [`cases`] far from the origin, and of very small to very large size.
@@ -97,7 +97,7 @@ pub fn crowded_cases() -> impl Strategy<Value = Case> {
     })
 }
 
-fn aimed(
+fn aimed_cases(
     a: impl Strategy<Value = Model>,
     b: impl Strategy<Value = Model>,
 ) -> impl Strategy<Value = Case> {
@@ -125,13 +125,13 @@ fn aimed(
             a,
             b,
         };
-        share(&mut case, travel, drift);
+        share_velocity(&mut case, travel, drift);
         case
     })
 }
 
 /// Assigns the relative velocity to B, to A, or to both in addition to a common velocity `drift`.
-fn share(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
+fn share_velocity(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
     match drift {
         None => case.b.velocity = travel.into(),
         Some(drift) if drift.x > 0.0 => case.a.velocity = (-travel).into(),
@@ -147,7 +147,7 @@ fn drift() -> impl Strategy<Value = Option<DVec3>> {
 }
 
 fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
-    (model, turn(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| Part {
+    (model, rotation_vector(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| Part {
         turned: turned.into(),
         spin: spin.into(),
         centre: centre.into(),
@@ -159,18 +159,18 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),
-        3 => turn(PI),
-        1 => turn(3.0 * TAU),
-        1 => turn(1e-6),
+        3 => rotation_vector(PI),
+        1 => rotation_vector(3.0 * TAU),
+        1 => rotation_vector(1e-6),
     ]
 }
 
 fn centre() -> impl Strategy<Value = DVec3> {
-    prop_oneof![2 => Just(DVec3::ZERO), 1 => turn(1.0)]
+    prop_oneof![2 => Just(DVec3::ZERO), 1 => rotation_vector(1.0)]
 }
 
 /// Generates a vector of length up to `most`, in any direction.
-fn turn(most: f64) -> impl Strategy<Value = DVec3> {
+fn rotation_vector(most: f64) -> impl Strategy<Value = DVec3> {
     (direction(), 0.0..=most).prop_map(|(n, length)| length * n)
 }
 
@@ -195,17 +195,17 @@ pub fn random_direction(rng: &mut Pcg64) -> DVec3 {
 
 /// Generates a random rotation.
 pub fn rotation() -> impl Strategy<Value = DQuat> {
-    turn(PI).prop_map(DQuat::from_scaled_axis)
+    rotation_vector(PI).prop_map(DQuat::from_scaled_axis)
 }
 
 /// Generates a half extent between 0.05 and 1.
-fn half() -> impl Strategy<Value = f64> {
+fn half_extent() -> impl Strategy<Value = f64> {
     (-1.3..0.0f64).prop_map(|x| 10.0f64.powf(x))
 }
 
 /// Generates a convex shape of size at most about 1.
 pub fn convex_model() -> impl Strategy<Value = Model> {
-    let extents = || [half(), half(), half()];
+    let extents = || [half_extent(), half_extent(), half_extent()];
     prop_oneof![
         2 => extents().prop_map(|half| Model::Cuboid { half }),
         1 => (extents(), 0..2u32).prop_map(|(radii, levels)| Model::Ellipsoid { radii, levels }),

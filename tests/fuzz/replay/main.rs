@@ -96,7 +96,7 @@ fn replay(target: Target) {
     assert!(!corpus.is_empty(), "no corpus of {}", target.name);
     let mut mutator = Mutator::new(from_environment("CCD_TEST_SEED", 1), &corpus);
     for number in 0..CHANGES * from_environment("CCD_TEST_CASES", 1) {
-        let bytes = mutator.next();
+        let bytes = mutator.next_file();
         run(target, &bytes, &format!("change {number}"));
     }
 }

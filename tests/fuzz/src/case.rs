@@ -86,7 +86,7 @@ impl Shape {
     }
 
     /// Returns two shapes as one mesh.
-    pub fn with(mut self, other: &Shape) -> Self {
+    pub fn joined_with(mut self, other: &Shape) -> Self {
         let base = self.vertices.len() as u32;
         self.vertices.extend(&other.vertices);
         self.faces
@@ -102,7 +102,7 @@ impl Shape {
         self
     }
 
-    fn obj(&self) -> String {
+    fn to_obj(&self) -> String {
         let mut out = String::new();
         for [x, y, z] in &self.vertices {
             let _ = writeln!(out, "v {x:e} {y:e} {z:e}");
@@ -161,8 +161,8 @@ impl Case {
         format!(
             "--- a.obj\n{}--- b.obj\n{}--- m.csv\n{}\n{}\n--- ccd query --a a.obj --b b.obj --motions \
              m.csv --tolerance {tolerance:e} --margin {margin:e} --budget {budget} --start {start}\n",
-            self.shapes[0].obj(),
-            self.shapes[1].obj(),
+            self.shapes[0].to_obj(),
+            self.shapes[1].to_obj(),
             header.join(","),
             row.join(","),
         )

@@ -27,6 +27,6 @@ pub mod vector;
 
 /// Removes libFuzzer's panic hook, which also aborts at panics that the product catches, such as those of libraries.
 /// Panics that are not caught still abort.
-pub fn let_caught_panics_pass() {
+pub fn ignore_caught_panics() {
     drop(std::panic::take_hook());
 }

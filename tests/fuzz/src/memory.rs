@@ -11,7 +11,7 @@ static HEAP: Cap<System> = Cap::new(System, usize::MAX);
 static UNLIMITED_PANICS: Once = Once::new();
 
 /// Runs a function within a memory limit. Aborts the process if all threads together need more than `bytes`.
-pub(crate) fn within<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
+pub(crate) fn with_memory_limit<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
     // The report of a panic takes more memory than most inputs.
     UNLIMITED_PANICS.call_once(|| {
         let hook = panic::take_hook();

@@ -41,14 +41,14 @@ impl RawPose {
     }
 
     /// Returns the rotation as a unit quaternion.
-    fn turn(&self) -> [Double; 4] {
+    fn rotation_angle(&self) -> [Double; 4] {
         let q = self.quaternion.map(Double::new);
         let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
         q.map(|x| x / square.sqrt())
     }
 
     fn point(&self, x: Vector<Double>) -> Vector<Double> {
-        let [w, a, b, c] = self.turn();
+        let [w, a, b, c] = self.rotation_angle();
         let (u, two) = (Vector([a, b, c]), Double::new(2.0));
         let across = u.cross(x) * two;
         x + across * w + u.cross(across) + Vector::from_array(self.position)
@@ -74,7 +74,7 @@ impl RawMotion {
     }
 
     /// Returns the approximate angle of rotation over the duration, in radians.
-    pub fn turn(&self, duration: f64) -> f64 {
+    pub fn rotation_angle(&self, duration: f64) -> f64 {
         match self.goal {
             Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
             Goal::End(_) => std::f64::consts::PI,
@@ -95,7 +95,8 @@ impl RawMotion {
             }
             Goal::End(end) => {
                 let velocity = (end.point(centre) - start) * per_time;
-                let (axis, angle) = shortest_turn(self.start.turn(), end.turn());
+                let (axis, angle) =
+                    shortest_turn(self.start.rotation_angle(), end.rotation_angle());
                 (velocity, axis, angle * per_time)
             }
         };
@@ -178,7 +179,7 @@ impl Track {
 
 impl Snapshot {
     /// Returns the vector in the world from the centre to a point; `x` is that vector in the body's frame.
-    pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
+    pub fn arm_of(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c
     }

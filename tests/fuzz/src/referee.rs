@@ -8,7 +8,7 @@ mod search;
 
 use crate::case::Case;
 use crate::double::Double;
-use crate::nearest::{Triangle, depth, distance};
+use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::{Snapshot, Track};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
@@ -16,10 +16,10 @@ use search::Search;
 /// The largest error of the referee's distances, as a fraction of a scene's size.
 const ERROR: f64 = 1e-25;
 /// The distance, as a fraction of a scene's size, below which results of f64 are checked in [`Double`].
-const NOISE: f64 = 1e-13;
+const CHECKED_BELOW: f64 = 1e-13;
 
 /// A body's triangles and its motion.
-pub struct Side {
+pub struct MovingBody {
     pub track: Track,
     /// The triangles relative to the centre of rotation, in the body's frame.
     pub triangles: Vec<Triangle<Double>>,
@@ -39,7 +39,7 @@ struct Ball {
 
 /// Two bodies and their motions.
 pub struct Scene {
-    pub sides: [Side; 2],
+    pub sides: [MovingBody; 2],
     /// The largest length in the scene: a coordinate or a distance of motion.
     pub scale: f64,
 }
@@ -52,16 +52,16 @@ pub struct Evidence {
     pub depth: f64,
 }
 
-impl Side {
+impl MovingBody {
     fn new(triangles: &[Triangle<f64>], track: Track) -> Self {
         let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.centre;
         let triangles: Vec<Triangle<Double>> = triangles.iter().map(|t| t.map(arm)).collect();
-        let balls: Vec<Ball> = triangles.iter().map(|t| Ball::about(t, &track)).collect();
+        let balls: Vec<Ball> = triangles.iter().map(|t| Ball::around(t, &track)).collect();
         let corners: Vec<Vector<Double>> = triangles.iter().flatten().copied().collect();
         let reaches = corners.iter().map(|p| p.length().rounded());
         let reach = reaches.fold(0.0, larger);
-        Side {
-            whole: Ball::about(&corners, &track),
+        MovingBody {
+            whole: Ball::around(&corners, &track),
             reach,
             triangles,
             balls,
@@ -72,15 +72,15 @@ impl Side {
     fn triangle(&self, k: usize, snapshot: &Snapshot, origin: Vector<Double>) -> Triangle<Double> {
         let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
         [
-            snapshot.arm(p) + to,
-            snapshot.arm(q) + to,
-            snapshot.arm(r) + to,
+            snapshot.arm_of(p) + to,
+            snapshot.arm_of(q) + to,
+            snapshot.arm_of(r) + to,
         ]
     }
 }
 
 impl Ball {
-    fn about(points: &[Vector<Double>], track: &Track) -> Self {
+    fn around(points: &[Vector<Double>], track: &Track) -> Self {
         let sum = points.iter().skip(1).fold(points[0], |sum, &p| sum + p);
         let middle = sum * Double::new(1.0 / points.len() as f64);
         let far = |r, &p: &Vector<Double>| larger(r, (p - middle).length().rounded());
@@ -103,7 +103,7 @@ impl Ball {
 impl Scene {
     pub fn new(case: &Case) -> Self {
         let side = |k: usize| {
-            Side::new(
+            MovingBody::new(
                 &case.shapes[k].triangles(),
                 case.courses[k].track(case.duration),
             )
@@ -112,8 +112,8 @@ impl Scene {
         let way = (sides[0].track.start - sides[1].track.start)
             .length()
             .rounded();
-        let travel = |s: &Side| s.track.velocity.length().rounded() * case.duration;
-        let turn = |s: &Side| 1.0 + s.track.rate.rounded() * case.duration;
+        let travel = |s: &MovingBody| s.track.velocity.length().rounded() * case.duration;
+        let turn = |s: &MovingBody| 1.0 + s.track.rate.rounded() * case.duration;
         let scale = way
             + travel(&sides[0])
             + travel(&sides[1])
@@ -134,7 +134,7 @@ impl Scene {
     }
 
     /// Returns all triangles of a body at a time, relative to the centre of body A.
-    pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
+    pub fn triangles_at(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
         let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
         all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].centre))
@@ -143,19 +143,23 @@ impl Scene {
 
     /// Returns the distance of the two surfaces at a time.
     pub fn distance(&self, t: f64) -> f64 {
-        let [a, b] = [self.placed(0, t), self.placed(1, t)];
-        let near = self.nearest(&a, &b);
+        let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
+        let near = self.near_pairs(&a, &b);
         let best = near
             .iter()
             .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
-        let noise = NOISE * self.scale;
+        let noise = CHECKED_BELOW * self.scale;
         let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
         let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
         exact.fold(f64::INFINITY, smaller)
     }
 
     /// Returns pairs of triangles with their distances in f64, including the nearest pair.
-    fn nearest(&self, a: &[Triangle<Double>], b: &[Triangle<Double>]) -> Vec<(f64, usize, usize)> {
+    fn near_pairs(
+        &self,
+        a: &[Triangle<Double>],
+        b: &[Triangle<Double>],
+    ) -> Vec<(f64, usize, usize)> {
         let rounded = |all: &[Triangle<Double>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
             let middle = |t: &Triangle<f64>| (t[0] + t[1] + t[2]) * (1.0 / 3.0);
             let rounded = all.iter().map(|t| t.map(Vector::rounded));
@@ -167,7 +171,7 @@ impl Scene {
         for (i, (s, m)) in a.iter().enumerate() {
             for (j, (t, n)) in b.iter().enumerate() {
                 let (way, radii) = (*m - *n, balls[0][i].radius + balls[1][j].radius);
-                let kept = (best + radii) * (1.0 + 1e-9) + NOISE * self.scale;
+                let kept = (best + radii) * (1.0 + 1e-9) + CHECKED_BELOW * self.scale;
                 if way.dot(way) < kept * kept {
                     let d = distance(s, t);
                     best = smaller(best, d);
@@ -180,7 +184,7 @@ impl Scene {
 
     /// Returns the distance at a time with every pair in [`Double`]. It is computed before an answer is called wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
-        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+        let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a
             .iter()
             .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
@@ -188,13 +192,13 @@ impl Scene {
     }
 
     /// Returns the greatest penetration depth of any two triangles at a time.
-    pub fn depth(&self, t: f64) -> f64 {
-        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+    pub fn penetration_depth(&self, t: f64) -> f64 {
+        let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a.iter().flat_map(|s| {
             b.iter().map(move |t| {
                 let flat = |t: &Triangle<Double>| t.map(Vector::rounded);
-                if depth(&flat(s), &flat(t)) > 0.0 {
-                    depth(s, t).rounded()
+                if penetration_depth(&flat(s), &flat(t)) > 0.0 {
+                    penetration_depth(s, t).rounded()
                 } else {
                     0.0
                 }

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 /// The location of a point relative to a closed surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Where {
+pub enum PointLocation {
     Outside,
     Inside,
     /// The point is within parts that cross each other.
@@ -51,12 +51,12 @@ impl Solid {
     }
 
     /// Locates a point that is on no triangle. Nested parts are solid and cavity in turn.
-    pub fn locate(&self, p: Vector<Double>) -> Where {
+    pub fn locate(&self, p: Vector<Double>) -> PointLocation {
         let seen = DIRECTIONS
             .iter()
             .find_map(|&ray| self.crossings(p, Vector::from_array(ray)));
         let Some(seen) = seen else {
-            return Where::Unknown;
+            return PointLocation::Unknown;
         };
         let around = seen
             .values()
@@ -66,9 +66,9 @@ impl Solid {
             .values()
             .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
         match around {
-            _ if repeated || self.crossing && around > 1 => Where::Doubtful,
-            around if around % 2 == 1 => Where::Inside,
-            _ => Where::Outside,
+            _ if repeated || self.crossing && around > 1 => PointLocation::Doubtful,
+            around if around % 2 == 1 => PointLocation::Inside,
+            _ => PointLocation::Outside,
         }
     }
 
@@ -151,13 +151,13 @@ fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
 }
 
 /// Returns the distance from a point to a surface.
-pub fn clearance(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
+pub fn distance_to_surface(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
     let apart = triangles.iter().map(|t| distance(&[p; 3], t).rounded());
     apart.fold(f64::INFINITY, smaller)
 }
 
 /// Returns points just off both sides of every triangle. Their distance is a fraction of the triangle's size.
-pub fn points_near(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
+pub fn points_beside_triangles(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
     let mut points = Vec::new();
     for t in triangles {
         let Some(n) = normal(t) else { continue };

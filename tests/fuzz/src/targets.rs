@@ -61,13 +61,13 @@ pub const OFF: Target = Target {
 /// Reads a mesh as glTF, with its parts, and makes bodies of it.
 pub const GLTF: Target = Target {
     name: "gltf",
-    run: |bytes| mesh::scene(Format::Gltf, bytes),
+    run: |bytes| mesh::run_scene(Format::Gltf, bytes),
 };
 
 /// Reads a mesh as 3MF, packed or the model alone, and makes bodies of it.
 pub const THREEMF: Target = Target {
     name: "threemf",
-    run: mesh::packed,
+    run: mesh::run_packed,
 };
 
 /// Reads a table of motions.

@@ -37,7 +37,7 @@ fn falling_cube() -> Scene {
     Scene::new(
         "T1 falling cube",
         [cube, slab()],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }
 
@@ -54,12 +54,12 @@ fn tilted_cubes() -> [Scene; 2] {
         Scene::new(
             "T8 edge on edge",
             [falls(upper), Actor::still(lower, DVec3::ZERO)],
-            Expect::hit(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
+            Expect::hit_at(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
         ),
         Scene::new(
             "T8 corner on slab",
             [falls(corner_down), slab()],
-            Expect::hit(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
+            Expect::hit_at(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
         ),
     ]
 }
@@ -85,7 +85,7 @@ fn bullet() -> Scene {
     Scene::new(
         "T13 bullet",
         [bullet, paper],
-        Expect::hit(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
+        Expect::hit_at(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
     )
 }
 
@@ -94,7 +94,7 @@ fn hooks_closing() -> Scene {
     Scene::new(
         "T15 hooks closing",
         hooks(-DVec3::Z),
-        Expect::hit(|g| 0.3 - g),
+        Expect::hit_at(|g| 0.3 - g),
     )
 }
 
@@ -135,7 +135,7 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
         // The slit's upper edge meets the front face, at the edge's height.
         let part = (half_height - bottom.z) / (top.z - bottom.z);
         let front = bottom.x + part * (top.x - bottom.x);
-        Expect::hit(move |g| (2.0 - front - g / phi.cos()) / speed)
+        Expect::hit_at(move |g| (2.0 - front - g / phi.cos()) / speed)
     };
     let slit = Actor::still(slit_plate(half_height), DVec3::ZERO);
     Scene::new(format!("T16 slit {half_height}"), [plate, slit], expect)
@@ -175,7 +175,7 @@ pub fn combs(teeth: usize) -> Scene {
     Scene::new(
         format!("T19 combs of {teeth}"),
         [upper, lower],
-        Expect::hit(move |g| (apart - g) / speed),
+        Expect::hit_at(move |g| (apart - g) / speed),
     )
 }
 
@@ -185,7 +185,7 @@ fn needles_on_slab(width: f64) -> Scene {
     Scene::new(
         format!("T21 needles of {width:.0e}"),
         [fall, slab()],
-        Expect::hit(|g| 0.75 - g),
+        Expect::hit_at(|g| 0.75 - g),
     )
 }
 
@@ -193,7 +193,7 @@ fn needles_on_slab(width: f64) -> Scene {
 fn parallel_plates() -> Scene {
     let falling = Actor::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
     let lying = Actor::still(parallel_plate(16), DVec3::ZERO);
-    Scene::new("plates", [falling, lying], Expect::hit(|g| 0.5 - g))
+    Scene::new("plates", [falling, lying], Expect::hit_at(|g| 0.5 - g))
 }
 
 /// Returns T22: a rotating faceted ball. Its inscribed and circumscribed balls bound the time of contact.

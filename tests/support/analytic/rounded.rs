@@ -71,7 +71,7 @@ fn balls_head_on() -> Scene {
     let left = Actor::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
-    Scene::new("balls head-on", [left, right], Expect::hit(time))
+    Scene::new("balls head-on", [left, right], Expect::hit_at(time))
 }
 
 /// Returns a rotating ball that falls onto a box.
@@ -80,7 +80,7 @@ fn ball_on_slab() -> Scene {
     Scene::new(
         "ball on wall",
         [falling, wall()],
-        Expect::hit(|g| (1.0 - g) / 2.0),
+        Expect::hit_at(|g| (1.0 - g) / 2.0),
     )
 }
 
@@ -91,7 +91,7 @@ fn capsule_on_wall() -> Scene {
     Scene::new(
         "capsule on wall",
         [turning, wall()],
-        Expect::hit(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
+        Expect::hit_at(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
     )
 }
 
@@ -101,5 +101,5 @@ fn rounded_box() -> Scene {
     shape.parts[0].radius = 0.125;
     let flying = Actor::straight(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
-    Scene::new("rounded box", [flying, wall()], Expect::hit(time))
+    Scene::new("rounded box", [flying, wall()], Expect::hit_at(time))
 }

@@ -56,7 +56,7 @@ fn dirty_cube() -> Scene {
     Scene::new(
         "T21 dirty cube",
         [cube, slab],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }
 
@@ -76,7 +76,7 @@ fn two_shells() -> Scene {
     Scene::new(
         "T21 two shells",
         [falling, slab],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }
 
@@ -165,6 +165,6 @@ fn slow_turn(angle: f64) -> Scene {
     Scene::new(
         format!("T25 falling, turning by {angle:.2e}"),
         [cube, slab],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }

@@ -1,6 +1,6 @@
 //! Checks answers to other questions than the first contact.
 
-use super::{Judge, Law, check_contact};
+use super::{CheckResult, Judge, check_contact};
 use crate::law;
 use crate::query::Bodies;
 use crate::referee::Finding;
@@ -12,16 +12,16 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
-                self.within_reach(time, answer.tolerance, &contact)?;
+                self.check_near_contact(time, answer.tolerance, &contact)?;
                 check_contact(
                     self.query,
                     time,
                     &contact,
                     bodies,
-                    self.reach(time, answer.tolerance, &contact),
+                    self.contact_distance_bound(time, answer.tolerance, &contact),
                 )
             }
             Outcome::Free { .. } | Outcome::Overlapping { .. } => self.check(answer, bodies),
@@ -35,7 +35,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
@@ -43,7 +43,7 @@ impl Judge<'_> {
                 at: Some((time, contact)),
                 ..
             } => {
-                let least = self.least();
+                let least = self.least_sample();
                 law!(
                     lower <= least + rounding,
                     "lower {lower} is above the least distance {least}"
@@ -78,10 +78,10 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
-        let least = self.least();
+        let least = self.least_sample();
         let (lower, upper) = (outcome.lower(), outcome.upper());
         law!(
             lower <= least + rounding,
@@ -116,7 +116,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_greatest(&self, answer: &Answer) -> Law {
+    pub fn check_greatest(&self, answer: &Answer) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         let Outcome::Measured { .. } = answer.outcome else {
@@ -151,10 +151,10 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Interval { first, last } => {
-                self.never_late(first.time)?;
+                self.check_not_late(first.time)?;
                 let reach = self.config.margin;
                 let after = |&&(time, gap): &&(f64, f64)| time > last.time && gap < reach;
                 let late = self.samples.iter().find(after);
@@ -171,7 +171,7 @@ impl Judge<'_> {
                 for hit in [first, last] {
                     // Otherwise one body is inside the other.
                     if let Some(contact) = hit.contact() {
-                        self.within_reach(hit.time, answer.tolerance, &contact)?;
+                        self.check_near_contact(hit.time, answer.tolerance, &contact)?;
                     }
                 }
                 law!(
@@ -187,7 +187,7 @@ impl Judge<'_> {
     }
 
     /// Checks that the bodies are in contact at a time.
-    fn within_reach(&self, time: f64, tolerance: f64, contact: &Contact) -> Law {
+    fn check_near_contact(&self, time: f64, tolerance: f64, contact: &Contact) -> CheckResult {
         let reach = self.config.margin + tolerance + self.query.rounding();
         let in_range = (0.0..=self.query.duration).contains(&time);
         law!(in_range, "the time {time} is not within the duration");
@@ -201,7 +201,7 @@ impl Judge<'_> {
 
     /// Returns an upper bound of the distance of two pieces in contact at a time. It is infinite for bodies that
     /// overlap, whose pieces may be anywhere in a solid.
-    fn reach(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
+    fn contact_distance_bound(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
         if !self.may_overlap(time, contact) {
             self.config.margin + tolerance + self.query.rounding()
         } else {
@@ -220,7 +220,7 @@ impl Judge<'_> {
     }
 
     /// Returns the least of the sampled distances.
-    fn least(&self) -> f64 {
+    fn least_sample(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);
         match self.finding {

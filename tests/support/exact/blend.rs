@@ -51,7 +51,7 @@ pub(super) fn exact(x: f64) -> Relaxed {
 }
 
 /// A point for predicates, whose exact fractions are computed on first use.
-pub(super) struct Spot<'a> {
+pub(super) struct LazyPoint<'a> {
     blend: &'a Blend,
     pub(super) near: DVec3,
     /// The largest absolute coordinate of the points that are combined.
@@ -62,10 +62,10 @@ pub(super) struct Spot<'a> {
 /// The largest rounding error of a combination of up to hundreds of points, in units of the largest coordinate.
 const ROUNDING: f64 = 1e-13;
 
-impl<'a> Spot<'a> {
+impl<'a> LazyPoint<'a> {
     pub(super) fn new(blend: &'a Blend) -> Self {
         let sizes = blend.0.iter().map(|(_, p)| p.abs().max_element());
-        Spot {
+        LazyPoint {
             blend,
             near: blend.rounded(),
             size: sizes.fold(0.0, greater),

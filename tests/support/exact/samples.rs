@@ -50,15 +50,15 @@ pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<Blend> {
             let next = corners[(k + 1) % corners.len()];
             out.push(Blend::mean([corners[k], next]));
         }
-        out.extend((0..effort.per_facet).map(|_| random(&mut rng, &corners, 3)));
+        out.extend((0..effort.per_facet).map(|_| random_blend(&mut rng, &corners, 3)));
     }
-    out.extend((0..effort.chords).map(|_| random(&mut rng, points, 2)));
-    out.extend((0..effort.blends).map(|_| random(&mut rng, points, 4)));
+    out.extend((0..effort.chords).map(|_| random_blend(&mut rng, points, 2)));
+    out.extend((0..effort.blends).map(|_| random_blend(&mut rng, points, 4)));
     out
 }
 
 /// Returns a random combination of `count` of the points, perhaps with repetition.
-fn random(rng: &mut Pcg64, points: &[DVec3], count: usize) -> Blend {
+fn random_blend(rng: &mut Pcg64, points: &[DVec3], count: usize) -> Blend {
     let mut rest = WHOLE;
     let mut parts: Vec<(u32, DVec3)> = (1..count)
         .map(|_| {

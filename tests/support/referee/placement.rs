@@ -52,7 +52,7 @@ impl Placement {
     /// Returns the position of a point of the body.
     pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
         let arm = apply(self.start, point - self.centre);
-        turned(arm, time * self.spin) + self.offset + time * self.velocity
+        rotated(arm, time * self.spin) + self.offset + time * self.velocity
     }
 
     /// Returns the point in the world that positions are relative to.
@@ -77,7 +77,7 @@ impl Placement {
 }
 
 /// Rotates a point by a rotation vector, with Rodrigues' formula.
-fn turned(p: DVec3, turn: DVec3) -> DVec3 {
+fn rotated(p: DVec3, turn: DVec3) -> DVec3 {
     let angle = turn.length();
     if angle == 0.0 {
         return p;

@@ -101,7 +101,7 @@ pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     }
     for e in edges_a {
         for f in edges_b {
-            best = lesser(best, feet_squared(e, f));
+            best = lesser(best, line_distance_squared(e, f));
         }
     }
     best
@@ -118,7 +118,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
 
 /// Returns the squared distance of the nearest points of two edges' lines; infinite unless both points are on their
 /// edges.
-fn feet_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+fn line_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;

@@ -16,12 +16,12 @@ impl Draw {
         ))
     }
 
-    pub fn within(&mut self, range: Range<f64>) -> f64 {
+    pub fn uniform(&mut self, range: Range<f64>) -> f64 {
         range.start + (range.end - range.start) * self.0.random::<f64>()
     }
 
-    pub fn log(&mut self, range: Range<f64>) -> f64 {
-        10f64.powf(self.within(range.start.log10()..range.end.log10()))
+    pub fn log_uniform(&mut self, range: Range<f64>) -> f64 {
+        10f64.powf(self.uniform(range.start.log10()..range.end.log10()))
     }
 
     pub fn count(&mut self, range: Range<usize>) -> usize {
@@ -38,7 +38,7 @@ impl Draw {
 
     /// Returns a random point in the cube from −1 to 1 along each axis.
     pub fn point(&mut self) -> [f64; 3] {
-        [(); 3].map(|()| self.within(-1.0..1.0))
+        [(); 3].map(|()| self.uniform(-1.0..1.0))
     }
 
     pub fn direction(&mut self) -> [f64; 3] {
@@ -53,7 +53,7 @@ impl Draw {
 
     /// Returns a random quaternion, not of unit length.
     pub fn quaternion(&mut self) -> [f64; 4] {
-        [(); 4].map(|()| self.within(-1.0..1.0))
+        [(); 4].map(|()| self.uniform(-1.0..1.0))
     }
 
     pub fn pose(&mut self, position: [f64; 3]) -> RawPose {
@@ -69,10 +69,10 @@ impl Draw {
     }
 }
 
-pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub fn add_arrays(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     (Vector(a) + Vector(b)).0
 }
 
-pub fn times(a: [f64; 3], s: f64) -> [f64; 3] {
+pub fn scale_array(a: [f64; 3], s: f64) -> [f64; 3] {
     (Vector(a) * s).0
 }

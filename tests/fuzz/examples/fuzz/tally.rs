@@ -30,7 +30,7 @@ impl Tally {
         self.queries += 1;
         self.answers += trial.outcomes.len() as u64;
         self.sampled += u64::from(!trial.proven);
-        for (kind, method) in &trial.asked {
+        for (kind, method) in &trial.methods {
             *self
                 .by_method
                 .entry(format!("{kind} {method}"))
@@ -39,7 +39,7 @@ impl Tally {
         if let Some(outcome) = trial.outcomes.first() {
             *self.statuses.entry(status(outcome).to_owned()).or_default() += 1;
         }
-        for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.asked) {
+        for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.methods) {
             if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
                 self.examples.entry(format!("{reason:?}")).or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
@@ -64,7 +64,7 @@ impl Tally {
         first
     }
 
-    pub fn failed(&self) -> bool {
+    pub fn has_failures(&self) -> bool {
         !self.faults.is_empty()
     }
 
@@ -121,7 +121,7 @@ impl fmt::Display for Tally {
             let all: Vec<String> = map.iter().map(|(k, n)| format!("{k}: {n}")).collect();
             writeln!(f, "  {name}: {}", all.join("; "))?;
         }
-        if self.failed() {
+        if self.has_failures() {
             write!(f, "  FAULTS: {:?}", self.faults)
         } else {
             write!(f, "  no fault")

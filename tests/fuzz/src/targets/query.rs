@@ -6,7 +6,7 @@ mod source;
 
 use crate::case::Case;
 use crate::engine::{Bodies, Kind, Method, Trees};
-use crate::trial::ask;
+use crate::trial::run_methods;
 use ccd_core::{ContactsError, Instructions, Outcome, Settings};
 pub use encode::encode;
 
@@ -21,18 +21,18 @@ struct Question {
 /// # Panics
 /// If an answer has a fault.
 pub(super) fn run(bytes: &[u8]) {
-    let question = decode::question(bytes);
-    let trial = ask(question.case.clone(), question.asked);
+    let question = decode::decode_question(bytes);
+    let trial = run_methods(question.case.clone(), question.asked);
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
     if question.more && trial.refused.is_none() {
-        equal_bits(&question.case);
+        check_equal_bits(&question.case);
     }
 }
 
 /// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
-fn equal_bits(case: &Case) {
+fn check_equal_bits(case: &Case) {
     let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::Without) else {
         return;
     };

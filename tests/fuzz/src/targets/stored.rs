@@ -6,7 +6,7 @@ use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
 use std::sync::LazyLock;
 
 /// The maximum size of the input, in bytes.
-const MOST_BYTES: usize = 1 << 14;
+const MAX_BYTES: usize = 1 << 14;
 
 /// The memory limit of loading, in bytes.
 const MEMORY: usize = 1 << 25;
@@ -27,18 +27,18 @@ static HEAD: LazyLock<Vec<u8>> = LazyLock::new(|| {
 });
 
 pub(super) fn run(bytes: &[u8]) {
-    if bytes.len() > MOST_BYTES {
+    if bytes.len() > MAX_BYTES {
         return;
     }
     LazyLock::force(&HEAD);
-    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+    memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
         check(bytes);
-        check(&mended(bytes));
+        check(&with_repaired_frame(bytes));
     });
 }
 
 /// Returns the file with the magic number, version, length and checksum that fit its payload.
-fn mended(bytes: &[u8]) -> Vec<u8> {
+fn with_repaired_frame(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM);
     let payload = bytes.get(START + LENGTH..end).unwrap_or_default();
     let mut file = HEAD.clone();
@@ -57,5 +57,5 @@ fn check(bytes: &[u8]) {
     let _ = model.report.to_string();
     let body = model.body().expect("a model that was read is a body");
     assert_eq!(body.pieces().len(), model.report.pieces);
-    bodies::stored_and_read(&model);
+    bodies::check_storing(&model);
 }

@@ -11,7 +11,7 @@ use ccd_core::{Settings, StartPolicy};
 /// The work budget of a query, small enough for thousands of queries in a minute.
 const BUDGET: u64 = 20_000;
 /// The largest rotation of a body, in radians. The referee takes time in proportion to it.
-const MOST_TURN: f64 = 40.0;
+const MAX_ROTATION: f64 = 40.0;
 
 /// The bits for the kind of shape, in the byte before a shape.
 pub(super) const KIND: u8 = 7;
@@ -35,7 +35,7 @@ pub(super) const MORE: u8 = 64;
 /// The kind of shape that is a mesh of any vertices and faces.
 pub(super) const MESH: u8 = 0;
 
-pub(super) fn question(bytes: &[u8]) -> Question {
+pub(super) fn decode_question(bytes: &[u8]) -> Question {
     let mut source = Source::new(bytes);
     let flags = source.byte();
     let config = config(&mut source, flags);
@@ -118,7 +118,7 @@ fn shape(source: &mut Source<'_>) -> Shape {
             let inner = Shape::cuboid(source.numbers());
             let at = Vector(source.numbers());
             let outer = Shape::cuboid(source.numbers());
-            outer.with(&inner.map(|v| (Vector(v) + at).0))
+            outer.joined_with(&inner.map(|v| (Vector(v) + at).0))
         }
         5 => tetrahedron(source),
         6 => bipyramid(source),
@@ -240,8 +240,8 @@ fn course(source: &mut Source<'_>) -> RawMotion {
 fn limit_turn(course: &mut RawMotion, duration: f64) {
     if let Goal::Velocities { spin, .. } = &mut course.goal {
         let turn = Vector(*spin).length() * duration;
-        if turn > MOST_TURN {
-            *spin = (Vector(*spin) * (MOST_TURN / turn)).0;
+        if turn > MAX_ROTATION {
+            *spin = (Vector(*spin) * (MAX_ROTATION / turn)).0;
         }
     }
 }
@@ -256,7 +256,7 @@ fn aim(source: &mut Source<'_>, case: &mut Case) {
         let corner = vertices[usize::from(source.byte()) % vertices.len()];
         let track = case.courses[k].track(case.duration);
         let placed = track.at(time);
-        let arm = placed.arm(Vector::from_array(corner) - track.centre);
+        let arm = placed.arm_of(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];
