@@ -1,4 +1,4 @@
-//! A cast in double precision, converted to a query of the engine.
+//! Converts a cast in double precision to a query of the engine.
 
 use crate::half_space::HalfSpace;
 use crate::horizon::{Horizon, Reaching, relative_displacement};
@@ -20,11 +20,11 @@ pub(crate) struct Cast<'a> {
     pub(crate) shapes: [&'a Ready; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) interval: Interval,
-    /// The distance at which they are in contact.
+    /// The distance at which the two shapes are in contact, in the scene's unit of length.
     pub(crate) target: f64,
     pub(crate) start: StartPolicy,
     pub(crate) options: Options,
-    /// The default tolerance.
+    /// The default tolerance, in the scene's unit of length.
     pub(crate) contact: f64,
 }
 
@@ -36,7 +36,7 @@ pub(crate) enum Ready {
 }
 
 impl Ready {
-    /// Prepares both shapes of a cast; an error names its shape.
+    /// Prepares both shapes of a cast; an error says which shape it is about.
     pub(crate) fn both<S>(
         [g1, g2]: [S; 2],
         mut ready: impl FnMut(S) -> Result<Self, ShapeError>,
@@ -47,7 +47,7 @@ impl Ready {
     }
 }
 
-/// A motion that starts at the start of the interval.
+/// A motion whose time 0 is the start of the cast's interval.
 #[derive(Clone, Copy, Debug)]
 struct Started {
     motion: Motion,
@@ -56,12 +56,12 @@ struct Started {
 }
 
 impl Cast<'_> {
-    /// Finds the first contact in the interval.
+    /// Finds the first contact in the interval of the cast.
     pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         self.posed(|scene| self.hit(scene, solver))
     }
 
-    /// Builds the engine's scene for a cast.
+    /// Builds the engine's scene for a cast, and calls a function with it.
     pub(crate) fn posed<T>(
         &self,
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
@@ -105,7 +105,7 @@ impl Cast<'_> {
         })
     }
 
-    /// Builds the engine's scene for a half-space, shape number `k`, and a body.
+    /// Builds the engine's scene for a cast of a body against the half-space that is shape number `k`.
     fn on_plane<T>(
         &self,
         plane: &HalfSpace,
@@ -150,7 +150,7 @@ impl Cast<'_> {
         })
     }
 
-    /// Returns the hit; overlapping bodies that begin to part are ignored until they are apart.
+    /// Returns the first contact; overlapping bodies that begin to part are ignored until they are apart.
     fn hit(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let found = scene.first_contact(solver)?;
         match found {
@@ -165,8 +165,8 @@ impl Cast<'_> {
         }
     }
 
-    /// Returns the motions from the start of the interval on, relative to the second body's velocity: a common velocity
-    /// loses no digits.
+    /// Returns the motions from the start of the interval on, without the velocity of the second body: a common
+    /// velocity loses no digits.
     fn started(&self) -> Result<[Started; 2], CastError> {
         let along = self.motions[1].velocity();
         let started = |k: usize| {
@@ -179,7 +179,7 @@ impl Cast<'_> {
         Ok([started(0)?, started(1)?])
     }
 
-    /// Bounds the deviation due to that subtraction, for bodies that move `displacement` past each other.
+    /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.
     fn rounded(&self, displacement: f64) -> f64 {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
@@ -199,7 +199,7 @@ impl Cast<'_> {
         asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
     }
 
-    /// Returns the engine's settings for bodies with a deviation of at most `slack`.
+    /// Returns the engine's settings for bodies whose points deviate by at most `slack`.
     fn settings(&self, bodies: &[&Prepared], slack: f64) -> Result<Settings, CastError> {
         let margin = self.target + slack;
         if !(self.target >= 0.0 && margin.is_finite()) {
@@ -237,7 +237,7 @@ impl Started {
         })
     }
 
-    /// Returns the motion with the extent of a body.
+    /// Returns the motion together with the extent of its body.
     fn reaching(&self, body: &Prepared) -> Reaching {
         let (middle, radius) = body.ball();
         let about = if self.motion.spin() == DVec3::ZERO {
@@ -267,7 +267,7 @@ impl Started {
         }
     }
 
-    /// Returns the motion without an angular velocity that leaves a ball unchanged.
+    /// Returns the motion with the angular velocity removed if the body is a ball that rotates about its centre.
     fn without_spin_of(self, body: &Prepared) -> Self {
         if body.point() != Some(self.motion.centre()) {
             return self;
@@ -281,7 +281,7 @@ impl Started {
     }
 }
 
-/// Bounds the deviation of a body's points.
+/// Bounds the deviation of all points of a body, as a length.
 fn slack(stray: Stray, side: &Reaching) -> f64 {
     stray.at(side.reach + length(side.about - side.motion.centre()))
 }

@@ -1,4 +1,4 @@
-//! The geometry of a shape in double precision, from which a body is made.
+//! Describes the geometry of a shape in double precision, from which a body is made.
 
 use crate::closed::open_edge;
 use crate::order::{greater, length};
@@ -24,15 +24,15 @@ pub(crate) struct Form {
     /// A cylinder or a cone, grown by a radius, if the form consists of it alone.
     round: Option<(Round, f64, Excess)>,
     volume: Volume,
-    /// A bound on the rounding error of points.
+    /// A bound on the rounding error of points, as a length.
     slack: f64,
-    /// A bound on the excess of polytopes over the shapes that they enclose.
+    /// A bound on how far polytopes extend beyond the round shapes that they enclose.
     excess: f64,
-    /// If the form is one exact part, its boundary as triangles, and the sub-shape indices of these.
+    /// The boundary as triangles, and the triangles' sub-shape indices, if the form is one exact part.
     surface: Option<(Vec<[u32; 3]>, Vec<u32>)>,
 }
 
-/// A convex part.
+/// A convex part of a form: the hull of points, grown by a radius.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     polytope: Polytope,
@@ -41,7 +41,7 @@ struct Part {
 }
 
 impl Form {
-    /// An empty form.
+    /// The form without any points.
     pub(crate) const EMPTY: Form = Form {
         vertices: Vec::new(),
         triangles: Vec::new(),
@@ -62,7 +62,7 @@ impl Form {
         }
     }
 
-    /// Returns the form with a polytope in place of a cylinder or a cone.
+    /// Returns the form with a polytope in place of a cylinder or a cone, if it is one.
     pub(crate) fn expanded(&self) -> Result<Cow<'_, Form>, ShapeError> {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
@@ -88,7 +88,7 @@ impl Form {
         }))
     }
 
-    /// Adds the hull of points, grown by a radius.
+    /// Adds the hull of some points, grown by a radius, as a part.
     pub(crate) fn push_hull(&mut self, points: Vec<DVec3>, radius: f64, loops: &[Vec<u32>]) {
         let facet = |(id, corners): (usize, &Vec<u32>)| Facet {
             origin: Origin::Face(id as u32),
@@ -105,7 +105,7 @@ impl Form {
         });
     }
 
-    /// Adds a box between two corners.
+    /// Adds the box between its lowest and its highest corner, grown by a radius.
     pub(crate) fn push_box(&mut self, low: DVec3, high: DVec3, radius: f64) {
         let pick = |corner: u32, bit: u32| [low, high][(corner >> bit & 1) as usize];
         let corner = |k| DVec3::new(pick(k, 0).x, pick(k, 1).y, pick(k, 2).z);
@@ -127,7 +127,7 @@ impl Form {
         }
     }
 
-    /// Adds a segment.
+    /// Adds a segment as a part, with its sub-shape index.
     pub(crate) fn push_segment(&mut self, ends: [DVec3; 2], number: u32) {
         let polytope = Polytope {
             points: ends.to_vec(),
@@ -136,7 +136,7 @@ impl Form {
         self.parts.push(Part { polytope, number });
     }
 
-    /// Adds a triangle.
+    /// Adds a triangle with its sub-shape index.
     pub(crate) fn push_triangle(&mut self, corners: [DVec3; 3], number: u32) {
         let first = self.vertices.len() as u32;
         self.vertices.extend(corners);
@@ -153,12 +153,12 @@ impl Form {
         self.triangle_numbers.extend(0..faces.len() as u32);
     }
 
-    /// Increases the bound on the rounding error of points.
+    /// Adds to the bound on the rounding error of points.
     pub(crate) fn add_slack(&mut self, slack: f64) {
         self.slack = greater(self.slack, slack);
     }
 
-    /// Returns the form with the triangles as the surface of a solid.
+    /// Returns the form in which the triangles are the surface of a solid.
     ///
     /// # Errors
     /// [`ShapeError::Open`] unless they are closed.
@@ -205,12 +205,12 @@ impl Form {
         Ok(())
     }
 
-    /// Returns a bound on the rounding error of points.
+    /// Returns the bound on the rounding error of points, as a length.
     pub(crate) fn slack(&self) -> f64 {
         self.slack
     }
 
-    /// Returns a bound on the excess of polytopes over the shapes that they enclose.
+    /// Returns the bound on how far polytopes extend beyond the round shapes that they enclose.
     pub(crate) fn excess(&self) -> f64 {
         self.excess
     }
@@ -244,7 +244,7 @@ impl Form {
         (middle, radius * crate::tolerance::BEYOND)
     }
 
-    /// Returns the centre if the form is a ball.
+    /// Returns the centre if the form is a single ball; `None` for other forms.
     pub(crate) fn point(&self) -> Option<DVec3> {
         match &self.parts[..] {
             [part] if self.triangles.is_empty() => match part.polytope.points[..] {
@@ -260,7 +260,7 @@ impl Form {
         self.vertices.iter().chain(parts)
     }
 
-    /// Returns the body and the sub-shape index of each of its pieces, in the body's order.
+    /// Makes the body, and returns it with the sub-shape index of each of its pieces, in the body's order.
     ///
     /// # Errors
     /// [`ShapeError::Piece`] that names the sub-shape, [`ShapeError::Body`].
@@ -300,7 +300,7 @@ impl Form {
         Body::new(&pieces, Volume::Surface)
     }
 
-    /// Returns the parts, with each triangle as a part.
+    /// Returns the given parts followed by each triangle as a part of its own.
     fn all_parts(&self, parts: &[Part]) -> Vec<Part> {
         // A vertex that does not exist is refused as a point that is not finite.
         let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
@@ -338,7 +338,7 @@ impl Form {
         }
     }
 
-    /// Returns the error with the sub-shape index in place of the piece's index.
+    /// Returns the error with the sub-shape index in place of the index of the body's piece.
     fn named(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }
@@ -360,7 +360,7 @@ impl Form {
     }
 }
 
-/// Returns a polytope around a cylinder or a cone.
+/// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
 fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
         Excess::Fine => round.usual_excess(),
@@ -382,7 +382,7 @@ fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     }
 }
 
-/// The face loops of a box: bits 0, 1 and 2 of `k` are set if corner `k` is high in x, y and z.
+/// The corners of each face of a box: bits 0, 1 and 2 of `k` are set if corner `k` is high in x, y and z.
 const BOX: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],

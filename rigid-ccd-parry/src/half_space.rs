@@ -1,4 +1,4 @@
-//! Half-spaces, each replaced by a box large enough for one cast.
+//! Replaces a half-space by a box that is large enough for one cast.
 //!
 //! The other body stays within a ball about a point of the half-space, in the half-space's frame. A box that holds the
 //! part of the half-space in that ball, and hardly more, has the same contacts.
@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 /// All points on one side of a plane through the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HalfSpace {
-    /// The outward unit normal.
+    /// The unit normal that points out of the half-space.
     normal: DVec3,
 }
 
@@ -38,7 +38,7 @@ impl HalfSpace {
         }
     }
 
-    /// Returns the horizon of a cast of a body with contact distance `within`, for the time `wanted`.
+    /// Returns the duration that decides the cast of a body with contact distance `within`, for the time `wanted`.
     ///
     /// `plane` is the half-space's motion, about any point of it.
     pub(crate) fn horizon(
@@ -62,8 +62,7 @@ impl HalfSpace {
         }
     }
 
-    /// Returns a time after which the body is inside forever, is outside forever, or repeats its motion; `None` without
-    /// one.
+    /// Returns a time after which the body stays inside, stays outside or repeats its motion; `None` without one.
     fn decided(&self, plane: Reaching, body: Reaching, within: f64) -> Option<f64> {
         let [p, b] = [plane.motion, body.motion];
         let (still, spin) = (p.spin() == DVec3::ZERO, b.spin());
@@ -113,7 +112,7 @@ impl HalfSpace {
         (length(b - p) + speed * duration + body.reach + within + FACE * spread) * BEYOND
     }
 
-    /// Returns a box that contains all points of the half-space within `reach` of `plane.about`.
+    /// Returns a box that contains all points of the half-space within the distance `reach` of `plane.about`.
     pub(crate) fn stand_in(&self, plane: Reaching, reach: f64) -> Result<Prepared, ShapeError> {
         let normal = self.normal;
         let height = normal.dot(plane.about);

@@ -1,4 +1,4 @@
-//! The horizon of a cast: a finite duration that decides it, since casts allow any time and queries are finite.
+//! Replaces the unlimited duration of a cast by a finite one that decides it.
 //!
 //! Each body stays within a ball about its centre, and centres move straight. Contact is over for good once the balls
 //! have passed each other, and a motion that repeats itself need be looked at once.
@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
 use std::f64::consts::TAU;
 
-/// A motion with the extent of its body.
+/// The motion of a body together with the extent of the body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reaching {
     pub(crate) motion: Motion,
@@ -21,23 +21,23 @@ pub(crate) struct Reaching {
 }
 
 impl Reaching {
-    /// Returns the position of `about` at the start.
+    /// Returns the position of the point `about` at the start, in the world frame.
     pub(crate) fn place(&self) -> DVec3 {
         self.motion.start().transform_point(self.about)
     }
 
-    /// Returns the sum of the magnitudes that enter the position, for its rounding error.
+    /// Returns the sum of the lengths from which the position is computed, for a bound on its rounding error.
     pub(crate) fn spread(&self) -> f64 {
         length(self.motion.start().translation()) + length(self.about)
     }
 }
 
-/// The duration of the query for a cast.
+/// The duration of the query that stands for a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Horizon {
-    /// The whole cast: bodies that stay apart for this duration stay apart for the whole requested time.
+    /// The duration decides the whole cast: bodies that are apart for so long stay apart for the whole requested time.
     Whole(f64),
-    /// A part of the cast: the longest duration that the engine accepts.
+    /// The duration is a part of the cast: the longest that the engine accepts.
     Part(f64),
 }
 
@@ -48,13 +48,13 @@ impl Horizon {
         }
     }
 
-    /// Returns the horizon for bodies with contact distance `within`, for the time `wanted`.
+    /// Returns the duration for a cast of two bodies with contact distance `within`, for the time `wanted`.
     pub(crate) fn new(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
         let needed = [passed(bodies, within), repeated(bodies)];
         Horizon::needed(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
-    /// Returns the horizon for a duration that is known to decide the cast.
+    /// Returns the duration for a cast that is known to be decided at the time `needed`.
     pub(crate) fn needed(bodies: [Reaching; 2], needed: f64) -> Self {
         let possible = possible(bodies);
         if needed <= possible {

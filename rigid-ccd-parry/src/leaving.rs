@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start of a linear cast and are ignored as long as they part, as in parry.
+//! Ignores bodies that overlap at the start of a linear cast as long as they part, as parry does.
 //!
 //! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
 //! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
@@ -15,15 +15,16 @@ use ccd_core::glam::DVec3;
 use direction::direction;
 use rigid_ccd::Solver;
 
-/// The maximum number of pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
+/// The maximum number of pairs of pieces that are ignored because they part. Beyond it the bodies are in contact at the
+/// start.
 const MOST_PAIRS: usize = 256;
 
-/// Some pieces of both bodies, by index; all pairs of them are examined.
+/// Two sets of pieces, one of each body, all pairs of which are to be examined.
 struct Task {
     pieces: [Vec<u32>; 2],
 }
 
-/// Returns the first contact of all pairs that do not begin to part; `overlap` is the hit at the start.
+/// Returns the first contact of all pairs of pieces that do not begin to part; `overlap` is the hit at the start.
 pub(crate) fn parting(
     scene: &Scene<'_>,
     overlap: CastHit,
@@ -69,16 +70,16 @@ pub(crate) fn parting(
     Ok(first)
 }
 
-/// The outcome of a task.
+/// The result of examining two sets of pieces.
 enum TaskOutcome {
-    /// These two pieces overlap at the start.
+    /// The two pieces with these indices overlap at the start.
     Overlap([u32; 2]),
     /// One body is inside the other at the start.
     Inside,
     Hit(Option<CastHit>),
 }
 
-/// Finds the first contact of all pairs of a task.
+/// Finds the first contact of all pairs of two sets of pieces.
 fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOutcome, CastError> {
     let some = |k: usize| {
         let which = k as u8 + 1;
@@ -104,7 +105,7 @@ fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOu
     })
 }
 
-/// Returns the body of some pieces, with the pieces' indices as sub-shape indices.
+/// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
 fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
     let mut form = Form::EMPTY;
     for &number in pieces {
@@ -114,7 +115,7 @@ fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Shape
     Prepared::new(&form)
 }
 
-/// Returns the pieces of body `k` that the other body may reach.
+/// Returns the indices of the pieces of body `k` that the other body may reach.
 fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
@@ -138,7 +139,7 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         .collect()
 }
 
-/// Returns the distance of a point from the segment between the origin and `displacement`.
+/// Returns the distance of `point` from the segment between the origin and `displacement`.
 fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
     let square = displacement.dot(displacement);
     let share = if square > 0.0 {
@@ -149,14 +150,14 @@ fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
     length(point - share * displacement)
 }
 
-/// Returns an enclosing ball of a piece.
+/// Returns a ball around a piece: its centre and its radius.
 fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
     let reach = piece.points.iter().map(|p| length(*p - first));
     (first, reach.fold(0.0, greater) + piece.radius)
 }
 
-/// Returns whether two pieces that overlap at the start begin to part.
+/// Returns whether two pieces that overlap at the start begin to move apart.
 fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());

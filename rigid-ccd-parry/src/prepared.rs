@@ -1,4 +1,4 @@
-//! Bodies of shapes, prepared for casts.
+//! Bodies made from shapes, with what casts need to know about them.
 
 use crate::ShapeError;
 use crate::form::Form;
@@ -18,14 +18,14 @@ pub struct Prepared {
     numbers: Vec<u32>,
     middle: DVec3,
     radius: f64,
-    /// The centre, for a ball.
+    /// The centre in the shape's frame if the body is a ball.
     point: Option<DVec3>,
     slack: f64,
     excess: f64,
 }
 
 impl Prepared {
-    /// Makes the body of a form.
+    /// Makes the body from the geometry of a shape.
     pub(crate) fn new(form: &Form) -> Result<Self, ShapeError> {
         let form = form.expanded()?;
         let (body, numbers) = form.body()?;
@@ -84,7 +84,7 @@ impl Prepared {
         self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
     }
 
-    /// Returns the centre of a ball, in the shape's frame; `None` for other shapes.
+    /// Returns the centre in the shape's frame if the body is a ball; `None` for other shapes.
     pub(crate) fn point(&self) -> Option<DVec3> {
         self.point
     }

@@ -108,8 +108,8 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for
-/// bad input, 3 for an audit or a check that finds something.
+/// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for bad input, 3
+/// for an audit or a check that finds something.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,

@@ -1,4 +1,4 @@
-//! Many queries in parallel.
+//! Answers many queries on all cores.
 
 use crate::Solver;
 use ccd_core::{Answer, DistanceOracle, InputError, Moving};
@@ -45,9 +45,9 @@ where
 #[derive(Debug, thiserror::Error)]
 #[error("query {query}: {error}")]
 pub struct QueryError {
-    /// The index of the query, counted from 0.
+    /// The index of the query among the given ones, counted from 0.
     pub query: usize,
-    /// What is wrong with it.
+    /// The invalid input of the query.
     #[source]
     pub error: InputError,
 }
@@ -88,7 +88,7 @@ pub struct QueryError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct ParallelSolver<S = Solver> {
-    /// The solvers, at least one.
+    /// The solvers, one for each thread, and at least one.
     solvers: Vec<CachePadded<S>>,
 }
 
@@ -110,7 +110,7 @@ impl<S> ParallelSolver<S> {
         ParallelSolver { solvers }
     }
 
-    /// Returns the number of threads.
+    /// Returns the number of threads, each of which has a solver.
     pub fn threads(&self) -> usize {
         self.solvers.len()
     }

@@ -1,4 +1,4 @@
-//! Answers drawn as views of a page; see `ccd-view`.
+//! Draws answers as views of a page; see `ccd-view`.
 //!
 //! Public only because the pages of `ccd-bench` and the Python package share it; no stable interface.
 
@@ -30,7 +30,7 @@ use ccd_core::{Body, InputError, Pose};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
 use drawn::lit;
 
-/// The colours of both bodies.
+/// The colours of body A and body B, in CSS.
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
 /// Draws answers about two bodies as views.
@@ -42,23 +42,23 @@ pub struct Painter<'a> {
     solver: Solver,
 }
 
-/// A row cannot be shown.
+/// The error of a row that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
-    /// The motions are out of range.
+    /// The motions of the row are out of range.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The bodies do not match the row.
+    /// The bodies are farther apart than the row says, so that the row must be about others.
     #[error(
         "at {time} the bodies are at least {measured} apart, but the row says at most {told}: it is the answer about \
          other bodies, or other motions"
     )]
     OtherBodies {
-        /// The time of the row.
+        /// The time at which the distances are compared.
         time: f64,
-        /// The distance of the bodies.
+        /// The distance of the given bodies at that time.
         measured: f64,
-        /// The distance in the row.
+        /// The upper bound of the distance according to the row.
         told: f64,
     },
 }
@@ -77,7 +77,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Makes a page of views.
+    /// Makes a page of the given views.
     pub fn page<'t>(&self, title: &'t str, views: Vec<View>) -> Page<'t> {
         let name = String::new();
         Page {
@@ -87,7 +87,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Makes the view of a row.
+    /// Draws the motions and the answer of a row.
     ///
     /// # Errors
     /// [`ViewError`].
@@ -145,7 +145,7 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// Checks a distance from a table of results against the bodies' distance.
+    /// Checks that the bodies are no farther apart than the row of a table of results says.
     fn compare(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
         let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
             return Ok(());
@@ -163,7 +163,7 @@ impl<'a> Painter<'a> {
         Ok(())
     }
 
-    /// Returns the nearest or touching points with their features.
+    /// Returns the touching or nearest points of a row, with their features.
     fn contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
         let point = |cells: [Option<f64>; 3]| {
             let [x, y, z] = cells;

@@ -70,17 +70,18 @@ enum Mobility {
     Moving,
 }
 
-/// A fixed body cannot move.
+/// The error of a fixed body that is given a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "body {index} is fixed and cannot move; add it with Scene::add, or give it a motion at rest"
 )]
 pub struct FixedBody {
-    /// The index of the body.
+    /// The index of the fixed body.
     pub index: usize,
 }
 
-/// The number of pairs that justifies another thread. To start one takes as long as a few tens of pairs do.
+/// The number of pairs for which it pays to start one more thread. To start one takes as long as a few tens of pairs
+/// do.
 const PAIRS_A_THREAD: usize = 32;
 
 /// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
@@ -182,7 +183,7 @@ impl<'a> Scene<'a> {
         self.members[index].movement
     }
 
-    /// Changes the groups of a body.
+    /// Changes the groups that decide which other bodies a body is checked against.
     ///
     /// # Panics
     /// No body has the index.
@@ -249,7 +250,7 @@ impl<'a> Scene<'a> {
         events.iter().map(Event::impact).collect()
     }
 
-    /// Returns the contacts and errors of the pairs, as far as the goal needs them, in any order.
+    /// Returns the contacts and errors of the pairs in any order, as far as `goal` needs them.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
@@ -273,7 +274,7 @@ impl<'a> Scene<'a> {
         events.into_iter().flatten().collect()
     }
 
-    /// Returns the pairs that are accepted and whose swept boxes meet.
+    /// Returns the pairs that the filters accept and whose swept boxes meet.
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &Member<'_>| {
             let swept = member.moving().swept_box(duration, &self.settings);

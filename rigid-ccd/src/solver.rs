@@ -303,7 +303,7 @@ impl<O: DistanceOracle> Solver<O> {
     }
 }
 
-/// Builds a query that borrows the settings.
+/// Builds the query of two moving bodies, which borrows the solver's settings.
 fn posed<'s, 'b: 's>(
     a: impl Into<Moving<'b>>,
     b: impl Into<Moving<'b>>,

@@ -1,4 +1,4 @@
-//! Tables: motions and paths are read from CSV or from columns in memory; results and contacts are written.
+//! Reads motions and paths from CSV or from columns in memory, and writes tables of results and contacts.
 //!
 //! Public only because `ccd-bench` and the Python package share them; no stable interface.
 

@@ -1,4 +1,4 @@
-//! The direction of least penetration of two overlapping convex pieces.
+//! Finds the direction of least penetration of two overlapping convex pieces.
 
 use crate::Prepared;
 use crate::form::Form;
@@ -51,7 +51,7 @@ pub(super) fn direction(
     best.map(|(_, axis)| axis)
 }
 
-/// Returns the direction between the cores of rounded pieces, if the cores are apart.
+/// Returns the direction between the pieces' unrounded hulls, if these are apart.
 fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) -> Option<DVec3> {
     if pieces.iter().all(|piece| piece.radius == 0.0) {
         return None;
@@ -76,7 +76,7 @@ fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) 
     }
 }
 
-/// A piece in the world.
+/// A piece with its points in the world frame.
 struct PlacedPiece {
     points: Vec<DVec3>,
     radius: f64,
@@ -118,7 +118,7 @@ impl PlacedPiece {
         }
     }
 
-    /// Returns the extent of the piece along a unit vector.
+    /// Returns the extent of the piece along a unit vector, measured from the origin.
     fn reach(&self, axis: DVec3) -> f64 {
         let heights = self.points.iter().map(|p| axis.dot(*p));
         heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.radius

@@ -1,4 +1,4 @@
-//! Conversion of parry's arguments to a cast.
+//! Converts parry's arguments to a cast in double precision.
 
 use super::CONTACT;
 use super::convert::{motion, point, pose};
@@ -13,11 +13,11 @@ use crate::{CastError, Options};
 use ccd_core::{InputError, Motion, StartPolicy};
 use rigid_ccd::Solver;
 
-/// The arguments of a cast except the shapes.
+/// The arguments of a cast in double precision, without the shapes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Question {
     motions: [Motion; 2],
-    /// The interval, or `None` if it contains no time.
+    /// The time interval of the cast; `None` if it contains no time.
     interval: Option<Interval>,
     target: f64,
     start: StartPolicy,
@@ -69,7 +69,7 @@ impl Question {
         Ok(found.as_ref().map(hit))
     }
 
-    /// Records the cast of two shapes.
+    /// Records the cast of two shapes for the command `ccd`.
     #[cfg(feature = "record")]
     pub(super) fn recorded(
         &self,

@@ -40,12 +40,12 @@ pub struct Caster {
     options: Options,
     solver: Solver,
     shapes: HashMap<usize, (SharedShape, Ready)>,
-    /// The number of bodies after the last removal of unused ones.
+    /// The number of cached bodies after the last removal of unused ones.
     seen: usize,
 }
 
 impl Caster {
-    /// Creates a caster.
+    /// Creates a caster with an empty cache.
     pub fn new(options: Options) -> Self {
         Caster {
             options,
@@ -150,12 +150,12 @@ impl Caster {
         }
     }
 
-    /// Returns the number of cached bodies.
+    /// Returns the number of bodies in the cache.
     pub fn kept(&self) -> usize {
         self.shapes.len()
     }
 
-    /// Removes the bodies of shapes that have no other owner.
+    /// Removes the bodies of shapes that have no owner besides this cache.
     pub fn forget_unused(&mut self) {
         self.shapes
             .retain(|_, (shape, _)| Arc::strong_count(&shape.0) > 1);
@@ -188,7 +188,7 @@ impl Caster {
     }
 }
 
-/// The number of bodies below which unused ones are not searched for.
+/// The number of cached bodies below which unused ones are not searched for.
 const FEW: usize = 32;
 
 fn address(shape: &SharedShape) -> usize {

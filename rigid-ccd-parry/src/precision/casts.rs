@@ -1,4 +1,4 @@
-//! The functions with parry's names and signatures.
+//! Functions with parry's names and signatures.
 
 use super::ask::Question;
 use super::library::math::{Pose, Real, Vector};

@@ -1,4 +1,4 @@
-//! Conversion of parry's shapes.
+//! Converts parry's shapes to bodies.
 
 use super::convert::{point, pose};
 use super::library::math::{IVector, Real};
@@ -38,7 +38,7 @@ pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError
     Prepared::new(&form(shape, options)?)
 }
 
-/// Returns the geometry of a shape.
+/// Returns the geometry of a shape in double precision.
 pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeError> {
     let form = nested(shape, options, 0)?;
     let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
@@ -52,12 +52,12 @@ pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeEr
     }
 }
 
-/// Converts a half-space.
+/// Converts parry's half-space to double precision.
 pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError> {
     HalfSpace::new(point(shape.normal))
 }
 
-/// Returns the geometry of a shape at nesting depth `depth`.
+/// Returns the geometry of a shape that is nested in `depth` compounds.
 fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {
@@ -99,7 +99,7 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
     Ok(form)
 }
 
-/// Returns the geometry of a cylinder or a cone.
+/// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
 fn round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
     type Made = fn(f64, f64) -> Result<Round, InputError>;
     let (made, half_height, radius, grown): (Made, _, _, _) = match shape {
@@ -131,7 +131,7 @@ fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), Shap
     Ok(())
 }
 
-/// Adds the hull of a polyhedron's points.
+/// Adds the hull of a convex polyhedron's points to a form.
 fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) {
     let corners = polyhedron.vertices_adj_to_face();
     let facets = polyhedron.faces().iter().map(|face| {
@@ -145,7 +145,7 @@ fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) 
     form.push_hull(points, radius, &loops.unwrap_or_default());
 }
 
-/// Adds the segments of a polyline.
+/// Adds the segments of a polyline to a form.
 fn push_polyline(form: &mut Form, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
@@ -154,7 +154,7 @@ fn push_polyline(form: &mut Form, line: &Polyline) {
     }
 }
 
-/// Adds the triangles of a height field, with parry's numbers and corners.
+/// Adds the triangles of a height field to a form, with parry's numbers and corners.
 fn push_heights(form: &mut Form, field: &HeightField) {
     let (rows, columns) = (field.nrows(), field.ncols());
     for j in 0..columns {
@@ -170,7 +170,7 @@ fn push_heights(form: &mut Form, field: &HeightField) {
     }
 }
 
-/// Adds the cubes of filled voxels.
+/// Adds the cubes of filled voxels to a form.
 fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
     let edge = point(voxels.voxel_size());
     let [low, high] = voxels.domain();
@@ -198,7 +198,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
     Ok(())
 }
 
-/// Adds the parts of a compound at their poses.
+/// Adds the parts of a compound to a form, each at its pose.
 fn push_parts(
     form: &mut Form,
     compound: &Compound,

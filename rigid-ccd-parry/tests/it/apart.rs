@@ -1,4 +1,4 @@
-//! No contact before a hit, according to parry's distances in double precision.
+//! Tests that there is no contact before a hit, by parry's distances in double precision.
 //!
 //! `CCD_TEST_CASES` in the environment multiplies the number of cases.
 
@@ -12,7 +12,7 @@ use ccd_core::order::{greater, lesser};
 use rand::RngExt;
 use rigid_ccd_parry::{Options, f32 as ours32, f64 as ours64};
 
-/// A scene with single-precision numbers.
+/// A random scene with single-precision numbers.
 struct Scene {
     recipes: [Recipe; 2],
     moves: [Moves; 2],
@@ -20,7 +20,7 @@ struct Scene {
     scale: f32,
     shapes: [SharedShape; 2],
     motions: [NonlinearRigidMotion; 2],
-    /// The parts of both shapes, without voxels, for which parry has no distances.
+    /// The convex parts of both shapes, with voxels as boxes, for which parry has no distances.
     parts: [Vec<Part>; 2],
 }
 
@@ -57,7 +57,7 @@ impl Scene {
         (shapes, self.moves.map(|moves| single::make::motion(&moves)))
     }
 
-    /// Returns the distance at a time; parry's distance of intersecting shapes is 0.
+    /// Returns parry's distance of the shapes at a time; it is 0 if they intersect.
     fn distance(&self, time: Real) -> Real {
         let [a, b] = &self.parts;
         self.distances(time, [a, b]).0
@@ -152,7 +152,7 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
     }
 }
 
-/// The numbers of hits and misses.
+/// The numbers of hits and misses so far.
 #[derive(Debug, Default)]
 struct Count {
     hits: u64,
@@ -161,7 +161,7 @@ struct Count {
 }
 
 impl Count {
-    /// Checks the hit, or its absence, for an interval and a target distance.
+    /// Checks the hit of a cast, or its absence, for an interval and a target distance.
     fn check(
         &mut self,
         scene: &Scene,

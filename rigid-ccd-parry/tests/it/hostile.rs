@@ -1,4 +1,4 @@
-//! Hostile inputs cause no panic, no endless loop, no hit outside the interval and no unnamed error.
+//! Tests that hostile inputs cause no panic, no endless loop, no hit outside the interval and no unnamed error.
 
 use ccd_core::order::greater;
 use parry3d::math::{Pose, Rotation, Vector};

@@ -1,4 +1,4 @@
-//! The meaning of parry's arguments, as tabulated in the crate's documentation.
+//! Tests the meaning of parry's arguments, as tabulated in the crate's documentation.
 
 use parry3d::math::{Pose, Vector};
 use parry3d::query::{NonlinearRigidMotion, ShapeCastOptions, ShapeCastStatus};
@@ -204,7 +204,7 @@ fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     assert!(hit.expect("served").is_none());
 }
 
-/// A box as a mesh with outward normals.
+/// Returns a box as a mesh with outward normals.
 fn mesh(flags: TriMeshFlags, faces: usize) -> SharedShape {
     let (vertices, mut indices) = Cuboid::new(Vector::splat(2.0)).to_trimesh();
     indices.truncate(faces);

@@ -1,4 +1,4 @@
-//! The engine's motions equal parry's.
+//! Tests that the engine's motions equal parry's.
 
 use crate::scenes::{Moves, motions, number, random, vector};
 use crate::{double, single};

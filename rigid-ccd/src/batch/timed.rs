@@ -8,7 +8,7 @@ use ccd_core::{Answer, Settings};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// The question for each row, and how its answer is timed.
+/// What is asked about each row, and how often its answer is repeated for timing.
 #[derive(Clone, Debug)]
 pub(crate) struct Timing {
     /// The question that every row answers.
@@ -32,17 +32,17 @@ impl Default for Timing {
     }
 }
 
-/// An answer and how long it took.
+/// An answer, and the time that it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Timed {
-    /// The answer.
+    /// The answer to the question about one row.
     pub(crate) answer: Answer,
     /// The time to pose and solve the query, in microseconds.
     pub(crate) micros: f64,
 }
 
 impl Timed {
-    /// Returns the row of results.
+    /// Returns the row of the table of results for this answer.
     pub(crate) fn row(&self, bodies: Bodies<'_>, course: &Course, timing: &Timing) -> ResultRow {
         let asked = (timing.question, &self.answer);
         let compared = bodies.compared(timing.settings.clearance);

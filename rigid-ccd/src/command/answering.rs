@@ -11,7 +11,7 @@ use crate::table::results::ResultRow;
 use std::path::Path;
 use std::time::Instant;
 
-/// A run that answers rows.
+/// The state of a command that answers the rows of a table in batches.
 pub(super) struct Answering<'a> {
     pub(super) bodies: Bodies<'a>,
     pub(super) timing: Timing,
@@ -21,24 +21,24 @@ pub(super) struct Answering<'a> {
     pub(super) progress: Progress,
 }
 
-/// Some rows with their answers, and the error that ended the table after them, if any.
+/// Consecutive rows with their answers, and the error that ended the table after them, if any.
 pub(super) struct Batch {
     pub(super) rows: Vec<(CourseRow, Result<Timed, RowProblem>)>,
     pub(super) broken: Option<TableError>,
 }
 
-/// A row of a table with its row of results.
+/// A row of a table of motions, with its row in the table of results.
 pub(super) struct Answered<'b> {
     pub(super) position: RowPosition,
-    /// The motions or paths; `None` for a row that cannot be read.
+    /// The motions or paths of the row; `None` for a row that cannot be read.
     pub(super) course: Option<&'b Course>,
     pub(super) row: ResultRow,
-    /// The answer; `None` for an error.
+    /// The answer with its duration; `None` for a row with an error.
     pub(super) timed: Option<&'b Timed>,
 }
 
 impl<'a> Answering<'a> {
-    /// Starts a run over the table of a file, with one solver for each of `threads`.
+    /// Starts to answer the table in a file, with one solver for each of `threads`.
     pub(super) fn new(
         bodies: Bodies<'a>,
         timing: Timing,
@@ -81,7 +81,7 @@ impl<'a> Answering<'a> {
         Some(Batch { rows, broken })
     }
 
-    /// Makes the row of results of a row, and reports a bad one.
+    /// Returns the row of results for a row of motions, and reports the row if it is bad.
     pub(super) fn answered<'b>(
         &mut self,
         (asked, answer): &'b (CourseRow, Result<Timed, RowProblem>),

@@ -75,13 +75,13 @@ proven free are counted, and left out. The others are:
 
 Exit code: 0 if all rows are proven free, 3 if some are not, 2 for bad input, 1 if nothing can be written.";
 
-/// The default tolerance: small, so that close passes are not reported as contacts.
+/// The default tolerance, in the scene's unit of length: so small that close passes are not reported as contacts.
 const SHARP: f64 = 1e-6;
 
-/// The name of the column of pages; it follows the columns of the results.
+/// The name of the column that holds the pages' file names; it follows the columns of the results.
 const PAGE: &str = "page";
 
-/// Certifies all rows.
+/// Runs `ccd audit`: certifies all rows of a table.
 pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files()?);
@@ -126,7 +126,7 @@ fn timing(args: &AuditArgs) -> Timing {
     }
 }
 
-/// Pages and the claim of their folder, which excludes other runs.
+/// The pages in a folder, and the claim that excludes other processes from the folder.
 type Folder<'a> = (Pages<'a>, ccd_file::Claim);
 
 fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, CannotWrite> {
@@ -174,7 +174,7 @@ impl Audit<'_> {
         }
     }
 
-    /// Counts a row, and writes it unless it is free.
+    /// Counts a row by its status, and writes it unless it is free.
     fn take(&mut self, Answered { course, row, .. }: &Answered<'_>) -> Result<()> {
         self.counts.add(row.status);
         if row.status == Status::Free {
@@ -228,7 +228,7 @@ impl Audit<'_> {
     }
 }
 
-/// Returns the path of a page as text; `None` for a row that cannot be shown.
+/// Returns the path of a page as text; `None` for a row that cannot be drawn.
 fn page(written: Result<PathBuf, PagesError>) -> Result<Option<String>, CannotWrite> {
     match written {
         Ok(path) => Ok(Some(path.display().to_string())),

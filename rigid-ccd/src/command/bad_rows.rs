@@ -1,17 +1,17 @@
-//! Messages about bad rows.
+//! Reports rows of a table that cannot be read.
 
 use super::complain;
 use crate::command::progress::Progress;
 use crate::table::motions::RowPosition;
 use std::fmt::Display;
 
-/// A counter of bad rows that prints the first few at once.
+/// A counter of unreadable rows that prints the first few as they occur.
 pub struct BadRows {
     input: String,
     count: usize,
 }
 
-/// The maximum number of bad rows printed.
+/// The maximum number of unreadable rows that are printed one by one.
 const PRINTED: usize = 5;
 
 impl BadRows {
@@ -29,7 +29,7 @@ impl BadRows {
         }
     }
 
-    /// Prints the number of bad rows, if more than the first few.
+    /// Prints the total number of bad rows, if not all of them were printed.
     pub fn close(&self) {
         if self.count > PRINTED {
             let BadRows { input, count } = self;

@@ -31,7 +31,7 @@ fn factor(text: &str) -> Result<f64, String> {
 }
 
 impl MeshArgs {
-    /// Returns the corresponding value of the library.
+    /// Returns the options as the library's adjustments of a mesh.
     pub(super) fn adjustments(&self) -> Adjustments {
         let mut all = Adjustments::NONE;
         if let Some(unit) = self.unit {
@@ -53,7 +53,7 @@ impl MeshArgs {
         self.unit
     }
 
-    /// Returns the options with their values, as the journal records them.
+    /// Returns the names and values of these options, as the journal records them.
     pub(super) fn recorded(&self) -> [(&'static str, String); 4] {
         let scale = self.scale.map(|factor| Number(factor).to_string());
         let surface = self.surface.then(|| "given".to_owned());

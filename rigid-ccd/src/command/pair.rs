@@ -1,4 +1,4 @@
-//! The two bodies of queries.
+//! The options that name the two bodies of a query, and the loading of these bodies.
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
@@ -47,7 +47,8 @@ impl BodiesArgs {
         Ok(found)
     }
 
-    /// Loads both bodies, and prepares them for a method. If `quiet`, messages about them are suppressed.
+    /// Loads both bodies, and prepares them for a solver of the given kind. If `quiet`, messages about them are
+    /// suppressed.
     pub(super) fn load(&self, method: SolverKind, quiet: bool) -> Result<Pair> {
         let source = |text: &str| text.parse::<BodySource>();
         let source_a = source(&self.a).context("--a")?;
@@ -72,7 +73,7 @@ impl BodiesArgs {
         Ok(Pair { a, b, checksums })
     }
 
-    /// Loads one body, and returns it with the unit of its file.
+    /// Loads one body, and returns it with the unit of length that its file states.
     fn load_one(
         &self,
         (option, text): (&str, &str),
@@ -105,11 +106,11 @@ impl BodiesArgs {
     }
 }
 
-/// Both bodies; `b` is `None` when both come from the same file or primitive.
+/// Both bodies of a query; `b` is `None` when both come from the same file or primitive.
 pub(super) struct Pair {
     a: Body,
     b: Option<Body>,
-    /// The checksums of the bodies' files, by option.
+    /// The checksums of the bodies' files, each with the option that names the file.
     pub(super) checksums: [(&'static str, String); 2],
 }
 
@@ -167,7 +168,7 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
     }
 }
 
-/// Returns the files of a body; empty for a primitive.
+/// Returns the files that a body is read from; empty for a primitive.
 fn files(source: &BodySource) -> Vec<PathBuf> {
     // An unreadable file is reported when its body is made.
     source.files().unwrap_or_else(|_| match source {
@@ -177,7 +178,7 @@ fn files(source: &BodySource) -> Vec<PathBuf> {
     })
 }
 
-/// Returns the checksum of the files of a body; 0 for a primitive or files that cannot be read.
+/// Returns the checksum of all files of a body; 0 for a primitive or files that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
     let mut sum = Crc(crc32fast::Hasher::new());
     let files = files(source);

@@ -30,7 +30,7 @@ use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
 
-/// Answers all valid rows; an invalid row gets the status `error` and a reason.
+/// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
@@ -101,7 +101,7 @@ fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> 
     write_rows(subject, chosen, html, args.quiet)
 }
 
-/// Returns the context in which a page interprets the answers.
+/// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
 fn page_context(args: &QueryArgs) -> Asked {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => Claim::Published,
@@ -142,7 +142,7 @@ fn check_paths(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a bound for a schedule that uses none.
+/// Refuses `--bound` for a schedule that uses no bound on the motion.
 fn check_bound(args: &QueryArgs) -> Result<()> {
     match args.bound {
         Some(bound) if !args.schedule.uses_a_bound() => {
@@ -152,7 +152,7 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
     }
 }
 
-/// Refuses options that do not apply to the question.
+/// Refuses options that do not apply to the question of `--ask`.
 fn check_question(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if args.clearance.is_some() && ask == Question::GreatestDistance {
@@ -223,7 +223,7 @@ fn leaves(args: &QueryArgs) -> bool {
     args.start == StartPolicy::Leave
 }
 
-/// Returns all settings that determine the tables, except the motions.
+/// Returns all options and checksums that determine the tables of the run, except the motions.
 fn recorded(args: &QueryArgs, pair: &Pair) -> Recorded {
     let owned = |(option, value): (&str, String)| (option.to_owned(), value);
     let mut recorded = vec![owned(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
@@ -261,7 +261,7 @@ fn timing(args: &QueryArgs) -> Timing {
     }
 }
 
-/// Warns that no row was answered.
+/// Warns that no row was answered, and says why.
 fn report_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
     if args.rows.is_all() {
@@ -285,7 +285,7 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
     }
 }
 
-/// Returns the exit of a run, and prints how many rows failed a check.
+/// Returns the exit status of a run, and prints how many rows failed `--check`.
 fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
     let failed = end.counts.some().filter(|(status, _)| !status.is_proof());
     let failed: usize = failed.map(|(_, count)| count).sum();

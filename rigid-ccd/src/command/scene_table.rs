@@ -1,4 +1,4 @@
-//! The table of a scene: one row for each body.
+//! Reads the table of a scene: one row for each body.
 
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
@@ -19,46 +19,46 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// The default end of all motions.
+/// The time at which all motions end by default.
 const DURATION: f64 = 1.0;
 
-/// The options for loading a scene.
+/// The options that name a scene's table and the end of its motions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
     pub(super) pieces: &'a PiecesArgs,
-    /// The end of all motions, if given.
+    /// The time at which all motions end; `None` for the default.
     pub(super) duration: Option<f64>,
 }
 
-/// The bodies of a scene.
+/// The bodies of a scene, loaded from its table.
 pub(super) struct SceneTable {
-    /// The bodies, by their descriptions.
+    /// The loaded bodies, by their descriptions in the column `body`.
     bodies: HashMap<String, Body>,
     files: Vec<PathBuf>,
-    /// The messages from loading the bodies.
+    /// The messages from loading the bodies' files.
     reports: Vec<String>,
-    /// The remarks about the motions.
+    /// The remarks about probable mistakes in the motions.
     remarks: Vec<Remark>,
     rows: Vec<Row>,
-    /// The end of all motions.
+    /// The time at which all motions end.
     pub(super) duration: f64,
-    /// Whether the duration is the default.
+    /// Whether `duration` is the default because none was given.
     is_usual: bool,
 }
 
-/// A body of a scene.
+/// One row of the table: a body, its name and its motion.
 struct Row {
-    /// The description of the body.
+    /// The description of the body in the column `body`.
     text: String,
     id: String,
-    /// The id, with the description if the id is a number.
+    /// The name in messages and results: the id, with the description if the id is a number.
     name: String,
     motion: Motion,
 }
 
-/// Reads a table that `option` names, and loads each distinct body once. Refuses an output that would overwrite a file
-/// that is read.
+/// Reads the table that the command-line option `option` names, and loads each distinct body once. Refuses an output
+/// that would overwrite a file that is read.
 pub(super) fn read(
     (option, path): (&str, &Path),
     how: SceneArgs<'_>,
@@ -98,10 +98,10 @@ pub(super) fn read(
     Ok(scene)
 }
 
-/// A row of a table, and its position.
+/// A parsed row of a table, with its position for messages.
 type Placed = (RowPosition, BodyRow);
 
-/// Reads the rows of a table, and returns them with the remarks about them.
+/// Reads the rows of a table, and returns them with remarks about probable mistakes.
 fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
     let mut records = CsvRecords::new(File::open(path)?)?;
     let header = records.header()?;
@@ -132,10 +132,10 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
     Ok((rows, columns.remarks()))
 }
 
-/// Likely names of a column of times, which a scene does not have.
+/// The likely names of a column of times, which the table of a scene does not have.
 const TIMES: [&str; 3] = ["duration", "t", "time"];
 
-/// Words a problem of a row for a table of bodies that end together.
+/// Returns the message for a bad row of a scene's table, in which all motions end together.
 fn in_words(problem: &RowProblem) -> String {
     let words = problem.to_string().replace("column duration", "--duration");
     match problem {
@@ -171,7 +171,7 @@ impl SceneTable {
         Ok(())
     }
 
-    /// Prints the messages about the bodies, the duration and the remarks.
+    /// Prints the messages from loading, the duration, and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
             print_line(report);
@@ -188,7 +188,7 @@ impl SceneTable {
         complain_of(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
     }
 
-    /// Returns the bodies in the order of their rows.
+    /// Returns the bodies to draw, in the order of their rows.
     pub(super) fn shown(&self) -> Vec<Shown<'_>> {
         let shown = self.rows.iter().filter_map(|row| {
             let body = self.bodies.get(&row.text)?;

@@ -1,4 +1,4 @@
-//! The sizes of bodies, for detecting different units of length.
+//! Compares the sizes of bodies, to detect different units of length.
 
 use super::complain;
 use crate::remark::{corners, sides};
@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::fmt;
 
-/// The side lengths of a body's axis-aligned bounding box.
+/// The side lengths of a body's axis-aligned bounding box, in the body's unit of length.
 #[derive(Clone, Copy, Debug)]
 pub struct Size(DVec3);
 
@@ -16,12 +16,12 @@ pub struct Size(DVec3);
 const RATIO: f64 = 100.0;
 
 impl Size {
-    /// Returns the size of a body.
+    /// Returns the side lengths of a body's bounding box.
     pub fn of(body: &Body) -> Self {
         Size(sides(corners(body)))
     }
 
-    /// Returns the size of a set of points.
+    /// Returns the side lengths of the bounding box of points.
     pub fn of_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         Size(sides(points))
     }
@@ -54,7 +54,7 @@ impl fmt::Display for Size {
     }
 }
 
-/// A number rounded to four digits.
+/// Displays a number rounded to four digits.
 struct Figure(f64);
 
 impl fmt::Display for Figure {

@@ -23,10 +23,10 @@ use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::path::Path;
 
-/// The maximum number of rows read to choose some for the page.
+/// The maximum number of rows read from which some are chosen for the page.
 const MOST_READ: usize = 10_000;
 
-/// Runs `ccd view`.
+/// Runs `ccd view`: writes the page.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
     match args.subject() {
         Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
@@ -106,7 +106,7 @@ fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
     }
 }
 
-/// The subject of a page of rows.
+/// The two bodies, their title and their context, for a page of rows.
 #[derive(Clone, Copy)]
 pub(super) struct Drawn<'a> {
     pub(super) title: &'a str,
@@ -128,7 +128,7 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
-/// Returns the row of results for a row of motions or paths.
+/// Answers a row of motions or paths, and returns its row of results.
 fn answered(
     bodies: Bodies<'_>,
     course: &Course,
@@ -185,7 +185,7 @@ fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
     Ok(())
 }
 
-/// Reads a table of results, by id; rows of the same id stay in their order.
+/// Reads a table of results into lists by id; rows with the same id stay in their order.
 fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     let name = || path.display().to_string();
     let file = File::open(path).with_context(name)?;

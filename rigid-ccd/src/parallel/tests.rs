@@ -12,13 +12,13 @@ fn capsule() -> Body {
     Body::capsule(0.1, 0.6).unwrap()
 }
 
-/// A rotating motion that comes nearer with each `k`.
+/// Returns a rotating motion that comes nearer to the other body with each `k`.
 fn flies(k: u32) -> Motion {
     let from = Pose::at([-3.0, 1.5 - 0.01 * f64::from(k), 0.1]).unwrap();
     Motion::new(from, [5.0, 0.0, 0.0], [0.3, 2.0, f64::from(k)]).unwrap()
 }
 
-/// The bits that identify answers.
+/// Returns answers as text with all their digits, so that equal texts mean equal bits.
 fn bits(found: &[Result<Answer, QueryError>]) -> Vec<String> {
     found.iter().map(|found| format!("{found:?}")).collect()
 }
@@ -137,7 +137,7 @@ fn limits_are_those_of_each_solver() {
     }
 }
 
-/// Sets a flag once a panic has printed its message.
+/// A flag that is set when a panic drops this value, after the panic has printed its message.
 struct Unwinds<'f>(&'f AtomicBool);
 
 impl Drop for Unwinds<'_> {

@@ -1,4 +1,4 @@
-//! Bodies as triangles for drawing.
+//! Converts bodies to triangles for drawing.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 /// The number of directions in which each point of a rounded piece is sampled.
 const DIRECTIONS: u32 = 320;
 
-/// Returns the surface of a body: the faces of its mesh, or the hulls of its pieces.
+/// Returns the triangles of a body's surface: the faces of its mesh, or the hulls of its pieces.
 pub fn drawn(body: &Body) -> DrawnMesh {
     let mut sketch = Sketch::default();
     for piece in body.pieces().iter() {
@@ -120,7 +120,7 @@ impl Sketch {
     }
 }
 
-/// Returns evenly distributed directions: a spiral from pole to pole.
+/// Returns evenly distributed unit vectors on a spiral from pole to pole.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
     (0..DIRECTIONS).map(move |k| {

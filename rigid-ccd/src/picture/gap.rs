@@ -8,45 +8,45 @@ use ccd_core::{Body, InputError, Settings, Stretch};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
-/// The maximum number of ghosts of one query, besides the first.
+/// The maximum number of poses that are drawn as ghosts for one query, besides the start.
 const GHOSTS: f64 = 12.0;
 /// The number of times at which the distance is measured.
 const TIMES: usize = 96;
 /// The maximum number of steps of conservative advancement.
 const STEPS: usize = 48;
-/// The time limit for measuring one query, checked after each measurement.
+/// The time limit for all measurements of one query, checked after each measurement.
 const TIME_LIMIT: Duration = Duration::from_secs(1);
-/// The budget of one measurement.
+/// The work limit of one measurement of a distance.
 const BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
 
-/// A lower bound that is proven for all times.
+/// A lower bound of the distance that an answer proves for the whole duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
-    /// No bound.
+    /// No distance is proven for the whole duration.
     Nothing,
-    /// The bodies are at least this far apart.
+    /// The bodies are at least this far apart at all times, in the scene's unit of length.
     Throughout(f64),
 }
 
-/// The gap over time, and the steps of conservative advancement.
+/// The distance of two bodies over time, and the steps of conservative advancement.
 #[derive(Clone, Debug)]
 pub struct GapOverTime {
-    /// The curve of the distance and its lower bound.
+    /// The measured distances, and the proven lower bound between them.
     pub gap: Gap,
-    /// The times of the steps, starting with 0: after each, the bodies stay apart until the next.
+    /// The times of the steps, starting with 0: at each, the bodies are proven to stay apart until the next.
     pub steps: Vec<f64>,
 }
 
 impl GapOverTime {
-    /// Returns the least value of the proven lower bound.
+    /// Returns the least value of the proven lower bound; `None` without a bound.
     pub(super) fn least(&self) -> Option<f64> {
         let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
         gaps.reduce(lesser)
     }
 
-    /// Returns the steps to draw, thinned out.
+    /// Returns the times of the steps at which ghosts are drawn, so far apart that ghosts are few.
     pub fn ghosts(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
         for &step in &self.steps {
@@ -60,7 +60,7 @@ impl GapOverTime {
         drawn
     }
 
-    /// Returns the time of the least measured distance.
+    /// Returns the time at which the measured distance is least.
     pub fn nearest(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
@@ -113,7 +113,7 @@ struct Survey<'a> {
     time_limit: Instant,
 }
 
-/// The maximum closing speed between two times, and the bodies' deviation from their motions.
+/// The maximum closing speed of two bodies between two times, and a bound on their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
 struct Shrinking {
     speed: f64,
@@ -163,7 +163,8 @@ impl Survey<'_> {
         Ok(())
     }
 
-    /// Returns the gain of a measurement between two others: the area between the distance and the proven bound.
+    /// Returns how much a measurement between two others would improve the plot: the area between the distance and the
+    /// proven bound.
     fn worth(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.course.duration()) {
@@ -184,7 +185,7 @@ impl Survey<'_> {
         Ok(GapPoint { time, lower, upper })
     }
 
-    /// Bounds the closing speed of the bodies' points between two times.
+    /// Bounds the closing speed of the bodies' points, and their deviation from the motions, between two times.
     fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
         let [a, b] = self.course.trajectories();
         let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);

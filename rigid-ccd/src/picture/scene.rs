@@ -1,4 +1,4 @@
-//! The view of a scene of many bodies.
+//! Draws a scene of many bodies as a view of a page.
 
 use super::drawn::{drawn, lit};
 use super::verdict::number;
@@ -9,12 +9,12 @@ use ccd_core::{Body, Feature, Motion};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
 use std::collections::HashMap;
 
-/// The colour of bodies that do not move.
+/// The colour of bodies that do not move, in CSS.
 const FIXED: &str = "#b8b8b8";
 /// The step in hue from one body to the next, in degrees: the golden angle.
 const HUE: f64 = 137.508;
 
-/// A body of a scene, with its name.
+/// A body of a scene to draw, with its name in the legend.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     pub(crate) name: &'a str,
@@ -22,8 +22,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) motion: Motion,
 }
 
-/// Returns the view of all bodies and their contacts, in order of time. Bodies that are the same are drawn from one
-/// mesh.
+/// Returns the view of all bodies and their contacts; the contacts are in order of time. Bodies that are the same are
+/// drawn from one mesh.
 pub(crate) fn scene_view(
     name: &str,
     bodies: &[Shown<'_>],
@@ -68,7 +68,7 @@ pub(crate) fn scene_view(
     (meshes, view)
 }
 
-/// Describes which bodies touch.
+/// Describes in words which bodies touch.
 pub(crate) fn scene_verdict(
     bodies: &[Shown<'_>],
     contacts: &[Result<Impact, PairError>],

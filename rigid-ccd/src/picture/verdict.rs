@@ -1,39 +1,39 @@
-//! Descriptions of rows of results, in words.
+//! Describes rows of results in words.
 
 use crate::table::results::{ResultRow, Status};
 
-/// The context of an answer, as far as it is known.
+/// What is known about the query that an answer belongs to.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     /// The meaning of the answer's time.
     pub claim: Claim,
-    /// The margin of the query.
+    /// The margin of the query, in the scene's unit of length.
     pub margin: f64,
-    /// The clearance of the query.
+    /// The required distance that the query's answer is compared with, if any.
     pub clearance: Option<f64>,
 }
 
-/// The meaning of an answer's time.
+/// The meaning of the time in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// A contact, with none before it.
+    /// The time of the first contact.
     First,
     /// As [`First`](Claim::First), except for contacts at the start, which are ignored until the bodies part.
     FirstLater,
-    /// A contact, perhaps not the first one.
+    /// The time of some contact, perhaps not the first one.
     Any,
-    /// The time of the measured distance.
+    /// The time at which the distance was measured.
     Then,
-    /// The time of the greatest distance.
+    /// The time at which the distance is greatest.
     Farthest,
-    /// A first contact by the published bound, which is no proof.
+    /// The time of the first contact by the published bound, which is no proof.
     Published,
     /// A time from a table of results, whose question and bound are unknown.
     Told,
 }
 
-/// Describes the answer of a row. `end` is the end of its motions, and `proven` a lower bound of the distance at all
-/// times.
+/// Describes the answer of a row in words, for motions that end at `end`. `end` is the end of its motions, and `proven`
+/// a lower bound of the distance at all times.
 pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
@@ -94,7 +94,7 @@ fn after(row: &ResultRow) -> String {
     })
 }
 
-/// Describes a contact after the start.
+/// Describes in words a contact that begins after the start.
 fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
@@ -150,7 +150,7 @@ fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
     }
 }
 
-/// Describes the touching or nearest features.
+/// Describes in words which features touch or are nearest.
 pub(super) fn contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
         (Some(a), Some(b)) => format!("{} of A at {} of B", feature(a), feature(b)),
@@ -183,7 +183,7 @@ fn apart(row: &ResultRow) -> String {
     }
 }
 
-/// Returns `vertex 7` for `v7`.
+/// Returns the name of a feature in words: `vertex 7` for `v7`.
 fn feature(name: &str) -> String {
     let kinds = [
         ('v', "vertex"),
@@ -225,7 +225,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Returns the value of one unit in the last written digit.
+/// Returns the value of one unit in the last digit that [`number`] writes.
 fn last_digit(value: f64) -> f64 {
     if is_plain(value) {
         1e-6

@@ -1,8 +1,9 @@
-//! Pairs of bodies that are due at a time.
+//! Entries of a queue of pairs of bodies, ordered by time.
 
 use std::cmp::Ordering;
 
-/// A pair of bodies with what is due then. The greatest, which a heap has first, is the earliest.
+/// An entry of the queue: a pair of bodies, its time, and what is to be done at that time. The greatest, which a heap
+/// has first, is the earliest.
 pub(super) struct Due<T> {
     pub(super) time: f64,
     pub(super) pair: [usize; 2],

@@ -1,4 +1,4 @@
-//! The contact or the error of two bodies of a scene.
+//! The result for one pair of bodies of a scene: a contact or an error.
 
 use crate::Error;
 use ccd_core::order::greater;
@@ -8,19 +8,19 @@ use std::cmp::Ordering;
 /// The first contact of two bodies of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// The indices of the bodies, the lower one first. A and B of the hit.
+    /// The indices of the two bodies, the lower one first. A and B of the hit.
     pub bodies: [usize; 2],
-    /// Their first contact.
+    /// The first contact of the two bodies.
     pub hit: Hit,
 }
 
-/// The error of two bodies of a scene.
+/// The error of a pair of bodies of a scene.
 #[derive(Debug, thiserror::Error)]
 #[error("bodies {} and {}: {error}", bodies[0], bodies[1])]
 pub struct PairError {
-    /// The indices of the bodies, the lower one first.
+    /// The indices of the two bodies, the lower one first.
     pub bodies: [usize; 2],
-    /// The error; `Unresolved` has a time before which the bodies do not touch.
+    /// The error of the pair's query; `Unresolved` has a time before which the bodies do not touch.
     #[source]
     pub error: Error,
 }
@@ -43,7 +43,7 @@ enum What {
 }
 
 impl Event {
-    /// Returns the event of an answer; `None` for bodies that stay apart.
+    /// Returns the event for the answer to a pair's query; `None` for bodies that stay apart.
     pub(super) fn answered(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
         let (time, what) = match answer.hit() {
             Ok(hit) => hit.map(|hit| (hit.time, What::Hit(hit)))?,
@@ -65,7 +65,7 @@ impl Event {
         }
     }
 
-    /// Returns the event of a pair that was not examined.
+    /// Returns the event of a pair that was not examined because a limit was reached.
     pub(super) fn unresolved(bodies: [usize; 2]) -> Self {
         Event {
             time: 0.0,
@@ -74,7 +74,7 @@ impl Event {
         }
     }
 
-    /// Returns the event of a query that started at time `from`, shifted by `from` and rounded down.
+    /// Returns this event of a query that started at time `from`, with its times shifted by `from` and rounded down.
     pub(super) fn later(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
@@ -97,7 +97,7 @@ impl Event {
         }
     }
 
-    /// Returns the event, moved to time 0.
+    /// Returns the same event at time 0.
     pub(super) fn at_once(self) -> Self {
         Event { time: 0.0, ..self }
     }
@@ -112,17 +112,17 @@ impl Event {
         contact.is_some_and(|contact| !(contact.separation.lower >= distance))
     }
 
-    /// Returns whether the bodies overlap at the start.
+    /// Returns whether the event is an overlap at the start.
     pub(super) fn overlaps(&self) -> bool {
         matches!(&self.what, What::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
     }
 
-    /// Returns whether the query was invalid.
+    /// Returns whether the event is the error of an invalid query.
     pub(super) fn is_refused(&self) -> bool {
         matches!(self.what, What::Refused(_))
     }
 
-    /// Compares two events by time, and then by indices.
+    /// Compares two events by time, and at equal times by the bodies' indices.
     pub(super) fn order(&self, other: &Event) -> Ordering {
         (self.time.total_cmp(&other.time)).then(self.bodies.cmp(&other.bodies))
     }

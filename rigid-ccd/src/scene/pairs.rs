@@ -1,4 +1,4 @@
-//! The pairs of bodies whose boxes meet.
+//! Finds the pairs of bodies whose swept boxes meet.
 
 use ccd_core::SweptBox;
 use parry3d_f64::bounding_volume::Aabb;
@@ -36,14 +36,14 @@ pub(super) fn meeting(boxes: &[SweptBox], asked: impl Fn([usize; 2]) -> bool) ->
     pairs
 }
 
-/// Returns whether every ancestor of a leaf contains the leaf's box. A search for boxes that meet it does not pass it
-/// by then.
+/// Returns whether every ancestor of a leaf in the tree contains the leaf's box. A search for boxes that meet it does
+/// not pass it by then.
 fn holds(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
     let mut leaves = tree.leaves(|node| node.contains_aabb(leaf));
     leaves.any(|held| held as usize == index)
 }
 
-/// Returns two indices, the lower one first.
+/// Returns two indices in ascending order.
 pub(super) fn ordered(a: usize, b: usize) -> [usize; 2] {
     if a < b { [a, b] } else { [b, a] }
 }

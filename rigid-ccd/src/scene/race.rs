@@ -1,4 +1,4 @@
-//! The pairs of a scene, advanced together in time: the pair with the earliest proven time goes first.
+//! A queue of a scene's pairs of bodies: the pair with the earliest proven time is advanced first.
 
 use super::due::Due;
 use super::event::Event;
@@ -10,14 +10,14 @@ use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
 use std::sync::{Mutex, PoisonError};
 
-/// The share of the duration by which a pair is advanced at a time, unless all others are further ahead. Shares so
-/// large that pairs are seldom put aside, and so small that little is proven beyond the answer.
+/// The part of the duration by which a pair is advanced before another pair takes its turn. Shares so large that pairs
+/// are seldom put aside, and so small that little is proven beyond the answer.
 const SLICE: f64 = 1.0 / 16.0;
 
-/// The maximum number of searches that a worker keeps for reuse.
+/// The maximum number of finished searches whose memory a worker keeps for reuse.
 const MOST_SPARE: usize = 1024;
 
-/// A queue of pairs of bodies.
+/// The queue of pairs of bodies that threads advance together.
 pub(super) struct Race<'r, 'a> {
     query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
     duration: f64,
@@ -25,7 +25,7 @@ pub(super) struct Race<'r, 'a> {
     waiting: Mutex<BinaryHeap<Runner<'a>>>,
 }
 
-/// A pair that is proven apart until a time, with its search once it has begun.
+/// A queued pair that is proven apart until a time; its search is `None` until it has begun.
 type Runner<'a> = Due<Option<Search<'a>>>;
 
 type Search<'a> = Box<FirstContact<'a, Direct>>;
@@ -50,7 +50,7 @@ impl<'r, 'a> Race<'r, 'a> {
         }
     }
 
-    /// Takes the pair with the earliest proven time, and returns it with the next pair's proven time.
+    /// Removes the pair with the earliest proven time from the queue, and returns it with the next pair's proven time.
     fn next(&self) -> Option<(Runner<'a>, f64)> {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let runner = waiting.pop()?;
@@ -63,7 +63,7 @@ impl<'r, 'a> Race<'r, 'a> {
         waiting.push(runner);
     }
 
-    /// Returns the time to which a pair is advanced next, at most `limit` and later than `time`.
+    /// Returns the time to which a pair at `time` is advanced next, which is at most `limit`.
     fn until(&self, time: f64, others: f64, limit: f64) -> f64 {
         let slice = greater(others, time + SLICE * self.duration);
         let until = match self.goal {
@@ -75,7 +75,7 @@ impl<'r, 'a> Race<'r, 'a> {
     }
 }
 
-/// The memory of a thread, reused from call to call.
+/// The memory that a thread reuses from pair to pair.
 #[derive(Default)]
 pub(super) struct Worker {
     oracle: Direct,
@@ -83,7 +83,7 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    /// Advances one pair after another until the queue is empty, and returns the events.
+    /// Advances one pair after another until the queue is empty, and returns their contacts and errors.
     pub(super) fn run(&mut self, race: &Race<'_, '_>) -> Vec<Event> {
         let mut events = Vec::new();
         while let Some((runner, others)) = race.next() {

@@ -1,4 +1,4 @@
-//! Bodies that stop at their first contact, each at its own time.
+//! Finds when each body stops if it stops at its first contact.
 
 use super::clock::Clock;
 use super::due::Due;
@@ -19,7 +19,7 @@ use ccd_core::{
 use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
 
-/// The time at which a body stops.
+/// When and why a body stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
     /// The time at which the body stops; the duration if it does not stop.
@@ -104,7 +104,8 @@ impl Scene<'_> {
     }
 }
 
-/// Returns the settings with half of the tolerance added to the margin: bodies at rest do not sink in over many steps.
+/// Returns the settings with half of the tolerance moved into the margin, so that bodies at rest do not sink into each
+/// other over many steps.
 fn keeping_half(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
@@ -115,10 +116,10 @@ fn keeping_half(given: &Settings) -> Settings {
     }
 }
 
-/// The bodies that have stopped, and the contacts still to come.
+/// The state of the search: the bodies that have stopped so far, and solvers for the contacts still to come.
 struct Stopping<'s, 'a> {
     scene: &'s Scene<'a>,
-    /// The possible contact partners of each body.
+    /// For each body, the indices of the bodies that it may touch.
     others: Vec<Vec<usize>>,
     stops: Vec<Stop>,
     clock: Clock,
@@ -126,7 +127,7 @@ struct Stopping<'s, 'a> {
     oracle: Direct,
 }
 
-/// A future contact of two bodies, of which at most one has stopped, and which of them moved when it was found.
+/// A contact that is still to come, with which of the two bodies moved when it was found; at most one has stopped.
 type FutureContact = Due<(Event, [bool; 2])>;
 
 impl<'s, 'a> Stopping<'s, 'a> {
@@ -191,7 +192,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         Ok(self.stops)
     }
 
-    /// Returns the future contacts of a body that has just stopped.
+    /// Returns the contacts that others will have with a body that has just stopped.
     fn contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
         let others = std::mem::take(&mut self.others[index]);
@@ -204,7 +205,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         found.collect()
     }
 
-    /// Returns the contact of two bodies after a time at which one of them stopped.
+    /// Returns the contact of two bodies after `time`, at which one of them stopped.
     fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::answered(bodies, &answer)?,
@@ -214,8 +215,8 @@ impl<'s, 'a> Stopping<'s, 'a> {
         Some(self.future_contact(event, time))
     }
 
-    /// Returns the future contact for an event that was found from a time on. Bodies that rest on each other, and are
-    /// nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
+    /// Returns the queue entry for an event of a query that started at time `from`. Bodies that rest on each other, and
+    /// are nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
     fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
@@ -251,7 +252,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         self.schedule.first_contact(&query, &mut self.oracle)
     }
 
-    /// Returns the motion or trajectory of a body from a time on.
+    /// Returns the motion or trajectory of a body from a given time on.
     fn movement_from<'r>(
         &self,
         shifted: &'r Shifted<'a>,
@@ -272,7 +273,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
     }
 }
 
-/// Bounds the deviation of a body that continues from a rounded pose.
+/// Bounds how far a body is off when it continues from a pose that is rounded.
 fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
     let stretch = movement.stretch(0.0, 0.0)?;
     let motion = &stretch.motion;

@@ -6,14 +6,14 @@ use crate::table::foreign;
 use crate::table::oddities::Oddities;
 use std::ops::Range;
 
-/// One of the two bodies.
+/// Body A or body B of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::table) enum Side {
     A,
     B,
 }
 
-/// A quantity of a body, held by consecutive columns.
+/// A vector or quaternion of a body, whose components are in consecutive columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::table) enum Quantity {
     Position,
@@ -25,14 +25,14 @@ pub(in crate::table) enum Quantity {
     Centre,
 }
 
-/// The content of a row.
+/// Which kind of table a row belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// The motions of both bodies.
+    /// Each row has the motions of both bodies.
     Motions,
-    /// The poses of both bodies at a time.
+    /// Each row has the poses of both bodies at a time.
     Paths,
-    /// A body of a scene, and its motion.
+    /// Each row has a body of a scene, and its motion.
     Scene,
 }
 
@@ -48,7 +48,7 @@ const OF_POSE: [&str; 13] = [
 ];
 
 impl Form {
-    /// Returns all columns in order.
+    /// Returns the names of all columns in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = self.prefixes().iter().flat_map(|prefix| {
             let of_body = self.of_body().iter();
@@ -63,7 +63,7 @@ impl Form {
         owned(before).chain(bodies).chain(owned(after)).collect()
     }
 
-    /// Returns the prefixes of the columns of each body.
+    /// Returns the prefixes of column names, one for each body.
     fn prefixes(self) -> &'static [&'static str] {
         match self {
             Form::Motions | Form::Paths => &["a_", "b_"],
@@ -71,12 +71,13 @@ impl Form {
         }
     }
 
-    /// Returns the bodies of a row.
+    /// Returns the bodies that a row describes.
     fn sides(self) -> impl Iterator<Item = Side> {
         [Side::A, Side::B].into_iter().take(self.prefixes().len())
     }
 
-    /// Returns the slots of a quantity's components; empty if such a table does not have it.
+    /// Returns the known columns that hold a quantity's components, as indices into [`Form::names`]; empty if tables of
+    /// this kind do not have it.
     pub(in crate::table) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
@@ -101,7 +102,7 @@ impl Form {
         first + within.start..first + within.end
     }
 
-    /// Returns the columns of a body.
+    /// Returns the names of a body's columns, without its prefix.
     fn of_body(self) -> &'static [&'static str] {
         match self {
             Form::Motions | Form::Scene => &OF_BODY,
@@ -109,7 +110,7 @@ impl Form {
         }
     }
 
-    /// Lists the columns for messages.
+    /// Returns the names of all columns as text for messages.
     pub(in crate::table) fn listed(self) -> &'static str {
         match self {
             Form::Motions => {
@@ -129,12 +130,12 @@ impl Form {
     }
 }
 
-/// The columns of a table of motions, of paths or of a scene.
+/// Which of the known columns a table of motions, of paths or of a scene has, and where.
 #[derive(Debug)]
 pub struct Columns {
     form: Form,
     names: Vec<String>,
-    /// The cell of each known column.
+    /// For each known column, the index of its cell in a row; `None` if the table does not have it.
     cells: Vec<Option<usize>>,
     len: usize,
     oddities: Oddities,
@@ -244,12 +245,12 @@ impl Columns {
         &self.oddities
     }
 
-    /// Returns the slots of a quantity's components.
+    /// Returns the known columns that hold a quantity's components.
     pub(in crate::table) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
         self.form.slots(side, quantity)
     }
 
-    /// Returns the number of columns of the table.
+    /// Returns the number of columns in the table's header.
     pub(in crate::table) fn len(&self) -> usize {
         self.len
     }
@@ -258,12 +259,12 @@ impl Columns {
         &self.names[slot]
     }
 
-    /// Returns the index of the cell of a column.
+    /// Returns the index of a known column's cell in a row; `None` if the table does not have it.
     pub(in crate::table) fn index(&self, slot: usize) -> Option<usize> {
         self.cells[slot]
     }
 
-    /// Returns the name of the column at a cell's index.
+    /// Returns the name of the column of the cell at an index.
     pub(in crate::table) fn name_at(&self, index: usize) -> &str {
         let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
@@ -323,7 +324,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     }
 }
 
-/// Returns the body's prefix of a name of an Euler angle or a rotation vector.
+/// Returns the body's prefix of a column name that is an Euler angle or a rotation vector; `None` for other names.
 fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
     let (prefixes, usual): (&[&str], _) = match form {
         Form::Motions | Form::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
@@ -342,15 +343,15 @@ const ANGLES: [&str; 27] = [
     "euler_z", "angle_x", "angle_y", "angle_z",
 ];
 
-/// The slot of the id.
+/// The index of the column `id` among the known columns.
 pub(in crate::table) const ID: usize = 0;
-/// The slot of the duration of motions.
+/// The index of the column `duration` among those of a table of motions.
 pub(in crate::table) const DURATION: usize = 2 * OF_BODY.len() + 1;
-/// The slot of the time of poses.
+/// The index of the column `t` among those of a table of paths.
 pub(in crate::table) const TIME: usize = 1;
 const TIME_NAME: &str = "t";
-/// The slot of the description of a scene's body.
+/// The index of the column `body` among those of a scene's table.
 #[cfg(feature = "command")]
 pub(crate) const BODY: usize = OF_BODY.len() + 1;
-/// The name of the column of the description of a scene's body.
+/// The name of the column that describes a body in a scene's table.
 pub(crate) const BODY_NAME: &str = "body";

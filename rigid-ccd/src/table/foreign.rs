@@ -1,6 +1,6 @@
-//! Detection of files that are not CSV by their first bytes.
+//! Recognises files that are not CSV by their first bytes.
 
-/// The first bytes of other formats, with their names.
+/// The first bytes of other file formats, each with the name of the format.
 const BEGINNINGS: [(&[u8], &str); 8] = [
     (b"PAR1", "Parquet"),
     (b"ARROW1", "Arrow"),
@@ -20,7 +20,7 @@ pub(super) fn is_lfs_pointer(header: &csv::ByteRecord) -> bool {
     header.as_slice().starts_with(LFS_BEGINNING)
 }
 
-/// Returns the format of a binary file from its header.
+/// Returns the format of a binary file, recognised by its header; `None` for text.
 pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
     let known = BEGINNINGS
@@ -36,7 +36,7 @@ pub(super) fn is_index_of_pandas(column: &str) -> bool {
     column.is_empty() || column.starts_with("__index_level_")
 }
 
-/// Returns the separator of a header without commas.
+/// Returns the separator in a header that has no commas; `None` if there is none.
 pub(super) fn separator(header: &str) -> Option<char> {
     [';', '\t', '|']
         .into_iter()

@@ -1,4 +1,4 @@
-//! Normalisation of line ends.
+//! Converts line ends to `\n`.
 
 use std::io::{self, Read};
 
@@ -31,7 +31,7 @@ impl<R: Read> Lines<R> {
         self.bytes.min(taken + self.left_out)
     }
 
-    /// Reads some bytes of the input; the first read has more bytes than a byte order mark.
+    /// Reads some bytes of the input; the first call reads enough for a byte order mark.
     fn some(&mut self, out: &mut [u8]) -> io::Result<usize> {
         const MARK: usize = 3;
         let (start, least) = (self.bytes == 0, out.len().min(MARK + 1));

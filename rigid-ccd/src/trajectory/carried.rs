@@ -49,7 +49,7 @@ impl Smooth for Steady {
         Accelerations::default()
     }
 
-    /// Bounds the rounding of the rotation since time 0 and of the displacement.
+    /// Bounds the rounding errors of the rotation since time 0 and of the displacement.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Speeds { linear, angular } = speeds(&self.0);
         let time = greater(from.abs(), to.abs());
@@ -67,9 +67,9 @@ impl Bounded for Steady {
     }
 }
 
-/// Bounds on the origin of a trajectory between two times.
+/// Bounds on the motion of a trajectory's origin between two times.
 struct Origin {
-    /// The motion at the middle time.
+    /// The motion that has the trajectory's pose and velocities at the middle time.
     tangent: Motion,
     speeds: Speeds,
     accelerations: Accelerations,
@@ -94,7 +94,7 @@ impl Origin {
 }
 
 impl<C: Bounded, T: Bounded> Carried<C, T> {
-    /// Returns the bounds of both parts; `None` if a part has no pose.
+    /// Returns the bounds for the carrier and for the carried body; `None` if either has no pose.
     fn parts(&self, from: f64, to: f64) -> Option<[Origin; 2]> {
         let carrier = Origin::new(&self.carrier, from, to).ok()?;
         let inner = Origin::new(&self.inner, from, to).ok()?;

@@ -27,7 +27,7 @@ use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, St
 #[derive(Clone, Copy, Debug)]
 pub struct Link<'c> {
     chain: &'c Chain,
-    /// The first and the last link of the moving part of the chain.
+    /// The link in whose frame this link is seen; `None` for the world.
     seen_from: Option<usize>,
     link: usize,
     from: &'c [f64],
@@ -122,7 +122,7 @@ impl<'c> Link<'c> {
         }
     }
 
-    /// Returns the joints between both links, with their positions at a time and their rates.
+    /// Returns the joints between the frame's link and this link, with their positions at a time and their rates.
     fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
         let share = time / self.duration;
         let (from, to, duration) = (self.from, self.to, self.duration);
@@ -138,7 +138,7 @@ impl<'c> Link<'c> {
         })
     }
 
-    /// Returns the pose and the velocities of the link at a time.
+    /// Returns the pose, the velocities and the accelerations of the link at a time.
     fn state(&self, time: f64) -> Result<State, InputError> {
         let mut state = State::at(match self.seen_from {
             Some(_) => Pose::IDENTITY,
@@ -150,7 +150,7 @@ impl<'c> Link<'c> {
         Ok(state)
     }
 
-    /// Returns bounds on the link's velocities and accelerations between two times.
+    /// Bounds the link's velocities and accelerations between two times.
     fn moved(&self, from: f64, to: f64) -> Moved {
         let mut moved = Moved::default();
         let starts = self.joints(0.0);
@@ -197,7 +197,7 @@ impl Smooth for Link<'_> {
         Ok((state.tangent()?, Some(acceleration)))
     }
 
-    /// Bounds the rounding: each joint adds that of a product of poses and that of its angle.
+    /// Bounds the rounding errors of poses: each joint adds those of a product of poses and of its angle.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Moved {
             joints,
@@ -220,7 +220,7 @@ impl Bounded for Link<'_> {
     }
 }
 
-/// The pose of a link and its derivatives, accumulated joint by joint.
+/// The pose of a link and its derivatives at one time, accumulated joint by joint.
 struct State {
     pose: Pose,
     velocity: DVec3,
@@ -246,7 +246,7 @@ impl State {
         Motion::new(self.pose, self.velocity, self.spin)
     }
 
-    /// Advances to the link after a joint.
+    /// Replaces the state of the link before a joint by that of the link after it.
     fn pass(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
         let before = self.pose.translation();
         let held = self.pose.compose(joint.origin());
@@ -279,27 +279,27 @@ struct Moved {
     accelerations: Accelerations,
     /// The bounds on the derivatives of the accelerations.
     jerks: Accelerations,
-    /// The common axis of all rotations so far, in the link's frame, if there is one.
+    /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
     axis: Option<DVec3>,
-    /// The number of joints, the sum of the arms' lengths, and the sum of the angles.
+    /// The number of joints so far, the sum of the arms' lengths, and the sum of the angles in radians.
     joints: f64,
     arms: f64,
     angles: f64,
 }
 
-/// The positions of a joint in an interval of time.
+/// Bounds on the position of a joint in an interval of time, in radians or as a length.
 struct Positions {
-    /// The largest absolute value.
+    /// The largest absolute value of the position in the interval.
     largest: f64,
-    /// The largest absolute value including the position at time 0, from which all others are computed.
+    /// The largest absolute value of the position in the interval and at time 0, from which all positions are computed.
     ever: f64,
     first: f64,
-    /// The absolute value of the rate.
+    /// The absolute value of the joint's rate.
     rate: f64,
 }
 
 impl Moved {
-    /// Advances to the link after a joint.
+    /// Replaces the bounds for the link before a joint by those for the link after it.
     fn pass(&mut self, joint: &Joint, positions: &Positions) {
         self.joints += 1.0;
         let length = length(joint.origin().translation());
@@ -331,7 +331,7 @@ impl Moved {
         }
     }
 
-    /// Adds an arm that rotates with the link.
+    /// Adds the motion of a point at distance `length` that rotates with the link.
     fn arm(&mut self, length: f64) {
         let Speeds { angular, .. } = self.speeds;
         let turning = self.accelerations.angular;
@@ -341,7 +341,7 @@ impl Moved {
         self.speeds.linear += angular * length;
     }
 
-    /// Adds a rotation about an axis of the joint's frame, at a nonzero rate.
+    /// Adds a rotation at a nonzero rate about an axis in the joint's frame.
     fn turn(&mut self, axis: DVec3, rate: f64) {
         let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),

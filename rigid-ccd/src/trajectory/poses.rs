@@ -126,8 +126,8 @@ impl Poses {
         self.poses.iter().map(|&(time, _)| time)
     }
 
-    /// Returns the motion of the segment at a time, as of that time. At a pose, this is the segment before it if `to`
-    /// is not later, else the one after it. Bounds how fast its angular velocity changes, too.
+    /// Returns the motion of the segment at a time, and a bound on its angular acceleration. At a given pose, this is the
+    /// segment before the pose if `to` is not later than `time`, else the one after it.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)
@@ -156,7 +156,7 @@ impl Poses {
         self.centre
     }
 
-    /// Returns the given angular velocity from a pose to the next; 0 for the shortest rotation.
+    /// Returns the given angular velocity from pose `k` to the next; 0 for the shortest rotation.
     fn spin(&self, k: usize) -> DVec3 {
         self.spins.get(k).copied().unwrap_or_default()
     }
@@ -203,7 +203,7 @@ impl Poses {
         })
     }
 
-    /// Bounds the rounding of poses between two times, which are computed from the given pose before them.
+    /// Bounds the rounding errors of poses between two times, which are computed from the given pose before them.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
@@ -247,7 +247,7 @@ impl Trajectory for Poses {
     }
 }
 
-/// The deviation of a motion from a pose.
+/// How far a motion is from a pose at a time: the shift of the centre, and the angle in radians.
 #[derive(Clone, Copy, Debug, Default)]
 struct Deviation {
     shift: f64,

@@ -1,4 +1,4 @@
-//! Random trajectories, sampled adversarially: no deviation exceeds its bound.
+//! Tests random trajectories by adversarial sampling: no deviation exceeds its bound.
 
 mod extremes;
 
@@ -23,7 +23,7 @@ fn pose(rng: &mut Rng, size: f64) -> Pose {
     Pose::new(vector(rng, size), orientation(rng)).unwrap()
 }
 
-/// The number of draws for each motion: `CCD_TEST_CASES` multiplies it; 200 makes a million.
+/// Returns the number of draws for each kind of trajectory: `CCD_TEST_CASES` multiplies it; 200 makes a million.
 fn draws() -> u64 {
     let cases = std::env::var("CCD_TEST_CASES").ok();
     5_000 * cases.map_or(1, |cases| cases.parse().unwrap())
@@ -62,7 +62,7 @@ fn points(rng: &mut Rng, count: usize) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, 3.0).to_array()).collect()
 }
 
-/// Orientations with rotations of less than 1 radian from one to the next.
+/// Returns random orientations with rotations of less than 1 radian from one to the next.
 fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     let mut at = orientation(rng);
     let key = |k| {
@@ -72,12 +72,12 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     (0..count).map(key).collect()
 }
 
-/// The axes of the joints of a chain.
+/// How the axes of a chain's joints are chosen.
 #[derive(Clone, Copy, PartialEq)]
 enum Axes {
     Any,
     Parallel,
-    /// Axes along x, y or z, some of which become parallel again by the joints between them.
+    /// The axes are along x, y or z, so that some are parallel to each other.
     Across,
 }
 
@@ -107,7 +107,7 @@ fn steady() {
     check("steady", 0.0, |rng| Ok(Steady(motion(rng)?)));
 }
 
-/// A thrown body, whose deviation is rounding alone.
+/// Tests a thrown body, whose deviation is due to rounding alone.
 #[test]
 fn thrown() {
     check("ballistic", 0.0, ballistic);
@@ -126,7 +126,7 @@ fn poses() {
     });
 }
 
-/// Rotations by angular velocities that leave over up to a quarter turn.
+/// Tests angular velocities that leave up to a quarter turn over.
 #[test]
 fn poses_of_many_turns() {
     check("poses, many turns", 0.3, |rng| {
@@ -149,7 +149,7 @@ fn poses_of_many_turns() {
     });
 }
 
-/// Rotations that end at the same orientation are distinguished by their angular velocities.
+/// Tests that angular velocities distinguish rotations that end at the same orientation.
 #[test]
 fn angular_velocities_tell_the_number_of_turns() {
     let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
@@ -183,7 +183,7 @@ fn angular_velocities_tell_the_number_of_turns() {
     }
 }
 
-/// Half turns, up to rounding: both directions are possible, and that of the motion from pose to pose is taken.
+/// Tests half turns, up to rounding: of both possible directions, that of the motion between the poses is taken.
 #[test]
 fn poses_of_half_turns() {
     check("poses, half turns", 0.3, |rng| {
@@ -257,7 +257,7 @@ fn squad_alone() {
     });
 }
 
-/// Axes before a held joint are not parallel to those after it, whatever the joint's origin.
+/// Tests that axes before a held joint are not treated as parallel to those after it, whatever the joint's origin.
 #[test]
 fn links_behind_joints_that_are_held() {
     check("link, held joint", 0.1, |rng| {
@@ -275,7 +275,7 @@ fn links_behind_joints_that_are_held() {
     });
 }
 
-/// A link that owns its chain.
+/// A link that owns its chain, for tests of trajectories without lifetimes.
 struct Owned {
     chain: Chain,
     positions: [Vec<f64>; 2],
@@ -358,7 +358,7 @@ fn timed() {
     });
 }
 
-/// The check finds a trajectory whose bound is too small.
+/// Tests that the check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {
     struct False(Spline);
@@ -376,7 +376,7 @@ fn a_false_bound_is_found() {
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
-/// Segments are cut at knots: a segment that only touches the next one has a known acceleration.
+/// Tests that segments are cut at knots: a segment that only touches the next one has a known acceleration.
 #[test]
 fn stretches_between_knots_accelerate() {
     let mut rng = Rng::seed_from_u64(4);

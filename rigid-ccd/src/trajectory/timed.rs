@@ -1,4 +1,4 @@
-//! A trajectory with another time law.
+//! A trajectory that is followed at a varying rate.
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 use std::ops::Range;
 
-/// A smooth trajectory that is followed with another time law.
+/// A smooth trajectory whose time is a function of the given time: its time law.
 ///
 /// With the inner time `θ(t)`, the velocity is `v θ̇` and the acceleration `a θ̇² + v θ̈`; rotations alike.
 ///
@@ -30,23 +30,23 @@ pub struct Timed<T> {
     pace: Pace,
 }
 
-/// The time law: how a trajectory is followed between its first and its last time.
+/// The time law by which a trajectory is followed between its first and its last time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// At a constant rate.
+    /// The trajectory is followed at a constant rate.
     Even,
-    /// From rest to rest: `10 u³ − 15 u⁴ + 6 u⁵` of the way after a share `u` of the time.
+    /// The trajectory starts and ends at rest: `10 u³ − 15 u⁴ + 6 u⁵` of it is done after a share `u` of the time.
     Eased,
 }
 
-/// The maximum first derivative of the eased time law, at half the time: `30/16`.
+/// The maximum first derivative of [`Pace::Eased`], at half the time: `30/16`.
 const STEEPEST: f64 = 1.875;
 
-/// The maximum second derivative of the eased time law: `10/√3`, rounded up.
+/// The maximum second derivative of [`Pace::Eased`]: `10/√3`, rounded up.
 const MOST_CURVED: f64 = 5.774;
 
 impl Pace {
-    /// Returns the share of the trajectory at a share of the time, and its derivative.
+    /// Returns the share of the trajectory that is done at a share `u` of the time, and its derivative.
     fn at(self, u: f64) -> [f64; 2] {
         match self {
             Pace::Even => [u, 1.0],
@@ -60,7 +60,7 @@ impl Pace {
         }
     }
 
-    /// Bounds both derivatives of the time law.
+    /// Bounds the first and second derivative of the time law.
     fn most(self) -> [f64; 2] {
         match self {
             Pace::Even => [1.0, 0.0],
@@ -89,7 +89,7 @@ impl<T> Timed<T> {
         })
     }
 
-    /// Returns the inner time at a time, and its rate.
+    /// Returns the time of the inner trajectory at a time, and its rate of change.
     fn time(&self, time: f64) -> [f64; 2] {
         let u = time / self.duration;
         if (0.0..=1.0).contains(&u) {
@@ -103,13 +103,13 @@ impl<T> Timed<T> {
         }
     }
 
-    /// Returns the inner times for two times.
+    /// Returns the times of the inner trajectory at two times.
     fn times(&self, from: f64, to: f64) -> [f64; 2] {
         let [[first, _], [last, _]] = [self.time(from), self.time(to)];
         [first, greater(first, last)]
     }
 
-    /// Bounds the first and second derivatives of the inner time.
+    /// Bounds the first and second derivative of the inner trajectory's time.
     fn rates(&self) -> [f64; 2] {
         let [slope, curve] = self.pace.most();
         let rate = self.length / self.duration;
@@ -146,7 +146,7 @@ impl<T: Bounded> Smooth for Timed<T> {
         }
     }
 
-    /// Bounds the rounding, including that of the inner time.
+    /// Bounds the rounding errors of poses, including that of the inner trajectory's time.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let [first, last] = self.times(from, to);
         let speeds = self.inner.speeds(first, last);

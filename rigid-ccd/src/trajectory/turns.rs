@@ -12,7 +12,8 @@ use ccd_core::vector::length;
 use ccd_core::{InputError, Pose};
 use squad::Squad;
 
-/// A rotation through given orientations at given times. The body does not turn before the first and after the last.
+/// A rotation through given orientations at given times, with a fixed origin. The body does not turn before the first
+/// and after the last.
 ///
 /// ```
 /// use rigid_ccd::glam::DQuat;
@@ -25,14 +26,14 @@ use squad::Squad;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turns {
     segments: Segments<Turn>,
-    /// The orientation before the first segment, and after the last.
+    /// The orientations before the first segment and after the last.
     ends: [DQuat; 2],
 }
 
 /// The rotation between two times.
 #[derive(Clone, Debug, PartialEq)]
 enum Turn {
-    /// A rotation at a constant rate, starting at an orientation.
+    /// A rotation at a constant rate, starting at an orientation (slerp).
     Slerp {
         start: DQuat,
         spin: DVec3,
@@ -41,7 +42,7 @@ enum Turn {
 }
 
 impl Turns {
-    /// No rotation: the body stays oriented as the world.
+    /// The rotation of a body whose axes stay those of the world.
     pub const NONE: Turns = Turns {
         segments: Segments(Vec::new()),
         ends: [DQuat::IDENTITY; 2],
@@ -102,7 +103,7 @@ impl Turns {
         }
     }
 
-    /// Returns the orientation at a time, and the angular velocity along the world's axes.
+    /// Returns the orientation at a time, and the angular velocity in the world frame.
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
         match self.segments.at(time) {
             Some(segment) if time >= segment.from => segment.at(time),
@@ -111,8 +112,8 @@ impl Turns {
         }
     }
 
-    /// Bounds the angular acceleration between two times. A spin that jumps counts as one that changes in half
-    /// of the time, by which the orientation strays farther.
+    /// Bounds the magnitude of the angular acceleration between two times. A spin that jumps counts as one that changes
+    /// in half of the time, by which the orientation strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         let smooth = self
             .segments
@@ -135,12 +136,12 @@ impl Turns {
             })
     }
 
-    /// Returns a knot strictly between two times, about in the middle; `None` without one.
+    /// Returns a knot strictly between two times, near the middle of them; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         self.segments.corner(from, to)
     }
 
-    /// Bounds the rounding of an orientation.
+    /// Bounds the rounding error of an orientation.
     pub(super) fn rounding(&self) -> f64 {
         128.0 * U
     }
@@ -159,7 +160,7 @@ impl Segment<Turn> {
     }
 }
 
-/// Returns unit quaternions, each with the sign that is nearer to the one before.
+/// Returns the orientations as unit quaternions, each with the sign that is nearer to the one before.
 fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {

@@ -1,4 +1,4 @@
-//! A test of the bounds of a trajectory's deviation.
+//! Tests the bounds of a trajectory's deviation by random search.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -7,15 +7,15 @@ use ccd_core::{InputError, Trajectory};
 /// The sample with the largest deviation relative to its bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Worst {
-    /// The deviation divided by its bound: at most 1 for a sound trajectory.
+    /// The deviation divided by its bound: at most 1 for a correct trajectory.
     pub ratio: f64,
-    /// The first time of the segment.
+    /// The time at which the segment starts.
     pub from: f64,
-    /// The last time of the segment.
+    /// The time at which the segment ends.
     pub to: f64,
-    /// The time of the sample.
+    /// The time at which the deviation was measured.
     pub time: f64,
-    /// The point of the body, in the frame of the motion's centre, along the body's axes.
+    /// The vector from the motion's centre to the point, along the body's axes.
     pub arm: DVec3,
 }
 
@@ -81,7 +81,7 @@ struct Search<'t> {
 }
 
 impl Search<'_> {
-    /// Returns a number from 0 to 1: SplitMix64.
+    /// Returns a pseudo-random number from 0 to 1, by SplitMix64.
     fn number(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;

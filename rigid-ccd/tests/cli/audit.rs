@@ -1,4 +1,4 @@
-//! `ccd audit`: motions that another checker has called free.
+//! Tests `ccd audit`: motions that another checker has called free.
 
 use super::command::{Run, Scene, has, parse, stderr};
 

@@ -1,9 +1,9 @@
-//! `--contacts`, `--counters`, and messages about times that are not certified.
+//! Tests `--contacts`, `--counters`, and messages about times that are not certified.
 
 use crate::command::{Row, Run, Scene, has, parse, stderr};
 use std::path::Path;
 
-/// A cube above a slab, and motions onto its face, past its side, and away from it.
+/// The options for a cube and a slab as bodies A and B.
 const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 

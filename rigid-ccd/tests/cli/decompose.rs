@@ -1,4 +1,4 @@
-//! `ccd decompose`, and queries on prepared bodies.
+//! Tests `ccd decompose`, and queries on prepared bodies.
 
 use crate::command::{Row, Run, Scene, has, stderr};
 use ccd_decomp::{Format, TriangleMesh};
@@ -9,10 +9,10 @@ use std::process::Output;
 
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-/// The tetrahedron without its last face.
+/// The OBJ text of a tetrahedron without its last face.
 const OPEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
 
-/// Writes a knot of 216 triangles, which is not convex.
+/// Writes the mesh of a trefoil knot with 216 triangles, which is not convex.
 fn knot(scene: &Scene) -> PathBuf {
     scene.file("knot.obj", include_str!("../data/knot216.obj"))
 }
@@ -25,7 +25,7 @@ fn decompose(mesh: &Path, options: &[&str]) -> Output {
     Run::bare(&["decompose", name(mesh)]).args(options).output()
 }
 
-/// Returns the object that `--format json` prints.
+/// Returns the JSON object that `--format json` prints for a mesh.
 fn statistics(mesh: &Path, options: &[&str]) -> Value {
     let output = decompose(mesh, &[options, &["--format", "json"]].concat());
     assert!(output.status.success(), "{}", stderr(&output));

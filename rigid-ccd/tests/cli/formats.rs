@@ -1,10 +1,10 @@
-//! Scenes of several parts: glTF and 3MF, parts by name, and units.
+//! Tests files of several parts: glTF and 3MF, parts by name, and units.
 
 use crate::command::{Run, Scene, has, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The corners of a cube about the origin with sides of length 2; the bits of an index give the coordinates.
+/// Returns the corners of a cube about the origin with sides of length 2; the bits of an index give the coordinates.
 fn corners() -> impl Iterator<Item = [f32; 3]> {
     (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|bit| 2.0 * bit as f32 - 1.0))
 }
@@ -15,7 +15,7 @@ const FACES: [u16; 36] = [
     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
 ];
 
-/// Two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
+/// Returns a glTF file of two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
 fn gltf() -> (Value, Vec<u8>) {
     let mut bytes: Vec<u8> = corners().flatten().flat_map(f32::to_le_bytes).collect();
     bytes.extend(FACES.iter().flat_map(|corner| corner.to_le_bytes()));
@@ -54,7 +54,7 @@ fn glb() -> Vec<u8> {
     bytes
 }
 
-/// A cube of 20 millimetres about the origin, stored without compression.
+/// Returns a 3MF file with a cube of 20 millimetres about the origin.
 fn threemf() -> Vec<u8> {
     let vertices: String = corners()
         .map(|[x, y, z]| {
@@ -76,7 +76,7 @@ fn threemf() -> Vec<u8> {
     zip("3D/3dmodel.model", model.as_bytes())
 }
 
-/// A zip archive with one file.
+/// Returns an uncompressed zip archive with one file.
 fn zip(path: &str, content: &[u8]) -> Vec<u8> {
     let (sum, size) = (crc32fast::hash(content), content.len() as u32);
     let mut about = [0; 8].to_vec();
@@ -105,12 +105,12 @@ fn name(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Returns the command-line name of a part of a file.
+/// Returns the argument of the command line that names a part of a file.
 fn part(path: &Path, part: &str) -> String {
     format!("{}#{part}", name(path))
 }
 
-/// A small ball that falls at speed 1 from the height 4.
+/// A table of motions in which a small ball falls at speed 1 from the height 4.
 const FALL: &str = "b_pz,b_vz,duration\n4,-1,4\n";
 const BALL: &str = "sphere:0.1";
 
@@ -174,7 +174,7 @@ fn an_unknown_part_lists_those_there_are() {
     has(&stderr(&output), "it has one, without a name: 0");
 }
 
-/// File names may also contain such a mark.
+/// Tests that a `#` in the name of a file does not separate a part's name.
 #[test]
 fn a_mark_in_the_name_of_a_file_is_kept() {
     let scene = Scene::new("parts-marks");
@@ -187,7 +187,8 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
     }
 }
 
-/// A ball falls onto the corner at (0, 0, 1) of a tetrahedron.
+/// Tests adjustments of mesh files, by options and after the files' names: a ball falls onto the corner at (0, 0, 1) of
+/// a tetrahedron.
 #[test]
 fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     let scene = Scene::new("adjusted");
@@ -255,8 +256,8 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
 
-/// A ball flies at a cylinder and at a cone: contacts are not later than with the true shapes, and messages state how
-/// early they may be.
+/// Tests a ball that flies at a cylinder and at a cone: contacts are not later than with the true shapes, and messages
+/// state how early they may be.
 #[test]
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
@@ -357,7 +358,7 @@ fn a_part_is_prepared_and_stored() {
     has(&text, "\nunit          m\n");
 }
 
-/// A run with another unit, or with another buffer beside the mesh, is not the same run.
+/// Tests that a run with another unit, or with another buffer beside the mesh, is not resumed.
 #[test]
 fn runs_know_their_unit_and_all_their_files() {
     let scene = Scene::new("parts-resume");

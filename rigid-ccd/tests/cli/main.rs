@@ -1,4 +1,4 @@
-//! The command `ccd`, tested as a process.
+//! Tests the command `ccd` as a process.
 
 mod audit;
 mod command;
@@ -16,10 +16,10 @@ mod view;
 
 use command::{Row, Run, Scene, has, parse, stderr};
 
-/// The command that is run.
+/// The path of the command under test.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
 
-/// A cube that falls at speed 4 onto a slab whose top is 2.5 below its underside.
+/// The options for a cube that falls at speed 4 onto a slab whose top is 2.5 below the cube.
 const FALLING_CUBE: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROP: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
 const DROP_TIME: f64 = 2.5 / 4.0;
@@ -28,14 +28,14 @@ const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 impl Run {
-    /// A query whose motions come from standard input.
+    /// Returns a call of `ccd query` whose motions come from standard input.
     pub(crate) fn query(bodies: &[&str]) -> Self {
         Run::bare(&["query", "--motions", "-"]).args(bodies)
     }
 }
 
 impl Row {
-    /// Checks that the time is not late, and early by at most the time to cross the tolerance.
+    /// Checks that the time of contact is not late, and early by at most the time to cross the tolerance.
     pub(crate) fn assert_in_time(&self, exact: f64, closing_speed: f64) {
         let early = exact - self.number("time");
         assert!(

@@ -1,4 +1,4 @@
-//! `ccd completions` and `ccd man`.
+//! Tests `ccd completions` and `ccd man`.
 
 use crate::command::{Run, Scene, has};
 use rstest::rstest;

@@ -1,4 +1,4 @@
-//! Messages about input, and about bodies of different size.
+//! Tests messages about input, and about bodies of different size.
 
 use crate::command::{Run, Scene, has, parse, stderr};
 use crate::{DROP, FALLING_CUBE};
@@ -46,7 +46,7 @@ fn every_cause_is_reported_once() {
     }
 }
 
-/// Missing files are reported by name, and without error numbers of the operating system.
+/// Tests that missing files are reported by name, and without error numbers of the operating system.
 #[test]
 fn missing_files_are_reported_once() {
     let scene = Scene::new("not-there");
@@ -135,7 +135,7 @@ fn selected_rows_have_the_same_answers() {
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
 
-/// Cells and file names may contain control characters, which must not reach the terminal.
+/// Tests that control characters in cells and file names do not reach the terminal.
 #[test]
 fn nothing_in_a_file_controls_the_terminal() {
     let scene = Scene::new("escapes");
@@ -177,7 +177,7 @@ fn ignored_input_is_reported_with_quiet_too() {
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// Each trap gives one line of remark, once, and changes neither the table nor the exit code.
+/// Tests that each probable mistake gives one remark, and changes neither the table nor the exit code.
 #[test]
 fn traps_are_remarked_upon_once() {
     let spins = |rates: &str| {
@@ -217,7 +217,7 @@ fn traps_are_remarked_upon_once() {
     }
 }
 
-/// If one of two files states its unit, the numbers of the other may be in another unit. Shapes are in any.
+/// Tests the message for two files of which only one states its unit. Shapes are in any.
 #[test]
 fn a_single_known_unit_is_reported_once() {
     let scene = Scene::new("mixed-units");
@@ -259,7 +259,7 @@ fn a_single_known_unit_is_reported_once() {
     );
 }
 
-/// Between poses without orientations, any rotation would be undone.
+/// Tests that angular velocities of a path are refused without orientations.
 #[test]
 fn angular_velocities_of_a_path_need_orientations() {
     let message = messages_of("t,a_px,a_wz\n0,9,1\n1,9,1\n");

@@ -1,4 +1,4 @@
-//! Outputs are written completely, by one run at a time; a full disk destroys no older file.
+//! Tests that outputs are written completely, by one run at a time; a full disk destroys no older file.
 
 use crate::command::{Run, Scene, has, stderr};
 use crate::resume::{finished, fresh, killed, motions, path, query, read};
@@ -38,7 +38,7 @@ fn inputs(scene: &Scene) {
     scene.file("scene.csv", "body,pz,vz\nsphere:1,0,0\nsphere:1,5,-5\n");
 }
 
-/// All ways to write a file: the file, and the arguments of the command.
+/// All commands that write a file: the file, and the arguments of the command.
 const WRITERS: [(&str, &str); 8] = [
     (
         "r.csv",
@@ -133,7 +133,8 @@ fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
     fs::read(path(scene, name)).unwrap()
 }
 
-/// A run is alive as long as its input is open. Whatever name others have for its output, they refuse.
+/// Tests that a second run does not disturb a first one, which lasts as long as its input is open. Whatever name others
+/// have for its output, they refuse.
 #[test]
 fn a_run_that_is_alive_is_left_alone() {
     let table = motions();
@@ -189,7 +190,7 @@ fn a_run_that_is_alive_is_left_alone() {
     assert!(there.eq(expected.into_iter().filter(|&name| name != "link.csv")));
 }
 
-/// Of four runs that start together, some refuse, and the table is that of one run.
+/// Tests four runs that start together: some refuse, and the table is that of one run.
 #[test]
 fn runs_side_by_side_keep_all_rows() {
     let table = motions();
@@ -274,7 +275,7 @@ fn an_edited_byte_is_not_resumed_from() {
     assert_eq!(read_bytes(&scene, "results.csv"), results);
 }
 
-/// The answers of an interrupted query are not overwritten by another command, nor by the other table of a query.
+/// Tests that another command, or the other table of a query, does not overwrite the answers of an interrupted query.
 #[test]
 fn rows_of_an_interrupted_query_are_kept() {
     let scene = fresh("kept-rows");
@@ -352,7 +353,7 @@ mod full {
         assert!(names(&scene).iter().all(|name| !name.ends_with(".part")));
     }
 
-    /// Output that a shell appends to a file leaves the file's content in place.
+    /// Tests that output appended by a shell leaves the file's earlier content in place.
     #[test]
     fn open_files_are_written_on() {
         let scene = fresh("open-files");

@@ -1,4 +1,4 @@
-//! `ccd query --ask` for motions and for paths.
+//! Tests `ccd query --ask` for motions and for paths.
 
 use crate::command::{Row, Run, Scene, has, parse, stderr};
 use crate::{DROP, DROP_TIME, FALLING_CUBE};
@@ -6,12 +6,12 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
 use std::fs;
 
-/// A ball that passes another one at a distance of 0.2, nearest at time 0.5.
+/// The options for two balls of radius 0.5.
 const BALLS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
 const PASSES: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
-/// A cube that comes down onto a slab, stays for a unit of time and leaves: a path from pose to pose, whose times begin
-/// at 10. It touches from 12.5 to 15.
+/// A table of a path: a cube comes down onto a slab, stays for a unit of time and leaves, from time 10 on. It touches
+/// from 12.5 to 15.
 const VISIT: &str = "id,t,a_px,a_pz\n\
                      visit,10,0,4\n\
                      visit,13,0,1\n\
@@ -101,7 +101,7 @@ fn the_least_distance_is_bracketed_and_compared() {
     );
 }
 
-/// A clearance that the polytopes violate, and the cylinders keep: their sides are 0.1 apart.
+/// Tests clearances that the polytopes around two cylinders violate, although the cylinders, 0.1 apart, keep them.
 #[test]
 fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
     let bodies = ["--a", "cylinder:1,1,.01", "--b", "cylinder:1,1,.01"];
@@ -316,7 +316,7 @@ fn options_without_a_use_are_refused() {
     }
 }
 
-/// The bodies are nearest later, but overlap at the start.
+/// Tests bodies that overlap at the start, and whose centres are nearest later.
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
     let deeper = "a_px,a_vx\n0.9,-1.9\n";
@@ -333,7 +333,7 @@ fn bodies_that_overlap_at_the_start_are_overlapping() {
     );
 }
 
-/// The exit code is 0 only if every row is proven.
+/// Tests that `--check` has exit code 0 only if every row is proven.
 #[test]
 fn a_check_fails_unless_every_row_is_proven() {
     let near = &["--clearance", "0.21"][..];
@@ -373,7 +373,7 @@ fn a_check_fails_unless_every_row_is_proven() {
     }
 }
 
-/// The same command with --resume finds the run finished, and has the same exit code.
+/// Tests that `--check --resume` has the same exit code again when it finds the run finished.
 #[test]
 fn a_finished_check_fails_again() {
     let scene = Scene::new("check-again");
@@ -387,7 +387,7 @@ fn a_finished_check_fails_again() {
     run.args(&["--resume"]).ends(3);
 }
 
-/// A tube about z as an OBJ.
+/// Returns a tube about z as the text of an OBJ file.
 fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
     const CORNERS: usize = 48;
     let mut text = String::new();
@@ -409,7 +409,7 @@ fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
     text
 }
 
-/// Early bounds hold for a whole path, and do not use the budget of any segment.
+/// Tests that early bounds hold for a whole path, and do not use the budget of any segment.
 #[test]
 fn a_long_path_is_measured_with_what_its_parts_need() {
     let scene = Scene::new("long-path");

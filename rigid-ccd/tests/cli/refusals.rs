@@ -1,4 +1,4 @@
-//! Invalid rows, bodies, files and options, and their messages.
+//! Tests invalid rows, bodies, files and options, and their messages.
 
 use crate::command::{Run, Scene, has, parse, stderr};
 use crate::{DROP, FALLING_CUBE};
@@ -151,7 +151,7 @@ fn unwritable_results_have_exit_code_1() {
     );
 }
 
-/// Rows before the unclosed cell are answered; rows after it are not read as the cell's content.
+/// Tests that rows before an unclosed cell are answered, and that rows after it are not read as the cell's content.
 #[test]
 fn an_unclosed_quote_is_an_error() {
     for (motions, rows, expected) in [
@@ -171,7 +171,7 @@ fn an_unclosed_quote_is_an_error() {
     assert_eq!(closed.succeeds()[0].text("id"), "a\nb");
 }
 
-/// Git replaces large files by a few lines until they are fetched.
+/// Tests the message for a Git LFS pointer, which stands for a large file until that is fetched.
 #[test]
 fn git_lfs_pointers_are_recognised() {
     let scene = Scene::new("lfs");

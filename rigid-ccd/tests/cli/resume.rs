@@ -1,4 +1,4 @@
-//! Interrupted runs: existing files are kept, and answered rows are not answered again.
+//! Tests interrupted runs: existing files are kept, and answered rows are not answered again.
 
 use crate::command::{Scene, has, stderr};
 use std::fs;
@@ -303,7 +303,7 @@ fn a_finished_run_with_other_options_is_refused() {
     assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
 }
 
-/// A run may be killed after its last row, before it renames its tables.
+/// Tests resuming a run that was killed after its last row, before it renamed its tables.
 #[test]
 fn complete_tables_are_renamed() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";

@@ -1,9 +1,10 @@
-//! `ccd scene`.
+//! Tests `ccd scene`.
 
 use crate::command::{Row, Run, Scene, has, parse, stderr};
 use std::path::Path;
 
-/// Two balls that fall onto a table, listed in another order than they land, and one that never lands.
+/// A table of two balls that fall onto a table top, listed in another order than they land, and of one that never
+/// lands.
 const BODIES: &str = "body,id,px,pz,vz\n\
     \"box:9,9,1\",table,0,0,0\n\
     sphere:.5,fast,0,8,-5.5\n\
@@ -92,7 +93,7 @@ fn a_scene_is_not_overwritten() {
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES);
 }
 
-/// Runs both commands that read the table of a scene.
+/// Runs `ccd scene` and `ccd view --scene` on a table, and returns their exit codes and messages.
 fn both(bodies: &str, options: &[&str]) -> [(Option<i32>, String); 2] {
     let out = Path::new(bodies).with_extension("html");
     let out = out.to_str().unwrap();
@@ -135,7 +136,7 @@ fn a_scene_is_remarked_upon_as_a_query_is() {
     }
 }
 
-/// All motions end at the duration, also those given by an end pose.
+/// Tests that all motions end at the duration, also those given by an end pose.
 #[test]
 fn an_end_pose_is_reached_at_the_end() {
     let scene = Scene::new("scene-end");

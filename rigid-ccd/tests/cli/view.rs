@@ -1,4 +1,4 @@
-//! Pages of `ccd view` and `ccd query --html`.
+//! Tests pages of `ccd view` and `ccd query --html`.
 
 use super::command::{Run, Scene, has, stderr};
 use serde_json::Value;
@@ -219,7 +219,7 @@ fn results_of_other_bodies_are_not_shown() {
     has(&stderr(&output), "no row of");
 }
 
-/// Returns the verdict of the first row of a page by `ccd query`.
+/// Returns the verdict of the first row on a page that `ccd query` writes.
 fn verdict(scene: &Scene, more: &[&str]) -> String {
     let motions = file(scene, "motions.csv", "id,a_pz,a_vz\nhit,4,-4\n");
     let args = [

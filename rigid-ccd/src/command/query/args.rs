@@ -113,7 +113,7 @@ pub(in crate::command) struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// Returns the columns of the table of results.
+    /// Returns the columns of the table of results that these options ask for.
     pub(super) fn columns(&self) -> Vec<Column> {
         let counters = results::COUNTERS.into_iter().filter(|_| self.counters);
         results::columns(self.ask)
@@ -196,7 +196,7 @@ impl QueryArgs {
 /// A range of rows of a table, numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RowRange {
-    /// The first row.
+    /// The number of the first row of the range.
     pub(super) start: usize,
     /// The row after the last one; `None` for a range without an end.
     pub(super) end: Option<usize>,

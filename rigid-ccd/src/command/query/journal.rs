@@ -1,4 +1,4 @@
-//! The journal of a run: its options, and a checkpoint after each batch of rows.
+//! The journal of a run of `ccd query`: its options, and a checkpoint after each batch of rows.
 //!
 //! The file is next to the tables. Each checkpoint ends with the checksum of all before it. It stays when the run has finished, so that the same command with
 //! `--resume` finds nothing left to do.
@@ -13,46 +13,46 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The progress of a run.
+/// The state of a run after a batch of rows, from which it can be continued.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Checkpoint {
     /// The number of finished rows of the table of motions, including rows skipped before the selected ones.
     pub(super) rows: usize,
-    /// The checksum of these rows.
+    /// The checksum of the finished rows' input.
     pub(super) checksum: u32,
-    /// The number of these rows without a complete answer.
+    /// The number of finished rows without a complete answer.
     pub(super) bad: usize,
-    /// The number of rows of each status in the results.
+    /// The number of finished rows with each status.
     pub(super) counts: Counts,
     /// The length and checksum of the table of results, set when it is flushed.
     pub(super) results: Written,
     /// The length and checksum of the table of contacts, set when it is flushed.
     pub(super) contacts: Written,
-    /// Whether all rows are finished.
+    /// Whether the run has answered all selected rows.
     #[serde(rename = "whole")]
     pub(super) finished: bool,
 }
 
-/// The options that determine the tables of a run, with their values.
+/// The options that determine the tables of a run, each with its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Recorded(pub(super) Vec<(String, String)>);
 
-/// The prefix of an entry with the checksum of the file that an option names.
+/// The prefix of an entry that holds the checksum of the file that an option names.
 pub(super) const CONTENT: &str = "content-of:";
 
-/// The journal file: options, then checkpoints.
+/// The journal file: the options of the run, followed by checkpoints.
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
-    /// The checksum of the file's content.
+    /// The checksum of what has been written to the journal.
     sum: Hasher,
 }
 
-/// The separator in the journal between the options and the checkpoints.
+/// The line between the options and the checkpoints in the journal.
 const CHECKPOINTS: &str = "\nmarks:\n";
 
 impl Recorded {
-    /// Returns one line for each option; line ends within values are escaped.
+    /// Returns the options as text with one line each; line ends within values are escaped.
     fn to_text(&self) -> String {
         let mut text = String::new();
         for (option, value) in &self.0 {
@@ -61,7 +61,7 @@ impl Recorded {
         text.trim_end().to_owned()
     }
 
-    /// Describes the changed options; `None` if all are the same.
+    /// Describes the options that differ from those in `before`; `None` if all are the same.
     fn changes(&self, before: &str) -> Option<String> {
         let now = self.to_text();
         if before == now {
@@ -103,7 +103,7 @@ impl Journal {
         }
     }
 
-    /// Appends a checkpoint.
+    /// Appends a checkpoint to the journal.
     pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
         let mut append = || {
             let line = ended(serde_json::to_string(&checkpoint)?, &mut self.sum);
@@ -113,23 +113,23 @@ impl Journal {
     }
 }
 
-/// Appends the checksum to a checkpoint's line, and adds the line to the checksum.
+/// Returns a checkpoint's line with its checksum at the end, and adds the line to `sum`.
 fn ended(mut line: String, sum: &mut Hasher) -> String {
     sum.update(line.as_bytes());
     let _ = writeln!(line, " {:08x}", sum.clone().finalize());
     line
 }
 
-/// The journal of an earlier run.
+/// What the journal of an earlier run tells.
 pub(super) struct Earlier {
     recorded: String,
     /// The number of rows that the earlier run answered.
     pub(super) rows: usize,
-    /// The last checkpoint.
+    /// The last checkpoint in the journal.
     pub(super) checkpoint: Checkpoint,
     /// The length of the journal without an incomplete last line.
     bytes: u64,
-    /// The checksum of these bytes.
+    /// The checksum of the journal without an incomplete last line.
     sum: Hasher,
 }
 
@@ -137,7 +137,7 @@ pub(super) struct Earlier {
 pub(super) struct Lost;
 
 impl Earlier {
-    /// Reads a journal; `None` for a run that ended before its first checkpoint.
+    /// Reads the journal of an earlier run; `None` for a run that ended before its first checkpoint.
     ///
     /// # Errors
     /// [`Lost`] when the journal is missing or damaged.

@@ -13,14 +13,14 @@ use anyhow::{Context, Result, bail};
 use std::fs::File;
 use std::path::PathBuf;
 
-/// The tables of a run.
+/// The open tables of results and contacts, with their journal.
 pub(super) struct Outputs {
     pub(super) results: Table,
     pub(super) contacts: Option<Table>,
     journal: Option<Journal>,
 }
 
-/// The tables of a run, and the rows left to answer.
+/// The tables of a run after opening them, and the rows that are left to answer.
 pub(super) enum Opened {
     /// New tables: all rows are left.
     New(Outputs),
@@ -30,14 +30,14 @@ pub(super) enum Opened {
     Finished(Checkpoint),
 }
 
-/// The claimed files of the tables.
+/// The reserved files of both tables, before anything is written.
 pub(super) struct Places {
     results: Output,
     contacts: Option<Output>,
 }
 
 impl Places {
-    /// Claims both tables.
+    /// Reserves the files of both tables.
     pub(super) fn claim(args: &QueryArgs) -> Result<Self> {
         let contacts = args.contacts.as_deref();
         let places = Places {
@@ -84,7 +84,7 @@ impl Opened {
 }
 
 impl Places {
-    /// Continues the tables of an interrupted run, or starts new ones.
+    /// Continues the tables of an interrupted run, or starts new ones if there are none.
     fn begin(
         self,
         args: &QueryArgs,
@@ -134,7 +134,8 @@ impl Places {
     }
 }
 
-/// Gives a complete table its final name, unless it already has it. Returns whether the table is there.
+/// Renames a complete table from its temporary to its final name, unless it already has it. Returns whether the table
+/// is there.
 fn named(table: Output, written: Written) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);
@@ -216,7 +217,7 @@ impl Outputs {
         }
     }
 
-    /// Gives the tables their final names.
+    /// Renames the complete tables to their final names.
     pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
         // A run that is resumed after this point only renames the tables.
         self.save(Checkpoint {
@@ -231,7 +232,7 @@ impl Outputs {
     }
 }
 
-/// Continues a table of an interrupted run.
+/// Opens a table of an interrupted run, to append to it.
 fn continued(table: Output, written: Written) -> Result<Table> {
     let Output::File(claim, _) = table else {
         bail!("--resume needs files");

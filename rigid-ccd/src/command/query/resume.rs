@@ -8,7 +8,7 @@ use crate::command::files::{Rows, input_name};
 use crate::command::{Exit, complain};
 use anyhow::{Context, Result, bail};
 
-/// Prints where the run continues.
+/// Prints the row at which a resumed run continues.
 pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     if earlier.is_some() {
         tell_of_page(args);
@@ -48,7 +48,7 @@ pub(super) fn skip_rows(
     }
 }
 
-/// Prints that a page of a resumed run shows only the rows answered now.
+/// Warns that the page of a resumed run shows only the rows answered in this run.
 fn tell_of_page(args: &QueryArgs) {
     if args.html.is_some() {
         complain(
@@ -57,7 +57,7 @@ fn tell_of_page(args: &QueryArgs) {
     }
 }
 
-/// Leaves the tables of a finished run unchanged, if the motions are the same.
+/// Checks that the motions are those of the finished run, whose tables stay unchanged, and returns the exit status.
 pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
     tell_of_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());

@@ -15,12 +15,12 @@ use crate::table::motions::RowPosition;
 use crate::table::results::Line;
 use anyhow::{Context, Result};
 
-/// A run of `ccd query`.
+/// The state of `ccd query` while it answers rows.
 pub(super) struct Run<'a> {
     pub(super) args: &'a QueryArgs,
     pub(super) answering: Answering<'a>,
     pub(super) outputs: Outputs,
-    /// The rows for a page, if one was requested.
+    /// The rows chosen for the page of `--html`; `None` without this option.
     pub(super) shown: Option<Chosen>,
     pub(super) summary: Summary,
 }
@@ -51,7 +51,7 @@ impl Run<'_> {
         }
     }
 
-    /// Writes the results and contacts of a batch of rows.
+    /// Writes the results and contacts of a batch of answered rows.
     fn write(&mut self, batch: &Batch) -> Result<(), CannotWrite> {
         let (columns, mut all) = (self.args.columns(), Vec::new());
         for row in &batch.rows {

@@ -1,4 +1,4 @@
-//! The summary of many answers.
+//! The summary that a run prints after its last row.
 
 #[cfg(test)]
 mod tests;
@@ -11,28 +11,28 @@ use ccd_core::order::greater;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Counts and times of many answers. Its size does not depend on their number.
+/// Counts, times and counters of many answers. Its size does not depend on their number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Summary {
-    /// The number of rows of each status.
+    /// The number of rows of each status, including those of an earlier run.
     pub(super) counts: Counts,
-    /// The number of rows answered by an earlier run; only their status is known.
+    /// The number of rows that an earlier run answered; only their status is known.
     earlier: usize,
     times: Times,
-    /// The sum of the pairs of nodes visited.
+    /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
-    /// The sum of the calls of the distance backend.
+    /// The number of calls of the distance backend in all queries.
     pub(super) oracle_calls: u64,
-    /// The sum of the steps that advanced all pairs together.
+    /// The number of steps that advanced all pairs together, in all queries.
     pub(super) advancements: u64,
-    /// The sum of the steps of the distance backend's search.
+    /// The number of steps of the distance backend's search, in all queries.
     pub(super) oracle_steps: u64,
-    /// The tolerance of the queries.
+    /// The tolerance given for the queries, in the scene's unit of length.
     tolerance: f64,
     limits: LimitCounts,
-    /// The number of answers whose tolerance was raised.
+    /// The number of answers with a larger tolerance than the given one, because of rounding.
     pub(super) raised: usize,
-    /// The largest tolerance of an answer.
+    /// The largest tolerance of any answer, in the scene's unit of length.
     pub(super) largest_tolerance: f64,
 }
 
@@ -54,7 +54,7 @@ impl Summary {
         }
     }
 
-    /// Starts with the rows of an earlier run.
+    /// Adds the counts of the rows that an earlier run answered.
     pub(super) fn with_earlier(self, counts: Counts) -> Self {
         Summary {
             counts,
@@ -79,7 +79,7 @@ impl Summary {
         self.times.add(timed.micros);
     }
 
-    /// Adds a row of status `error`.
+    /// Counts a row of status `error`.
     pub(super) fn add_error(&mut self) {
         self.counts.add(Status::Error);
     }
@@ -113,7 +113,7 @@ impl Summary {
     }
 }
 
-/// A histogram of times with a relative resolution of a thousandth; its size does not grow with their number.
+/// A histogram of times with a relative resolution of a thousandth; its size does not grow with the number of times.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Times {
     /// The counts by the leading bits of the time, which sort as the times do.
@@ -122,7 +122,7 @@ struct Times {
     total: f64,
 }
 
-/// The number of low bits dropped from a time: all except 10 of its fraction.
+/// The number of low bits dropped from a time: all except the leading 10 of its fraction.
 const DROPPED: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl Times {
@@ -136,7 +136,7 @@ impl Times {
         0.5 * (self.nth(self.count.saturating_sub(1) / 2) + self.nth(self.count / 2))
     }
 
-    /// Returns the time at an index in ascending order.
+    /// Returns the time at an index in ascending order of times.
     fn nth(&self, index: u64) -> f64 {
         let mut passed = 0;
         for (&bits, &count) in &self.counts {

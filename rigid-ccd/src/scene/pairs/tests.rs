@@ -1,4 +1,4 @@
-//! The pairs from the tree equal those from comparing every two boxes.
+//! Tests that the tree finds the same pairs as a comparison of every two boxes.
 
 use super::*;
 use ccd_core::glam::DVec3;
@@ -46,7 +46,7 @@ fn pairs_are_those_of_the_twin() {
     assert!(meet > 10_000 && 2 * meet < asked, "{meet} of {asked}");
 }
 
-/// Boxes that touch in a face, a corner or a plane meet.
+/// Tests that boxes that touch in a face, a corner or a plane count as meeting.
 #[test]
 fn boxes_that_touch_meet() {
     let unit = |x: f64, y: f64| SweptBox {

@@ -1,4 +1,4 @@
-//! One row of the table, parsed as the motions of two bodies.
+//! Parses one row of a table as the motions or poses of bodies.
 
 use super::Motions;
 #[cfg(feature = "command")]
@@ -46,12 +46,12 @@ pub fn query<R: Record + ?Sized>(
     })
 }
 
-/// A row of the table of a scene.
+/// A body of a scene, as a row of its table gives it.
 #[cfg(feature = "command")]
 pub(crate) struct BodyRow {
-    /// The id; the index of the row by default.
+    /// The id of the row; its index by default.
     pub(crate) id: String,
-    /// The description of the body.
+    /// The description of the body in the column `body`.
     pub(crate) text: String,
     /// The motion of the body.
     pub(crate) motion: Motion,
@@ -79,14 +79,14 @@ pub(crate) fn body<R: Record + ?Sized>(
     })
 }
 
-/// The poses of both bodies at a time.
+/// The poses of both bodies in one row of a table of paths.
 pub(in crate::table) struct Poses {
     pub(in crate::table) time: f64,
     pub(in crate::table) a: BodyPose,
     pub(in crate::table) b: BodyPose,
 }
 
-/// The pose of a body in a row of a path.
+/// The pose of a body in one row of a table of paths.
 #[derive(Clone, Copy)]
 pub(in crate::table) struct BodyPose {
     pub(in crate::table) pose: Pose,
@@ -95,7 +95,7 @@ pub(in crate::table) struct BodyPose {
     pub(in crate::table) centre: DVec3,
 }
 
-/// Parses a row of a path.
+/// Parses a row of a table of paths.
 pub(in crate::table) fn poses<R: Record + ?Sized>(
     columns: &Columns,
     record: &R,
@@ -124,14 +124,14 @@ struct Row<'a, C> {
     cells: C,
 }
 
-/// The two ways in which a row specifies a motion.
+/// The two ways in which a row gives the motion of a body.
 enum MotionKind {
     EndPose,
     Velocities,
 }
 
 impl<C: Cells> Row<'_, C> {
-    /// Returns the pose at the start.
+    /// Returns the pose of a body at the start.
     fn start(&self, side: Side) -> Result<Pose, RowProblem> {
         let position = self.vector(side, Quantity::Position)?;
         let orientation = self.quaternion(side, Quantity::Orientation)?;
@@ -170,7 +170,7 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    /// Returns how the row specifies the motion; the cells of the other way must be empty.
+    /// Returns the way in which the row gives the motion of a body; the cells of the other way must be empty.
     fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::Spin];
@@ -193,7 +193,7 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    /// Returns the slot of the first column of two quantities whose cell satisfies a condition.
+    /// Returns the first column of two quantities whose cell satisfies a condition; `None` without one.
     fn slot_where(
         &self,
         side: Side,
@@ -205,14 +205,14 @@ impl<C: Cells> Row<'_, C> {
         slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
     }
 
-    /// Returns a vector, with 0 for missing columns; `None` if all of its columns are missing.
+    /// Returns a vector of a body, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
         let parts = self.numbers::<3>(self.columns.slots(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
-    /// Returns a nonzero quaternion before normalisation; `None` if the table has no columns for it.
+    /// Returns a nonzero quaternion of a body as given, not normalised; `None` if the table has no columns for it.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
         let slots = self.columns.slots(side, quantity);
         // A table has all four columns, or none.
@@ -243,7 +243,7 @@ impl<C: Cells> Row<'_, C> {
         Ok(out)
     }
 
-    /// Returns a number; `None` if the table does not have the column.
+    /// Returns the number in a known column; `None` if the table does not have the column.
     ///
     /// An empty cell is an error: writers of tables leave one for a NaN, and 0 would be another motion.
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {

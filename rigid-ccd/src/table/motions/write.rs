@@ -1,4 +1,4 @@
-//! Writes the table of motions.
+//! Writes the table of motions as CSV.
 
 use super::Motions;
 use crate::table::columns::{DURATION, Form, ID, Quantity, Side};
@@ -41,7 +41,7 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
     Ok(())
 }
 
-/// Returns a cell for every known column.
+/// Returns the text of a query's cell in every known column.
 fn cells(query: &Motions) -> Vec<String> {
     let mut cells = vec![String::new(); Form::Motions.names().len()];
     cells[ID].clone_from(&query.id);
