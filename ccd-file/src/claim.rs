@@ -6,7 +6,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// The name ending of a claimed file.
+/// The extension that is appended to the name of a claimed file.
 pub const PARTIAL: &str = ".partial";
 
 /// A file that only this process writes, under a temporary name beside its target.
@@ -18,23 +18,23 @@ pub const PARTIAL: &str = ".partial";
 /// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep).
 #[derive(Debug)]
 pub struct Claim {
-    /// The file, locked while it is open.
+    /// The open file, which is locked as long as it is open.
     file: File,
     partial: PathBuf,
     target: PathBuf,
-    /// The number of bytes that an earlier process left.
+    /// The length in bytes of what an earlier process left in the file.
     left: u64,
     end: End,
 }
 
-/// The fate of a file that is dropped before it is placed.
+/// What happens to a file that is dropped before it has its final name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
     Removed,
     Kept,
 }
 
-/// The maximum number of attempts, if other processes finish between opening and locking.
+/// The maximum number of attempts to lock the file; other processes may finish between opening and locking.
 const TRIES: usize = 100;
 
 impl Claim {
@@ -81,17 +81,17 @@ impl Claim {
         Err(busy())
     }
 
-    /// Returns the number of bytes that an earlier process left in the file.
+    /// Returns the length in bytes of what an earlier process left in the file.
     pub fn left(&self) -> u64 {
         self.left
     }
 
-    /// Returns the temporary path.
+    /// Returns the temporary path under which the file is written.
     pub fn partial(&self) -> &Path {
         &self.partial
     }
 
-    /// Returns the target path.
+    /// Returns the final path of the file.
     pub fn target(&self) -> &Path {
         &self.target
     }
@@ -116,7 +116,7 @@ impl Claim {
         self.place()
     }
 
-    /// Truncates the file, and continues at its end.
+    /// Truncates the file to a length in bytes, so that writing continues there.
     ///
     /// # Errors
     /// Errors of the operating system.

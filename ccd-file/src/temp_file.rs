@@ -1,4 +1,4 @@
-//! Temporary files beside their targets.
+//! Temporary files that are renamed to their final names.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -13,7 +13,7 @@ pub(crate) struct TempFile {
 }
 
 impl TempFile {
-    /// Creates a file beside the target with an unused name: threads and processes may write at the same time.
+    /// Creates a file beside the target with an unused name, because other threads and processes may write there too.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
@@ -80,7 +80,7 @@ pub(crate) fn sibling(path: &Path, ending: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Adds the path to an error about a file that the caller has not named.
+/// Returns the error with the path added to its message.
 pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }

@@ -2,7 +2,7 @@ use super::*;
 use std::fs;
 use std::path::PathBuf;
 
-/// A new folder, which is removed at the end.
+/// A new folder that is removed when the test ends.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -37,7 +37,7 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// A disk that is full after a few bytes.
+/// Writes a few bytes, and then fails as on a full disk.
 fn fills_up(out: &mut dyn Write) -> io::Result<()> {
     out.write_all(b"half")?;
     out.flush()?;
@@ -107,7 +107,7 @@ fn a_claimed_file_is_given_to_one() {
     assert_eq!(text(&target), "all");
 }
 
-/// The name of a claimed file may be taken from it, by hand or by another machine.
+/// Tests a claimed file whose name was taken from it, by hand or by another machine.
 #[test]
 fn a_replaced_file_is_not_placed() {
     let folder = Folder::new("replaced");
@@ -125,7 +125,7 @@ fn a_replaced_file_is_not_placed() {
     assert_eq!(folder.names(), ["table.partial"]);
 }
 
-/// Threads claim, write and place one file, one at a time.
+/// Tests that threads that claim, write and place one file do so one at a time.
 #[test]
 fn threads_have_a_claimed_file_one_after_the_other() {
     let folder = Folder::new("in-turn");

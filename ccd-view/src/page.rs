@@ -1,4 +1,4 @@
-//! Pages of views, as one file or as parts of another page.
+//! Writes views as a page of one file, or as parts of another page.
 
 use crate::{Group, Meshes};
 use serde::Serialize;
@@ -7,35 +7,35 @@ use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The HTML element for the views.
+/// The HTML element in which the scripts show the views.
 pub const HTML: &str = include_str!("page/view.html");
-/// The style of the views.
+/// The style sheet for this element.
 pub const STYLE: &str = include_str!("page/view.css");
 
-/// A page of views.
+/// The content of a page.
 #[derive(Clone, Debug)]
 pub struct Page<'a> {
-    /// The title.
+    /// The title of the page.
     pub title: &'a str,
-    /// The meshes of all bodies.
+    /// The meshes of all bodies on the page.
     pub meshes: Meshes,
-    /// The views. Several groups get a list to choose from.
+    /// The groups of views among which the reader chooses. Several groups get a list to choose from.
     pub groups: Vec<Group>,
 }
 
-/// An error of creating a page.
+/// The error of a page that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
-    /// The data cannot be serialised.
+    /// The views cannot be serialised as JSON.
     #[error("the page's data: {0}")]
     Data(#[from] serde_json::Error),
-    /// The file cannot be written.
+    /// The file of the page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The cause.
+        /// The error of the operating system.
         source: io::Error,
     },
 }
@@ -55,7 +55,7 @@ impl Page<'_> {
         })
     }
 
-    /// Returns the text of the page.
+    /// Returns the page as HTML text.
     ///
     /// # Errors
     /// [`PageError::Data`].
@@ -82,7 +82,7 @@ pub fn scripts() -> String {
     stage_scripts() + &elements(&views)
 }
 
-/// Returns the scripts for another page with a stage of its own: three.js, `Motion`, `Stage` and `Player`.
+/// Returns the scripts for a page that draws its own scene: three.js, `Motion`, `Stage` and `Player`.
 pub fn stage_scripts() -> String {
     elements(&[
         include_str!("../vendor/three/three.min.js"),

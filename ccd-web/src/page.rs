@@ -14,7 +14,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Builds the module, and writes the page.
+/// Builds the WebAssembly module, and writes the page.
 pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
     let mut bindgen = Bindgen::new();
     bindgen.input_path(build()?).no_modules(true)?;
@@ -57,14 +57,14 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         .with_context(|| format!("cannot write {}", out.display()))
 }
 
-/// Compresses the module, which halves the page.
+/// Compresses the WebAssembly module, which halves the page.
 fn zipped(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
     Ok(encoder.finish()?)
 }
 
-/// Builds this crate for the browser, and returns the module.
+/// Builds this crate as a WebAssembly module, and returns the module's path.
 fn build() -> Result<PathBuf> {
     // This command is at TARGET_DIR/PROFILE/ccd-web.
     let command = env::current_exe()?;

@@ -1,4 +1,4 @@
-//! Reading and making NumPy arrays, with NumPy's conversion rules.
+//! Reads and makes NumPy arrays, with NumPy's conversion rules.
 
 use crate::errors::{caused, input};
 use numpy::{PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -19,7 +19,7 @@ pub(crate) fn rows<const N: usize>(
         .collect())
 }
 
-/// Reads rows of three indices.
+/// Reads rows of three vertex indices.
 pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     let given = plain(values, "faces")?;
     let size: usize = given.getattr("size")?.extract()?;
@@ -106,7 +106,7 @@ pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i
     }
 }
 
-/// Reads an index.
+/// Converts a number from Python to an index that is not negative.
 pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
     usize::try_from(value).map_err(|_| input(format!("{what} is {value}, but must be at least 0")))
 }
@@ -116,7 +116,7 @@ pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize
     plain(values, what)?.getattr("shape")?.extract()
 }
 
-/// Makes an array of values, with the values' own type.
+/// Makes an array of values, whose element type NumPy chooses.
 pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
@@ -130,12 +130,12 @@ pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bou
     array.map_err(|error| caused(py, what, error))
 }
 
-/// Returns NumPy's one-letter code for the kind of an array's type.
+/// Returns NumPy's one-letter code for the kind of an array's elements.
 pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Makes a float64 array.
+/// Makes an array of float64 elements.
 fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let given = plain(values, what)?;
     match kind(&given)? {

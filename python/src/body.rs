@@ -1,4 +1,4 @@
-//! Bodies.
+//! The Python class `Body`.
 
 use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, input, of_file, warn, wrong_type};
@@ -34,11 +34,11 @@ use std::path::{Path, PathBuf};
 #[pyclass(name = "Body", module = "rigid_ccd", frozen)]
 pub(crate) struct PyBody {
     pub(crate) body: Body,
-    /// The largest side of the bounding box.
+    /// The largest side of the bounding box, in the body's unit of length.
     size: f64,
     made: Made,
     #[pyo3(get)]
-    /// The message about the mesh.
+    /// The message about the mesh that the body was made of.
     report: String,
 }
 
@@ -364,7 +364,7 @@ impl PyBody {
     }
 }
 
-/// Returns whether a file is a prepared body, by its extension.
+/// Returns whether a file is a prepared body, judged by its extension.
 fn is_stored(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)

@@ -1,4 +1,4 @@
-//! Serial chains, such as robot arms.
+//! The Python classes of serial chains, such as robot arms.
 
 use crate::arrays::{any_numbers, finite, index, numbers};
 use crate::errors::{input, warn};
@@ -159,7 +159,7 @@ impl PyJoint {
 #[pyclass(name = "Chain", module = "rigid_ccd", frozen)]
 pub(crate) struct PyChain {
     chain: Chain,
-    /// The joints, kept for pickle.
+    /// The Python objects of the joints, kept for pickle.
     joints: Vec<Py<PyJoint>>,
     base: GivenPose,
 }
@@ -349,7 +349,7 @@ impl PyLink {
 }
 
 impl PyLink {
-    /// Refuses positions outside the joints' limits.
+    /// Returns the link, or an error if a position is outside a joint's limits.
     fn checked(self) -> PyResult<Self> {
         let joints = self.chain.get().chain.joints().len();
         for (what, positions) in [("start", &self.start), ("end", &self.end)] {
@@ -363,7 +363,7 @@ impl PyLink {
         Ok(self)
     }
 
-    /// Returns the trajectory.
+    /// Returns the link's trajectory.
     pub(crate) fn link(&self) -> PyResult<Link<'_>> {
         let chain = &self.chain.get().chain;
         let link = chain

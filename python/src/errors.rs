@@ -1,4 +1,4 @@
-//! The exceptions.
+//! The Python exceptions, and conversions to them.
 
 use pyo3::exceptions::{
     PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyUserWarning,
@@ -67,7 +67,7 @@ pub(crate) fn fault(panic: &(dyn Any + Send)) -> PyErr {
     ))
 }
 
-/// Returns the message of a panic.
+/// Returns the text of a panic's message.
 fn panic_message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
@@ -136,8 +136,8 @@ pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved)
     with_attribute(py, error, "upper", upper)
 }
 
-/// Converts a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged. Either has what is
-/// done.
+/// Converts the exception of a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged.
+/// Either has what is done.
 pub(crate) fn interrupted<'py>(
     py: Python<'py>,
     cause: PyErr,
@@ -153,8 +153,8 @@ pub(crate) fn interrupted<'py>(
     with_attribute(py, error, "results", results)
 }
 
-/// Warns of input that is valid, but probably a mistake. The warning is about the line of Python that is so many calls
-/// up; Python shows one of each text for a line, so that numbers would make it many.
+/// Warns the Python program of input that is valid, but probably a mistake. The warning is about the line of Python
+/// that is so many calls up; Python shows one of each text for a line, so that numbers would make it many.
 pub(crate) fn warn(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = Remark>,
@@ -167,7 +167,7 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Makes the error of an object with the wrong type.
+/// Makes the error for an object of the wrong type.
 pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type();
     let name = kind

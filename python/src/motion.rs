@@ -1,4 +1,4 @@
-//! Motions, and the accepted forms of poses and rotations.
+//! The Python class `Motion`, and the accepted forms of poses and rotations.
 
 use crate::arrays::{finite, shape};
 use crate::errors::{input, warn};
@@ -7,8 +7,8 @@ use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
-/// The allowed deviation of a rotation matrix from orthonormal: a few products in float32 reach it. The rotation is
-/// that of the quaternion that fits it.
+/// The allowed deviation of a rotation matrix from an orthonormal one: a few products in float32 reach it. The rotation
+/// is that of the quaternion that fits it.
 const ORTHONORMAL: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
@@ -166,20 +166,20 @@ impl PyMotion {
     }
 }
 
-/// A position and an orientation before normalisation, which may change even a normalised quaternion.
+/// A position and an orientation as given, before normalisation, which may change even a normalised quaternion.
 #[derive(Clone, Copy)]
 pub(crate) struct GivenPose([f64; 3], DQuat);
 
 impl GivenPose {
     pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
 
-    /// Returns the pose.
+    /// Returns the normalised pose; `what` names it in errors.
     pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
         Pose::new(self.0, self.1).map_err(|error| input(format!("{what}: {error}")))
     }
 }
 
-/// Converts a pose to a position and a quaternion in Python.
+/// Converts a pose to a tuple of a position and a quaternion in Python.
 impl<'py> IntoPyObject<'py> for GivenPose {
     type Target = PyTuple;
     type Output = Bound<'py, PyTuple>;
@@ -210,7 +210,7 @@ pub(crate) fn matrix_of<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::
     numpy::PyArray2::from_vec2(py, &matrix).unwrap_or_else(|_| unreachable!("rows of four numbers"))
 }
 
-/// Reads a rotation.
+/// Reads a rotation from a quaternion, a matrix or a SciPy rotation.
 fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     if value.hasattr("as_matrix")? {
         return matrix(&value.call_method0("as_matrix")?, "rotation");
@@ -252,12 +252,12 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     }
 }
 
-/// Reads a pose.
+/// Reads a pose from any of its accepted forms; `what` names it in errors.
 pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
     given_pose(value, what)?.pose(what)
 }
 
-/// Reads a pose without normalising it.
+/// Reads a pose as given, without normalising it.
 pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(finite(&place, what)?, rotation_of(&turned)?));

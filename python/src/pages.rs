@@ -1,4 +1,4 @@
-//! Pages of rows, as `ccd view` writes them.
+//! Writes pages for rows of a table, as `ccd view` writes them.
 
 use crate::body::body_of;
 use crate::errors::{input as refuse, of_file};
@@ -46,7 +46,7 @@ pub(crate) fn write_pages(
     Ok(written?)
 }
 
-/// A page cannot be made.
+/// The error of a page that cannot be made.
 enum Fault {
     Table(TableError),
     Folder(PathBuf, std::io::Error),

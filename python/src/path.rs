@@ -1,4 +1,4 @@
-//! Paths through poses.
+//! The Python class of paths through poses.
 
 use crate::arrays::{any_numbers, finite, rows};
 use crate::errors::input;
@@ -30,11 +30,11 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
-    /// The arguments, kept for pickle.
+    /// The arguments of the constructor, kept for pickle.
     made: Parts,
 }
 
-/// Times, poses, a center and angular velocities.
+/// The times, poses, centre and angular velocities of a path.
 type Parts = (Vec<f64>, Vec<GivenPose>, [f64; 3], Option<Vec<[f64; 3]>>);
 
 #[pymethods]

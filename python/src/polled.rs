@@ -1,4 +1,4 @@
-//! Long work without the GIL, which Ctrl-C can interrupt.
+//! Runs long work without the GIL, so that Ctrl-C can interrupt it.
 
 use crate::errors::fault;
 use pyo3::exceptions::PyRuntimeError;
@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// The interval between two checks for signals.
+/// The interval between two checks for signals such as Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Runs work on its own thread, without the GIL, and returns the result.

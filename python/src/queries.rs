@@ -1,4 +1,4 @@
-//! Single queries.
+//! The Python functions that answer single queries.
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
@@ -18,11 +18,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The budget of about a tenth of a second of work. A query with more to do is asked again on a thread of its own,
-/// while this one looks for Ctrl-C.
+/// The work limit of a first attempt, about a tenth of a second. A query with more to do is asked again on a thread of
+/// its own, while this one looks for Ctrl-C.
 const SHORT: u64 = 100_000;
 
-/// The deadline of a first attempt, since a path has a budget for each of its segments.
+/// The time limit of a first attempt, needed because a path has a work limit for each of its segments.
 const MOMENT: Duration = Duration::from_millis(200);
 
 thread_local! {
@@ -30,7 +30,7 @@ thread_local! {
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// Two moving bodies, and what is asked about them.
+/// Two moving bodies, and the question about them.
 struct Asked<'a> {
     question: Question,
     bodies: [Moving<'a>; 2],
@@ -44,7 +44,7 @@ impl Asked<'_> {
         solver.answer(self.question, &query)
     }
 
-    /// Compares what two answers without a result prove: the larger number is the better bound.
+    /// Returns the number that an unresolved answer proves, of which a larger one is the better bound.
     fn proven(&self, known: &Unresolved) -> f64 {
         match self.question {
             Question::GreatestDistance => -known.upper,
@@ -53,7 +53,7 @@ impl Asked<'_> {
         }
     }
 
-    /// Answers the question, without the GIL. Ctrl-C ends it.
+    /// Answers the question without the GIL, so that other Python threads run. Ctrl-C ends it.
     fn run(&self, py: Python<'_>, settings: &Settings) -> PyResult<Answer> {
         let begin = Instant::now();
         let deadline = settings.deadline;
@@ -103,7 +103,7 @@ impl Asked<'_> {
     }
 }
 
-/// A body and its motion, as arguments.
+/// A body and its motion, as a Python caller passes them.
 type Given<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
 /// Asks a question about two moving bodies.
@@ -138,12 +138,12 @@ fn ask(
     asked.run(py, settings)
 }
 
-/// Returns the contact of an answer.
+/// Returns the contact in an answer; `None` if the bodies stay apart.
 fn hit(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
     answer.hit().map_err(|known| unresolved(py, &known))
 }
 
-/// Returns the distance of an answer.
+/// Returns the distance in an answer, as a Python object.
 fn measured<'py>(
     py: Python<'py>,
     answer: &Answer,

@@ -1,4 +1,4 @@
-//! The settings of queries, given as keyword arguments.
+//! Reads the settings of queries from Python keyword arguments.
 
 use crate::errors::{caused, input};
 use pyo3::exceptions::PyTypeError;
@@ -7,22 +7,22 @@ use pyo3::types::PyDict;
 use rigid_ccd::Settings;
 use std::time::Duration;
 
-/// The settings of a query about contacts.
+/// The names of the settings of a query about contacts.
 pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "deadline"];
 
-/// The settings of a query about distances.
+/// The names of the settings of a query about distances.
 pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
 
-/// The settings of a query about the least distance.
+/// The names of the settings of a query about the least distance.
 pub(crate) const OF_APPROACHES: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
 
-/// The further settings of a table query, which are in its signature.
+/// The names of the further settings of a table query, which are in its signature.
 pub(crate) const OF_TABLES: &[&str] = &["threads", "progress", "micros"];
 
-/// The maximum number of threads, as in the command.
+/// The maximum number of threads, the same as in the command.
 const MOST_THREADS: u16 = 1024;
 
-/// Reads the settings of a query; only the names in `known` are accepted.
+/// Reads the settings of a query; a keyword that is not in `known` is an error.
 pub(crate) fn read(
     given: Option<&Bound<'_, PyDict>>,
     known: &[&'static str],
@@ -70,7 +70,7 @@ where
     })
 }
 
-/// Reads a time in seconds; infinity gives `None`.
+/// Reads a time limit in seconds; infinity gives `None`.
 fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let finite = seconds.filter(|&seconds| seconds != f64::INFINITY);
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();

@@ -1,4 +1,4 @@
-//! Tables in Arrow columns.
+//! The Python class `Table`, whose columns are Arrow arrays.
 
 pub(crate) mod answering;
 mod batch;
@@ -164,7 +164,7 @@ impl PyTable {
     }
 }
 
-/// The pickled form of a table, and its checksum.
+/// The pickled form of a table, with its checksum.
 type Stored<'py> = (Bound<'py, PyBytes>, u32);
 
 impl PyTable {
@@ -175,7 +175,7 @@ impl PyTable {
         (Arc::new(field.with_metadata(metadata)), columns)
     }
 
-    /// Returns the number of rows of each status, in words.
+    /// Describes in words how many rows have each status.
     fn counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {

@@ -1,4 +1,4 @@
-//! A question about each row of a table.
+//! The Python functions that answer a question about each row of a table.
 
 use crate::body::{body_of, warn_of_tolerance};
 use crate::errors::{input as refuse, interrupted, of_table, warn, with_attribute, wrong_type};

@@ -1,4 +1,4 @@
-//! Rows of Arrow columns, in the form that the library reads.
+//! Converts rows of Arrow columns to the form that the library reads.
 
 use super::input::{ID, Reader, TIME};
 use arrow_array::cast::AsArray;
@@ -15,16 +15,16 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Consecutive rows of a table.
+/// A batch of consecutive rows of a table.
 #[derive(Debug)]
 pub(crate) struct Batch {
-    /// The index of the first row.
+    /// The index of the batch's first row in the table.
     pub(crate) first: usize,
     pub(crate) rows: usize,
-    /// The column `id`, unchanged.
+    /// The column `id` with the caller's own values.
     id: Option<ArrayRef>,
     names: Names,
-    /// The other columns; `None` in the place of `id`.
+    /// The other columns as numbers; `None` in the place of `id`.
     columns: Vec<Option<Numbers>>,
 }
 
@@ -32,26 +32,26 @@ pub(crate) struct Batch {
 #[derive(Debug)]
 struct Numbers {
     values: Float64Array,
-    /// Whole numbers that float64 cannot represent exactly, by row index; `None` without any.
+    /// Whole numbers that float64 cannot represent exactly, by row index; `None` if there are none.
     inexact: Option<HashMap<usize, String>>,
 }
 
-/// Whether ids are read as text; results always have the original ones.
+/// Whether ids are read as text; results always have the caller's own values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Names {
     Read,
     LeftOut,
 }
 
-/// A row of a batch.
+/// One row of a batch.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) batch: Arc<Batch>,
-    /// The index of the row in the batch.
+    /// The index of the row in its batch.
     pub(crate) at: usize,
 }
 
-/// The names of a table's columns.
+/// Returns the names of a table's columns.
 pub(crate) fn header(schema: &Schema) -> Vec<String> {
     schema
         .fields()
@@ -60,7 +60,7 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
         .collect()
 }
 
-/// Refuses columns without numbers, and types of ids whose texts may collide.
+/// Refuses columns that are not numbers, and types of ids whose texts may collide.
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME).is_ok();
     for field in schema.fields() {
@@ -99,8 +99,8 @@ fn unpacked(kind: &DataType) -> &DataType {
     }
 }
 
-/// Converts a column to the type `kind`. One of nulls, or of runs, says how long it is in a few bytes, and becomes
-/// longer.
+/// Converts a column to the type `kind`, without dictionary or run encoding. A column of nulls or of runs takes a few
+/// bytes whatever its length, so that the result may be much larger.
 fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
     if column.data_type() == kind {
         return Ok(Arc::clone(column));
@@ -253,7 +253,7 @@ impl Cells for &Row {
     }
 }
 
-/// The batches of a table.
+/// An iterator over the batches of a table.
 pub(crate) struct Batches {
     reader: Reader,
     rows: usize,
@@ -301,11 +301,11 @@ fn unpacked_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 
-/// An iterator over the rows of a batch, for reading paths.
+/// An iterator over the rows of a batch, by which paths are read.
 pub(crate) struct Rows {
     header: Vec<String>,
     current: Row,
-    /// The number of rows read.
+    /// The number of rows read so far.
     read: usize,
 }
 
@@ -320,7 +320,7 @@ impl Rows {
         })
     }
 
-    /// Returns all of the rows.
+    /// Returns the batch with all of the rows.
     pub(crate) fn batch(&self) -> Arc<Batch> {
         Arc::clone(&self.current.batch)
     }

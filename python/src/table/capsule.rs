@@ -1,4 +1,4 @@
-//! Arrow arrays from Python capsules.
+//! Reads Arrow arrays from Python capsules.
 
 use crate::errors::input;
 use arrow_array::RecordBatch;
@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use pyo3_arrow::PyRecordBatch;
 
-/// Takes a batch from the capsules of an object.
+/// Reads a batch from the Arrow capsules of a Python object.
 ///
 /// An object that hands over the same capsules twice is refused: their array is released, and its memory may be
 /// somebody else's.

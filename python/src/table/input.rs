@@ -1,4 +1,4 @@
-//! Tables of motions from Python objects.
+//! Reads tables of motions from Python objects.
 
 use super::capsule;
 use crate::arrays::{kind, plain};
@@ -51,8 +51,8 @@ fn opened(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Returns a stream that ends with an error where the inner reader would panic: if a batch does not fit its schema, or
-/// an error has no message.
+/// Returns a reader that gives an error where the inner one would panic: if a batch does not fit its schema, or an
+/// error has no message.
 fn steady(mut reader: Reader) -> Reader {
     let schema = reader.schema();
     let next = move || {
@@ -66,7 +66,7 @@ fn steady(mut reader: Reader) -> Reader {
     Box::new(RecordBatchIterator::new(from_fn(next), schema))
 }
 
-/// Returns the library of a data frame, also of a derived class.
+/// Returns the library of a data frame, also of a derived class; `None` for other objects.
 fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     for class in motions.get_type().mro() {
         let module: String = class.getattr("__module__")?.extract()?;
@@ -78,8 +78,8 @@ fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok(None)
 }
 
-/// Gives the columns of a polars frame that contain only nulls a type: Arrow arrays of nulls have no buffers, and
-/// polars makes them with one.
+/// Returns a polars frame whose columns of nulls have a type: Arrow arrays of nulls have no buffers, and polars makes
+/// them with one.
 fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let polars = frame.py().import("polars")?;
     let types = PyDict::new(frame.py());
@@ -97,7 +97,7 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     }
 }
 
-/// Drops the index of a pandas frame, which would be a column, unless it has a name.
+/// Returns a pandas frame without its index, which would be a column, unless the index has a name.
 fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;

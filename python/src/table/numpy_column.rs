@@ -1,4 +1,4 @@
-//! Conversion of a column to a NumPy array.
+//! Converts a column to a NumPy array.
 
 use crate::errors::{caused, input as refuse};
 use arrow_array::cast::AsArray;
@@ -38,7 +38,7 @@ fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, P
     Ok(numpy::PyArray1::from_vec(py, values).into_any())
 }
 
-/// Returns a view of a column of numbers, ignoring validity.
+/// Returns a view of a column of numbers, in which nulls have arbitrary values.
 fn view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
     // Arrow's names of these types are NumPy's, but for the capital letters.
@@ -98,7 +98,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     Ok(objects)
 }
 
-/// Returns the nested type whose values `to_pylist` cannot convert.
+/// Returns the nested type in a column whose values `to_pylist` cannot convert.
 fn without_objects(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::ListView(_)
