@@ -23,9 +23,9 @@ use rigid_ccd::command::Progress;
 use settings::settings;
 use std::time::Duration;
 
-/// The number of rows of a scene, evenly spread.
+/// The number of rows of each scene that are measured, evenly spread over its table.
 const ROWS: usize = 32;
-/// The scenes; each mesh occurs once.
+/// The names of the measured scenes, in which each mesh occurs once.
 const SCENES: [&str; 7] = [
     "santa",
     "bunny turning",
@@ -35,7 +35,7 @@ const SCENES: [&str; 7] = [
     "falling rings",
     SMALL,
 ];
-/// The only scene small enough for the slowest schedule.
+/// The name of the only scene that is small enough for the slowest schedule.
 const SMALL: &str = "knot216";
 
 fn advancement(criterion: &mut Criterion) {

@@ -1,5 +1,5 @@
-//! Benchmarks the search for extremal corners: a scan of all corners, and climbing from a cold and a warm start, by the
-//! size of the piece. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
+//! Benchmarks the search for extremal corners, by the size of the piece: a scan of all corners, and climbing from a
+//! cold and a warm start. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
 //!
 //! `cargo bench -p ccd-bench --bench support`
 
@@ -15,7 +15,7 @@ use rand_pcg::Pcg64;
 use settings::settings;
 use std::hint::black_box;
 
-/// The number of directions in a sample.
+/// The number of directions in which the extremal corner is searched for.
 const LOOKS: usize = 256;
 
 fn support(criterion: &mut Criterion) {
@@ -59,7 +59,7 @@ fn support(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Returns directions a hundredth of a radian apart, as in the steps of a query.
+/// Returns directions, each a hundredth of a radian from the one before, as in the steps of a query.
 fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
     let turn = DQuat::from_scaled_axis(0.01 * direction(rng));
     let first = direction(rng);

@@ -1,4 +1,4 @@
-//! A chart of the penetration depth of bodies over the steps.
+//! Draws a chart of the bodies' penetration depth over the steps.
 
 use crate::{METHODS, Method};
 use anyhow::Result;
@@ -7,16 +7,16 @@ use plotters::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 
-/// The depths after each step of a world, for each of [`METHODS`].
+/// The penetration depths of a world after each step, for each of [`METHODS`].
 pub(crate) struct Depths {
     pub(crate) world: &'static str,
     pub(crate) methods: Vec<Vec<f64>>,
 }
 
-/// The least depth of the axis, in metres; smaller depths are drawn there.
+/// The least depth on the chart's axis, in metres; smaller depths are drawn there.
 const LEAST: f64 = 1e-6;
 
-/// The maximum number of values of a line: each is the deepest of several steps.
+/// The maximum number of values of a line, each of which is the deepest of several steps.
 const MOST_VALUES: usize = 300;
 
 /// Draws one panel for each world.
@@ -69,7 +69,7 @@ fn style(method: Method) -> ShapeStyle {
     }
 }
 
-/// Returns the greatest depth of each group of steps.
+/// Returns the greatest depth in each group of consecutive steps, with the number of the step.
 fn deepest(values: &[f64]) -> Vec<(usize, f64)> {
     let few = values.len().div_ceil(MOST_VALUES).max(1);
     let chunks = values.chunks(few).enumerate();

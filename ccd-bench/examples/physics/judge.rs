@@ -1,4 +1,4 @@
-//! Counts passages of bodies through each other and measures penetration depths, with the peer's own tests.
+//! Counts passages of bodies through each other and measures penetration depths, with parry's own tests.
 
 use crate::glue::at;
 use crate::worlds::World;
@@ -9,23 +9,23 @@ use parry3d_f64::query::{contact, intersection_test};
 use parry3d_f64::shape::Shape;
 use rigid_ccd::{Motion, Moving};
 
-/// The measurements so far.
+/// The passages and penetration depths measured so far.
 #[derive(Default)]
 pub(crate) struct Tally {
-    /// The pairs that were apart before and after a step, and overlapped between.
+    /// The number of pairs that were apart before and after a step, and overlapped between.
     pub(crate) passed: usize,
-    /// The deepest penetration after each step.
+    /// The deepest penetration after each step, in metres.
     pub(crate) depths: Vec<f64>,
-    /// The number of steps of moving bodies, and the number of those that were stopped.
+    /// The number of steps of single moving bodies, and how many of these were stopped.
     moves: usize,
     stops: usize,
 }
 
-/// A body's motion in a step, and the time at which it stops.
+/// The motion of a body in a step, and the time at which the body stops.
 pub(crate) type Moved = (Motion, f64);
 
 impl Tally {
-    /// Measures one step of all bodies of a world.
+    /// Measures one step of all bodies in a world.
     pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
         let mut deepest = 0.0;
         for (body, &(_, stop)) in world.bodies.iter().zip(moved) {
@@ -40,7 +40,7 @@ impl Tally {
         Ok(())
     }
 
-    /// Returns the share of the bodies' steps that were stopped.
+    /// Returns the share of the bodies' steps in which the body was stopped.
     pub(crate) fn stopped(&self) -> f64 {
         self.stops as f64 / self.moves as f64
     }
@@ -66,7 +66,7 @@ fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>
     Ok(asked.collect())
 }
 
-/// Returns the place and the shape of two bodies at a time.
+/// Returns the poses and the shapes of two bodies at a time.
 fn placed<'w>(world: &'w World, moved: &[Moved], pair: [usize; 2], time: f64) -> [Placed<'w>; 2] {
     pair.map(|k| {
         let (motion, stop) = &moved[k];

@@ -1,5 +1,5 @@
-//! Fast bodies in rapier, stepped without continuous collision detection, with rapier's own, and with certified times:
-//! passages through each other, and penetration depths.
+//! Compares three ways of stepping fast bodies in rapier by their passages through each other and penetration depths:
+//! without continuous collision detection, with rapier's own, and with certified times.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example physics -- [STEPS [CHART.svg]]
@@ -23,14 +23,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use worlds::{Simulated, World};
 
-/// The method of stepping a world.
+/// The way in which a world is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Method {
-    /// No continuous collision detection.
+    /// Steps without continuous collision detection.
     Plain,
-    /// rapier's continuous collision detection, for all bodies and also between moving ones.
+    /// Steps with rapier's continuous collision detection, for all bodies and also between moving ones.
     Rapier,
-    /// Certified times.
+    /// Steps in which each body stops at its certified first contact.
     Certified,
 }
 
@@ -86,7 +86,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Steps a world; returns the measurements and the duration of the steps.
+/// Steps a world many times; returns the measurements and the duration of the steps.
 fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration)> {
     let duration = world.physics.integration_parameters.dt;
     let bodies: Vec<_> = world.bodies.iter().map(|body| body.body.clone()).collect();
@@ -140,7 +140,7 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
     poses.collect()
 }
 
-/// Returns the motion of each body in a step without stops.
+/// Returns the motion that each body has in a step without stops.
 fn moved(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
     let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];

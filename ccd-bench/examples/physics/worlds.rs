@@ -13,14 +13,14 @@ use rapier3d_f64::prelude::{
 use rigid_ccd::Body;
 use std::f64::consts::FRAC_PI_2;
 
-/// A world, its bodies, and the forces on them.
+/// A rapier world with its bodies, and the forces on them.
 pub(crate) struct World {
     pub(crate) name: &'static str,
     pub(crate) physics: PhysicsWorld,
     pub(crate) bodies: Vec<Simulated>,
-    /// The joined pairs, which may overlap.
+    /// The pairs of bodies joined to each other, which may overlap.
     pub(crate) joined: Vec<[usize; 2]>,
-    /// The length of the thinnest part of a body.
+    /// The length of the thinnest part of any body, in metres.
     pub(crate) thinnest: f64,
     act: fn(&mut World, u32),
     rng: Pcg64,
@@ -33,15 +33,15 @@ pub(crate) struct Simulated {
     pub(crate) is_fixed: bool,
 }
 
-/// The distance that rapier keeps around each body. Bodies that rest on each other are farther apart than those that
-/// are stopped.
+/// The distance that rapier keeps around each body, in metres. Bodies that rest on each other are farther apart than
+/// those that are stopped.
 const SKIN: f64 = 0.002;
 
-/// The number of steps after which bodies are thrown again.
+/// The number of steps after which the bodies are thrown again.
 const ROUND: u32 = 60;
 
 impl World {
-    /// The number of worlds.
+    /// The number of different worlds.
     pub(crate) const COUNT: usize = 3;
 
     /// Creates a world by its number.
@@ -53,7 +53,7 @@ impl World {
         }
     }
 
-    /// Applies forces to the bodies before a step.
+    /// Applies forces to the bodies, or throws them again, before a step.
     pub(crate) fn act(&mut self, step: u32) {
         (self.act)(self, step);
     }
@@ -195,10 +195,10 @@ fn bunnies(method: Method) -> Result<World> {
 
 /// The number of links of the chain.
 const LINKS: usize = 14;
-/// Half the length of a link.
+/// Half the length of a link, in metres.
 const HALF: f64 = 0.06;
 
-/// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and laid out anew.
+/// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and then placed anew.
 fn chain(method: Method) -> Result<World> {
     let mut world = World::empty("chain through a slot", method, 0.004, |world, step| {
         if step.is_multiple_of(4 * ROUND) {

@@ -98,12 +98,12 @@ Examples:
   ccd-bench chart --scenes santa --tolerances 1e-3,1e-6
   ccd-bench chart --export scenes           # meshes and motions, for other programs";
 
-/// The tolerances from coarse to fine, as fractions of a body of size 1.
+/// The tolerances at which methods are measured, from coarse to fine, for bodies of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// The tolerances at which methods are compared at equal accuracy.
 const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
 
-/// The allowance for everything in half an hour.
+/// The limits of measurements for a comparison of everything in half an hour.
 const AT_LENGTH: Allowance = Allowance {
     cell: Duration::from_millis(600),
     patience: Duration::from_secs(4),
@@ -111,7 +111,7 @@ const AT_LENGTH: Allowance = Allowance {
     least_rows: 10,
     preparation: Duration::from_secs(20),
 };
-/// The allowance for a few rows of everything in a minute.
+/// The limits of measurements for a comparison of a few rows of everything in a minute.
 const AT_A_GLANCE: Allowance = Allowance {
     cell: Duration::from_millis(40),
     patience: Duration::from_millis(200),
@@ -202,7 +202,7 @@ fn present(
     Ok(Exit::AllAnswered)
 }
 
-/// Returns the plan for everything, or for a few rows with the fast methods.
+/// Returns the plan to measure everything, or a few rows with the fast methods.
 fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
     if let Some(directory) = &common.models {
         ensure!(
@@ -229,8 +229,8 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
     })
 }
 
-/// Returns true if a method runs a few rows fast. Peers take time to start, since they run in other processes, so only
-/// one of them is included.
+/// Returns true if the method answers a few rows within seconds. Peers take time to start, since they run in other
+/// processes, so only one of them is included.
 fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::Ours(..) | Method::Rival(_) => true,

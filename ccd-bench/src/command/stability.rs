@@ -57,7 +57,7 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-/// Returns all methods that answer queries; FAST as published comes after its sound forms.
+/// Returns all methods that answer queries; FAST as published comes after its variants with a sound bound.
 fn known_methods() -> Vec<Method> {
     let mut methods = Method::all();
     let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);

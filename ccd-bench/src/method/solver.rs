@@ -7,23 +7,23 @@ use std::time::{Duration, Instant};
 
 /// A solver that answers queries about two bodies, one after another.
 pub trait Solver {
-    /// Returns the first contact that the solver finds with a tolerance, a length.
+    /// Returns the first contact that the solver finds with a tolerance, given as a length.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply;
 }
 
-/// A reply and its time.
+/// A solver's reply to a query, with the time that it took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimedReply {
-    /// The reply.
+    /// The solver's reply to the query.
     pub reply: Reply,
-    /// The time in microseconds.
+    /// The median time of the query, in microseconds.
     pub micros: f64,
 }
 
-/// The largest number of answers to one query. The time is the median of all answers except the
+/// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
 const REPEATS: usize = 4;
-/// The total time of answers after which a query is not repeated.
+/// The total time after which a query is not answered again for timing.
 const REPEATED_WITHIN: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
@@ -45,11 +45,11 @@ pub fn timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedR
 /// The reply of a solver to one query.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reply {
-    /// The answer.
+    /// What the solver claims about the first contact.
     pub claim: Claim,
     /// The number of steps in time: advancements, halvings or samples, depending on the solver.
     pub steps: u64,
-    /// The tolerance of the answer, if the solver states one.
+    /// The tolerance at which the solver answered, if it states one.
     pub tolerance: Option<f64>,
     /// The reason for an incomplete answer, if the solver gives one.
     pub reason: Option<String>,
@@ -72,17 +72,17 @@ impl Reply {
     }
 }
 
-/// The answer of a solver.
+/// What a solver claims about the first contact of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Claim {
-    /// The bodies come within the tolerance at that time, and not before.
+    /// The bodies come within the tolerance at a time, and not before.
     Contact {
-        /// The time, from 0 to the query's duration.
+        /// The time of the claimed contact, from 0 to the query's duration.
         time: f64,
     },
     /// The bodies do not come within the tolerance over the whole duration.
     Free,
-    /// The solver gave up.
+    /// The solver gave up before the end of the duration.
     Unresolved {
         /// The time before which there is no contact, according to the solver.
         safe_until: f64,
@@ -94,7 +94,7 @@ pub enum Claim {
 }
 
 impl Claim {
-    /// Returns the name of the claim's kind.
+    /// Returns the name of the claim's kind in tables.
     pub fn status(self) -> &'static str {
         match self {
             Claim::Contact { .. } => "contact",

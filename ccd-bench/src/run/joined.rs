@@ -14,7 +14,7 @@ use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// A trial measured elsewhere.
+/// A trial that another program measured.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Foreign {
     scene: String,
@@ -78,7 +78,8 @@ pub fn read_trials(file: &Path) -> Result<Vec<Foreign>> {
     Ok(foreign)
 }
 
-/// Judges trials. They replace earlier trials of the same methods.
+/// Judges trials that other programs measured, and adds them to the evaluation. They replace earlier trials of the same
+/// methods.
 ///
 /// # Errors
 /// If a trial names an unknown scene or query.
@@ -140,7 +141,7 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
     Ok(trials)
 }
 
-/// Returns the claim of a trial, or the verdict on one without a claim.
+/// Returns the claim of a trial, or the verdict on a trial that has no claim.
 fn reported(foreign: &Foreign) -> Result<Result<Claim, Verdict>> {
     let time = || {
         let time = foreign.time.filter(|time| time.is_finite());

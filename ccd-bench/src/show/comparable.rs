@@ -1,4 +1,4 @@
-//! Comparable medians of methods that ran on different rows.
+//! Makes medians comparable between methods that ran on different rows.
 //!
 //! A slow method is stopped after a few rows, which may be the easy ones. Its time is then estimated as that of a
 //! reference that was asked more, times the median ratio of both over the rows that both were asked.
@@ -7,10 +7,10 @@ use crate::run::measured::{Cell, Trial};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
 
-/// The key of a row: scene, tolerance, index.
+/// The key of a row in a table of trials: scene, bits of the tolerance, index of the row.
 type Place<'a> = (&'a str, u64, usize);
 
-/// The times of a reference, by row.
+/// The times of the method with which the others are compared, by row.
 #[derive(Debug)]
 pub struct Reference<'a> {
     name: &'a str,
@@ -19,7 +19,7 @@ pub struct Reference<'a> {
 }
 
 impl<'a> Reference<'a> {
-    /// Collects the times of a method.
+    /// Collects the times of the method with this name.
     pub fn new(name: &'a str, trials: &'a [Trial]) -> Self {
         let own = trials.iter().filter(|trial| trial.method == name);
         Reference {
@@ -29,7 +29,7 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Returns the name of the method.
+    /// Returns the name of the reference method.
     pub fn name(&self) -> &'a str {
         self.name
     }
@@ -50,7 +50,8 @@ impl<'a> Reference<'a> {
         (!ratios.is_empty()).then(|| median(&mut ratios))
     }
 
-    /// Returns the cells with comparable medians. A cell keeps its own where the reference was not asked.
+    /// Returns the cells with their medians replaced by comparable ones: the reference's median times the ratio. A cell
+    /// keeps its own where the reference was not asked.
     pub fn comparable(&self, cells: &[Cell]) -> Vec<Cell> {
         let at = |cell: &&Cell| cell.method == self.name;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))

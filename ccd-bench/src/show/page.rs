@@ -1,4 +1,4 @@
-//! One page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
+//! Makes one page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
 
 use super::chart::Drawing;
 use super::tables::TextTable;
@@ -8,7 +8,7 @@ use ccd_view::{escape, filled};
 #[cfg(test)]
 mod tests;
 
-/// Returns the text of the page.
+/// Returns the HTML text of the page.
 ///
 /// # Errors
 /// If the views cannot be serialised.

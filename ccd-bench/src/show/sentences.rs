@@ -1,4 +1,4 @@
-//! The findings of an evaluation, in a few sentences.
+//! Describes the findings of an evaluation in a few sentences.
 
 #[cfg(test)]
 mod tests;
@@ -8,22 +8,22 @@ use crate::show::chart::{Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
 use ccd_core::order::{greater, lesser};
 
-/// The measurements.
+/// The measurements that the sentences describe.
 #[derive(Clone, Copy, Debug)]
 pub struct Measurements<'a> {
-    /// The scenes.
+    /// The scenes that were measured.
     pub scenes: &'a [SceneFacts<'a>],
     /// The methods that give answers, in their usual order.
     pub methods: &'a [MethodFacts<'a>],
-    /// Every method on every scene at every tolerance.
+    /// The measurements of every method on every scene at every tolerance.
     pub cells: &'a [Cell],
-    /// The reference method for times.
+    /// The method with which times are compared.
     pub reference: &'a Reference<'a>,
     /// The tolerance at which times are compared.
     pub tolerance: f64,
 }
 
-/// The families in the order of the sentences, with their names.
+/// The families of methods in the order of the sentences, with their names.
 const FAMILIES: [(Family, &str); 4] = [
     (Family::Ours, "This project"),
     (Family::Model, "This project, bodies of other pieces"),
@@ -91,7 +91,7 @@ impl Measurements<'_> {
         })
     }
 
-    /// Describes the time of a query with the reference.
+    /// Describes the time of a query with the reference method.
     fn own_time(&self) -> Option<String> {
         let name = self.reference.name();
         let medians = || {
@@ -107,7 +107,7 @@ impl Measurements<'_> {
         ))
     }
 
-    /// Describes the ratio of the others' times to the reference's, from scene to scene.
+    /// Describes the ratios of the other methods' times to the reference's, from scene to scene.
     fn other_times(&self) -> Option<String> {
         let others = self
             .methods

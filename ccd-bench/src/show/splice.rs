@@ -6,8 +6,8 @@ use anyhow::{Context, Result, ensure};
 use std::fs;
 use std::path::Path;
 
-/// Replaces the text between `<!-- ccd chart: NAME -->` and the next `<!-- end -->` by the table of
-/// that name, for every table that the file has a marker for.
+/// Replaces the text between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` by the table of that name, for
+/// each marker in the file.
 ///
 /// # Errors
 /// If the file cannot be read or written, has no marker of any table, or has a marker without an end.

@@ -1,4 +1,4 @@
-//! A few motions of each scene, to view in three dimensions on a page.
+//! Draws a few motions of each scene, to view in three dimensions on a page.
 
 use crate::method::first_contact;
 use crate::scene::Scene;
@@ -13,13 +13,13 @@ use rigid_ccd::table::results::ResultRow;
 /// The views of all scenes; equal meshes are stored once.
 #[derive(Clone, Debug, Default)]
 pub struct Views {
-    /// The meshes.
+    /// The meshes of all scenes' bodies.
     pub meshes: Meshes,
-    /// The views, by scene.
+    /// The views of motions, one group for each scene.
     pub groups: Vec<Group>,
 }
 
-/// The numbers of contacts and of other motions of a scene to view.
+/// The maximum numbers of contacts and of other motions of a scene to view.
 const MOST: [usize; 2] = [6, 2];
 
 impl Views {

@@ -1,4 +1,4 @@
-//! The bodies of the families.
+//! Makes the meshes of the families.
 
 use crate::scene::model::sphere::sphere;
 use crate::scene::model::{Board, Plate, Ring};
@@ -30,13 +30,13 @@ pub(super) fn ball(radius: f64, vertices: usize) -> Result<TriangleMesh, MeshErr
     TriangleMesh::new(points.into_iter().map(|p| radius * p).collect(), &faces)
 }
 
-/// Returns an open square across z.
+/// Returns an open square in the plane z = 0.
 pub(super) fn sheet(half_side: f64) -> Result<TriangleMesh, MeshError> {
     let squares = 4;
     Plate { half_side, squares }.mesh()
 }
 
-/// Returns a torus about z.
+/// Returns a torus about the z axis.
 pub(super) fn torus(radius: f64, tube: f64) -> Result<TriangleMesh, MeshError> {
     Ring {
         segments: 64,
@@ -73,7 +73,7 @@ pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
     })
 }
 
-/// Returns the solid of the filled cells of a grid across y, of the given half depth.
+/// Returns a solid that is extruded along y by a half depth: the filled cells of a grid in the plane of x and z.
 pub(super) fn extruded(
     x: &[f64],
     z: &[f64],
@@ -157,7 +157,7 @@ pub(super) fn ribbon(
     TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
-/// Returns copies of an open square across z, one at each height.
+/// Returns copies of an open horizontal square, one at each height.
 pub(super) fn stacked(
     sheet: &TriangleMesh,
     heights: impl Iterator<Item = f64>,
@@ -224,7 +224,7 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces)
 }
 
-/// Returns open squares across z, the highest at z = 0, the lowest at z = −0.5.
+/// Returns open horizontal squares, the highest at z = 0, the lowest at z = −0.5.
 pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
     let square = Plate {
         half_side: 1.0,

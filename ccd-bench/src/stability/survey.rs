@@ -1,4 +1,5 @@
-//! Runs methods on all steps of families, each in a process that can be stopped, and records the answers in a journal.
+//! Runs methods on all steps of the families, each in a process that can be stopped, and records the answers in a
+//! journal.
 
 use super::family::{Family, Step};
 use super::judge::judge;
@@ -17,18 +18,18 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// The plan of a survey.
+/// The plan of a survey: families, methods and folder.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// The families.
+    /// The families of scenes to ask about.
     pub families: Vec<Family>,
-    /// The methods.
+    /// The methods to ask.
     pub methods: Vec<Method>,
-    /// Whether all values of a family are asked about, not the easiest, the hardest, and one between.
+    /// Whether all values of a family are asked about, or only the easiest, the hardest, and one between.
     pub full: bool,
     /// The programs that run the methods.
     pub programs: Programs,
-    /// The folder of the journal.
+    /// The folder in which the journal is.
     pub folder: PathBuf,
 }
 
@@ -65,7 +66,7 @@ impl Survey {
         Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Returns the values of a family to ask about.
+    /// Returns the values of a family that are asked about.
     fn values(&self, family: &Family) -> Vec<f64> {
         let all = &family.values;
         if self.full {
@@ -110,7 +111,7 @@ impl Survey {
     }
 }
 
-/// A step with its prepared meshes.
+/// A step with its meshes, prepared for queries.
 struct Ready<'s> {
     step: &'s Step,
     name: &'s str,
@@ -127,7 +128,7 @@ impl<'s> Ready<'s> {
         }
     }
 
-    /// Runs a method on all queries of the step, up to the first at which it is stopped.
+    /// Runs a method on all queries of the step, up to the first query at which the method is stopped.
     fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = Setting {
@@ -202,7 +203,7 @@ fn not_started(error: io::Error) -> io::Result<Judged> {
     }))
 }
 
-/// Describes the settings that determine all answers.
+/// Describes the settings that determine all answers, for comparison with those of a folder.
 fn stamp() -> String {
     let program = program_stamp();
     format!("{program}patience {PATIENCE:?} {PREPARATION:?}\n")

@@ -1,14 +1,14 @@
-//! Rotations, vectors and matrices known to within intervals.
+//! Vectors, matrices and rotations whose entries are intervals.
 
 use super::interval::{Interval, exact};
 use ccd_core::glam::{DQuat, DVec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A vector, each coordinate within an interval.
+/// A vector whose coordinates are known to within intervals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vector(pub(super) [Interval; 3]);
 
-/// A matrix by its rows, each entry within an interval.
+/// A matrix by its rows, whose entries are known to within intervals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix(pub(super) [[Interval; 3]; 3]);
 
@@ -35,7 +35,7 @@ impl Vector {
         Vector([y * w - z * v, z * u - x * w, x * v - y * u])
     }
 
-    /// Returns the matrix that forms the cross product with this vector on its left.
+    /// Returns the matrix that multiplies a vector as the cross product with this one on the left.
     pub(super) fn cross_matrix(&self) -> Matrix {
         let [x, y, z] = self.0;
         Matrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
@@ -54,7 +54,7 @@ impl Matrix {
         Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
-    /// Returns the rotation of the normalised quaternion; `q` has about unit length.
+    /// Returns the rotation of a quaternion of about unit length, after normalisation.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
         let [x, y, z, w] = q.to_array().map(exact);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
@@ -69,7 +69,7 @@ impl Matrix {
         Matrix(rows.map(|row| row.map(|entry| entry / square)))
     }
 
-    /// Returns the rotation by an angular velocity over a time, for any number of turns.
+    /// Returns the rotation by an angular velocity over a time, whatever the number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
     pub(super) fn turn(spin: DVec3, time: f64) -> Self {

@@ -6,7 +6,7 @@ use super::snapshot::Enclosed;
 use super::surface::Triangle;
 use super::track::Track;
 
-/// Both bodies at an instant, in B's frame.
+/// The positions of both bodies at an instant, in B's frame.
 pub(super) struct Instant {
     rotation: Matrix,
     offset: Vector,
@@ -29,8 +29,8 @@ impl Instant {
     }
 }
 
-/// Checks five signs, each of which must be certain: the ends lie on both sides of the triangle's plane, and the line
-/// passes all its edges on the same side.
+/// Returns true if a segment certainly passes through a triangle. It checks five signs, each of which must be certain:
+/// the ends lie on both sides of the triangle's plane, and the line passes all its edges on the same side.
 fn pierces([from, to]: [&Vector; 2], [a, b, c]: &[Vector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
     let before = sign(normal.dot(&(*from - *a)));

@@ -1,5 +1,5 @@
-//! The search for the first contact. Time is halved, earliest first, and each half starts from the
-//! pairs of nodes that could not be excluded over the whole.
+//! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
+//! from the pairs of nodes that could not be excluded over the whole.
 
 use super::pierce::Instant;
 use super::snapshot::{Boxes, Snapshot, Span};
@@ -11,45 +11,45 @@ use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
 use std::rc::Rc;
 
-/// A node of A and one of B.
+/// A node of A's tree and one of B's.
 pub(super) type Pair = [u32; 2];
 
-/// The search for the answer to one query.
+/// The state of the search for the answer to one query.
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
     pub(super) tracks: [Track; 2],
     farthest: [f64; 2],
     duration: f64,
-    /// The remaining number of tests of pairs.
+    /// The number of tests of pairs that may still be made.
     pub(super) budget: u64,
 }
 
 /// The number of tests of pairs after which a query is left undecided. It would take minutes, while
 /// a hard query takes a second.
 const BUDGET: u64 = 30_000_000;
-/// The shortest span, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
+/// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
-/// The number of doublings in the search for a proof of contact after a time that cannot be excluded: it extends to
-/// about a thousandth of the duration.
+/// The number of doublings of the step in the search for a proof of contact after a time that cannot be excluded: it
+/// extends to about a thousandth of the duration.
 const DOUBLINGS: u32 = 36;
-/// The period, in doublings, at which all triangles are tested, not only those that came near first.
+/// The number of doublings after which all triangles are tested, not only those that came near first.
 const WIDER_EVERY: u32 = 6;
-/// The largest size of nodes that are not split, as a multiple of their displacement in the span.
+/// The size of nodes, as a multiple of their displacement in the interval, up to which they are not split.
 const COARSE: f64 = 1.0;
-/// The size below which triangles are separated as well by their boxes, as a fraction of their displacement.
+/// The size, as a fraction of the displacement, below which triangles are separated as well by their boxes.
 const SMALL: f64 = 0.25;
 
-/// The number of face normals.
+/// The number of normals of two triangles' faces.
 const FACES: usize = 2;
-/// The distance below which triangles are also tested along the normals of their edges, as a fraction of the edges.
+/// The distance, as a fraction of the edges, below which triangles are also tested along the normals of pairs of edges.
 const CLOSE: f64 = 1e-3;
 
-/// The pairs that remain of a span.
+/// The pairs of nodes that may meet within an interval of time.
 #[derive(Debug, PartialEq)]
 enum Sifted {
-    /// The pairs that are not excluded.
+    /// The pairs of nodes that are not excluded.
     Left(Vec<Pair>),
-    /// The budget is used up.
+    /// The budget of tests is used up.
     Spent,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the pair of roots, unless a body has no triangles.
+    /// Returns the pair of both trees' roots; `None` if a body has no triangles.
     pub(super) fn roots(&self) -> Option<Pair> {
         let [a, b] = self.surfaces;
         Some([a.root()?, b.root()?])
@@ -88,7 +88,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Halves the duration, depth first, earliest first.
+    /// Halves the duration, the earlier half first, until the first contact is bracketed.
     fn halve(&mut self, roots: Pair) -> Truth {
         let whole = Span {
             start: 0.0,
@@ -136,7 +136,7 @@ impl<'a> Search<'a> {
         Snapshot::new([a, b], self.farthest, span)
     }
 
-    /// Returns the pairs that may meet within the span, of nodes no larger than their displacement.
+    /// Returns the pairs that may meet within the interval, of nodes no larger than their displacement.
     fn sift(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> Sifted {
         let mut left = Vec::new();
         if snapshot.is_far() {
@@ -163,7 +163,7 @@ impl<'a> Search<'a> {
         Sifted::Left(left)
     }
 
-    /// Returns true if the triangles of two leaves certainly stay apart within the span.
+    /// Returns true if the triangles of two leaves certainly stay apart within the interval.
     fn triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
@@ -185,7 +185,7 @@ impl<'a> Search<'a> {
         apart(between.normalize()) || (between.length() < CLOSE * size && normals.any(apart))
     }
 
-    /// Returns a time soon after `from` at which the surfaces certainly share a point.
+    /// Searches for a time soon after `from` at which the surfaces certainly share a point.
     fn proof_after(&mut self, from: f64, roots: Pair, near: &[Pair], met: u32) -> Option<f64> {
         let mut step = SHORTEST * self.duration;
         for doubling in 0..=DOUBLINGS {
@@ -261,8 +261,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two
-    /// triangles.
+    /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two triangles.
     pub(super) fn split(&self, [a, b]: Pair) -> Option<Split> {
         let [node_a, node_b] = self.nodes([a, b]);
         let of_a = |parts: [u32; 2]| Split {
@@ -284,17 +283,17 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The result of splitting a node of a pair.
+/// The pairs that result from splitting one node of a pair.
 pub(super) struct Split {
-    /// The size of that node.
+    /// The size of the node that was split.
     size: f64,
     pub(super) parts: [Pair; 2],
 }
 
-/// The proof required for surfaces to count as touching.
+/// The proof that is required for surfaces to count as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Proof {
-    /// The surfaces cannot be shown to be apart.
+    /// The surfaces cannot be proven to be apart.
     NotApart,
     /// An edge certainly passes through a triangle.
     Pierced,
@@ -307,20 +306,20 @@ enum Touch {
     Spent,
 }
 
-/// Times that could neither be excluded nor proven to follow the first contact.
+/// The times that could neither be excluded nor proven to follow the first contact.
 #[derive(Debug, Default)]
 struct UndecidedTimes {
-    /// The first of these times.
+    /// The first undecided time; `None` without any.
     first: Option<f64>,
-    /// The end of the time that is skipped.
+    /// The time up to which the search skips.
     over: f64,
-    /// The number of these times.
+    /// The number of undecided times so far.
     met: u32,
 }
 
 impl UndecidedTimes {
-    /// Skips time after one of them, with the length doubled each time. Surfaces that slide on each other all the time
-    /// are left after about as many steps as the duration has halvings.
+    /// Skips time after an undecided one; the skipped length doubles each time. Surfaces that slide on each other all
+    /// the time are left after about as many steps as the duration has halvings.
     fn pass(&mut self, span: Span, shortest: f64) {
         let ahead = shortest * 2.0_f64.powi(self.met.min(1000) as i32);
         self.over = span.end + ahead;
@@ -329,7 +328,7 @@ impl UndecidedTimes {
 }
 
 impl Span {
-    /// Returns the part that is not skipped, if any.
+    /// Returns the part of the interval after `start`; `None` if it is empty.
     fn from(self, start: f64) -> Option<Self> {
         let start = greater(self.start, start);
         (start < self.end).then_some(Span { start, ..self })

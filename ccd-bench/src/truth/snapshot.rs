@@ -1,4 +1,4 @@
-//! The state of both bodies around an instant: positions, velocities, and bounds of rounding.
+//! Bounds the positions of both bodies around an instant: positions, velocities, and bounds on rounding.
 //!
 //! All is relative to a frame that has B's position and orientation at the instant m, moves along
 //! with B's centre in a straight line and does not turn. There, for |s| ≤ h,
@@ -19,49 +19,50 @@ use super::track::Track;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
-/// A span of time.
+/// An interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) start: f64,
     pub(super) end: f64,
 }
 
-/// Bodies A and B over a span of time.
+/// The positions and velocities of bodies A and B around the middle of an interval of time.
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot {
-    /// The map from A's body frame to the common one.
+    /// The map from A's body frame to the common frame, at the middle time.
     placement: Affine,
-    /// The velocity of A's points, relative to B's centre.
+    /// The map from a point of A to its velocity, relative to B's centre.
     rate_a: Affine,
-    /// The velocity of B's points, relative to B's centre.
+    /// The map from a point of B to its velocity, relative to B's centre.
     rate_b: Affine,
-    /// h: the time to either end of the span.
+    /// Half the length of the interval.
     half: f64,
-    /// The least certain gap: a bound on the rounding, and on the motion's deviation from a straight one.
+    /// The gap above which bodies are certainly apart: a bound on the rounding, and on the motion's deviation from a
+    /// straight one.
     slack: f64,
-    /// The part of `slack` that is due to the motion.
+    /// The part of `slack` that is due to the motion's deviation from a straight one.
     bend: f64,
-    /// The bounds for boxes, along the axes of B and of A.
+    /// The bounds on the extents of boxes, along the axes of B and of A.
     along_b: Extents,
     along_a: Extents,
     /// The vector from B's centre of rotation to A's, and its rate of change.
     centres: DVec3,
     centres_rate: DVec3,
-    /// The sum of the bodies' reaches from these centres.
+    /// The sum of the bodies' greatest distances from their centres of rotation.
     reaches: f64,
 }
 
-/// An upper bound on a box's extent along the axes of a frame over the span: `A halfₐ + B half_b`.
+/// An upper bound on a box's extent along the axes of a frame over the interval: `A halfₐ + B half_b`.
 #[derive(Clone, Copy, Debug)]
 struct Extents {
     a: DMat3,
     b: DMat3,
 }
 
-/// The relation of two boxes over the span.
+/// Whether two boxes may meet in the interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
-    /// The boxes stay apart.
+    /// The boxes stay apart for the whole interval.
     Apart,
     /// The boxes may meet; `travel` bounds their relative displacement.
     Near { travel: f64 },
@@ -102,7 +103,7 @@ impl Snapshot {
         }
     }
 
-    /// Returns true if the bodies stay apart for any rotation, because their centres are far from each other.
+    /// Returns true if the bodies stay apart whatever their rotation, because their centres are far from each other.
     pub(super) fn is_far(&self) -> bool {
         let (d, w) = (self.centres, self.half * self.centres_rate);
         // The point of the segment from d − w to d + w that is nearest to 0.
@@ -113,7 +114,7 @@ impl Snapshot {
                 + ROUNDED * (d.length() + w.length())
     }
 
-    /// Tests whether two boxes stay apart, by the six directions of their faces.
+    /// Tests whether two boxes stay apart along the six directions of their faces.
     pub(super) fn boxes(&self, a: &Node, b: &Node) -> Boxes {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
@@ -130,7 +131,7 @@ impl Snapshot {
         }
     }
 
-    /// Returns a lower bound of the distance of two boxes at the instant, invalid for a span.
+    /// Returns a lower bound of the distance of two boxes at the middle time, invalid for an interval.
     pub(super) fn boxes_distance(&self, a: &Node, b: &Node) -> f64 {
         let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
@@ -140,7 +141,7 @@ impl Snapshot {
         distance * (1.0 - ROUNDED) - 2.0 * self.slack
     }
 
-    /// Returns the corners of two triangles in the common frame, at both ends of the span.
+    /// Returns the corners of two triangles in the common frame, at both ends of the interval.
     pub(super) fn ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
         let moved_a = a.map(|p| self.half * self.rate_a.apply(p));
         let moved_b = b.map(|q| self.half * self.rate_b.apply(q));
@@ -151,12 +152,12 @@ impl Snapshot {
         [-1.0, 1.0].map(|end| [at(end, &a, &moved_a), at(end, b, &moved_b)])
     }
 
-    /// Returns A's triangle in the common frame at the instant.
+    /// Returns the corners of A's triangle in the common frame at the middle time.
     pub(super) fn placed(&self, a: &Triangle) -> Triangle {
         a.map(|p| self.placement.apply(p))
     }
 
-    /// Returns the bound that a gap computed along a unit direction must exceed to be certain.
+    /// Returns the gap along a unit direction above which bodies are certainly apart.
     pub(super) fn slack(&self) -> f64 {
         self.slack
     }
@@ -167,13 +168,13 @@ impl Snapshot {
 }
 
 impl Extents {
-    /// Returns the gap of two boxes along each axis, at the end of the span with the smaller gap.
+    /// Returns the gap of two boxes along each axis, at the end of the interval with the smaller gap.
     fn gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
     }
 }
 
-/// Returns, entry by entry, the larger of |m + w| and |m − w|; the absolute value is convex in between.
+/// Returns, entry by entry, the larger of |m + w| and |m − w|, which bounds the absolute values in between.
 fn largest(m: DMat3, w: DMat3) -> DMat3 {
     let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
     DMat3::from_cols(
@@ -183,20 +184,20 @@ fn largest(m: DMat3, w: DMat3) -> DMat3 {
     )
 }
 
-/// The map `p ↦ matrix p + offset`, rounded, and a bound of its error.
+/// The map `p ↦ matrix p + offset` in floats, with a bound of its error.
 #[derive(Clone, Copy, Debug)]
 struct Affine {
     matrix: DMat3,
     offset: DVec3,
-    /// The error as a length, for points within the body's reach of its origin.
+    /// The error of an image as a length, for points within the body's reach of its origin.
     error: f64,
-    /// The length of the largest image.
+    /// The length of the longest image of such a point.
     size: f64,
 }
 
 impl Affine {
-    /// Creates the map: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at
-    /// most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
+    /// Converts a map from intervals to floats: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in
+    /// sequence. Its error is at most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(Matrix, Vector), farthest: f64) -> Self {
         let rows = matrix
             .0
@@ -223,7 +224,7 @@ impl Affine {
     }
 }
 
-/// The affine maps, to within intervals.
+/// The affine maps of a snapshot, whose entries are intervals.
 pub(super) struct Enclosed {
     pub(super) placement: (Matrix, Vector),
     rate_a: (Matrix, Vector),
@@ -255,7 +256,7 @@ impl Enclosed {
     }
 }
 
-/// An upper bound on the number of roundings of a gap, relative to the sizes that enter it. For each of A and B these
+/// An upper bound on the number of roundings in a gap, relative to the sizes that enter it. For each of A and B these
 /// are the sum of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its difference
 /// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
 /// as many along A's axes, which are rounded themselves. The total is doubled.

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-/// The folder, the method, the tolerance, and the verdict recorded in `failures/README.md`.
+/// Recorded failures: the folder, the method, the tolerance, and the verdict recorded in `failures/README.md`.
 const FAILURES: [(&str, &str, &str, &str); 11] = [
     (
         "fast-vmarch-published-late",
@@ -29,7 +29,7 @@ const FAILURES: [(&str, &str, &str, &str); 11] = [
     ("rapier-step-f64-early", "rapier-step-f64", "1e-6", "false"),
 ];
 
-/// The failures of methods in Python, on which only the default is run here.
+/// The folders and tolerances of failures of Python methods, on which only the default is run here.
 const OF_PYTHON: [(&str, &str); 5] = [
     ("coal-steps-late", "1e-2"),
     ("fcl-ca-late", "1e-3"),
@@ -38,7 +38,7 @@ const OF_PYTHON: [(&str, &str); 5] = [
     ("fcl-naive-early", "1e-6"),
 ];
 
-/// Returns the verdict on a method's answer.
+/// Returns the verdict on a method's answer to a recorded failure.
 fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("failures")

@@ -126,8 +126,8 @@ impl Poses {
         self.poses.iter().map(|&(time, _)| time)
     }
 
-    /// Returns the motion of the segment at a time, and a bound on its angular acceleration. At a given pose, this is the
-    /// segment before the pose if `to` is not later than `time`, else the one after it.
+    /// Returns the motion of the segment at a time, and a bound on its angular acceleration. At a given pose, this is
+    /// the segment before the pose if `to` is not later than `time`, else the one after it.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)

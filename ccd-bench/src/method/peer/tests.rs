@@ -1,4 +1,4 @@
-//! Tests every peer on meshes with exact answers: cases that it answers correctly, and known errors.
+//! Tests every peer on meshes with exact answers: cases that it answers right, and known errors.
 
 use super::PeerKind;
 use crate::method::Method;
@@ -23,7 +23,7 @@ struct Exact {
     b: TriangleMesh,
     query: Motions,
     time: f64,
-    /// The closing speed at the contact.
+    /// The closing speed at the contact, in units of length per unit of time.
     speed: f64,
 }
 
@@ -33,7 +33,7 @@ impl Exact {
         peer.answer(&self.query, TOLERANCE)
     }
 
-    /// Asserts that a contact is reported within the error allowed for the peer.
+    /// Asserts that a peer reports the contact within the error that is allowed for it.
     fn assert_right(&self, kind: PeerKind) {
         let reply = self.ask(kind);
         let Claim::Contact { time } = reply.claim else {
@@ -49,7 +49,7 @@ impl Exact {
     }
 }
 
-/// Returns the allowed error of a right answer: early as a length, late as a time.
+/// Returns the allowed error of a right answer: how early as a length, and how late as a time.
 fn allowed(kind: PeerKind) -> (f64, f64) {
     match kind {
         PeerKind::ParryF64 => (1e-9, 1e-9),
@@ -75,7 +75,7 @@ fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(Pose::new(at, turned).unwrap(), velocity, spin).unwrap()
 }
 
-/// T1: a cube falls flat onto a slab.
+/// Returns case T1: a cube falls flat onto a slab.
 fn face_on_face() -> Exact {
     let falling = motion(
         3.0 * DVec3::Z,
@@ -93,7 +93,7 @@ fn face_on_face() -> Exact {
     }
 }
 
-/// T8: two cubes meet with crossed edges.
+/// Returns case T8: two cubes meet with crossed edges.
 fn edge_on_edge() -> Exact {
     let about = DQuat::from_axis_angle;
     let upper = motion(
@@ -117,7 +117,7 @@ fn edge_on_edge() -> Exact {
     }
 }
 
-/// Two balls meet corner on corner; both move.
+/// Returns a case of two moving balls that meet vertex on vertex.
 fn ball_on_ball() -> Exact {
     let left = motion(
         -2.5 * DVec3::X,
@@ -135,7 +135,7 @@ fn ball_on_ball() -> Exact {
     }
 }
 
-/// T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
+/// Returns case T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
 fn rod_on_wall(turns: f64) -> Exact {
     let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
     let spin = turns * PI;
@@ -157,7 +157,7 @@ fn rod_on_wall(turns: f64) -> Exact {
     }
 }
 
-/// Returns an octahedron with each face divided in 16; its vertices are on the unit ball and on the axes.
+/// Returns a triangulated unit ball: an octahedron with each face divided in 16.
 fn ball() -> TriangleMesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut triangles = Vec::new();
@@ -207,7 +207,7 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
     }
 }
 
-/// Known error: a distance that is not monotone is bisected over the whole time, and a later root is found.
+/// Tests a known error: a distance that is not monotone is bisected over the whole time, and a later root is found.
 #[rstest]
 fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
@@ -219,8 +219,8 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     }
 }
 
-/// Known error: a step interpolates quaternions instead of rotating at a constant rate, and a whole turn counts as no
-/// rotation.
+/// Tests a known error: a step interpolates quaternions instead of rotating at a constant rate, and a whole turn counts
+/// as no rotation.
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);

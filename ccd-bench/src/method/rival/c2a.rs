@@ -1,4 +1,4 @@
-//! The rival that advances both bodies by the least step over pairs of swept spheres.
+//! Implements C2A, which advances both bodies by the least safe step over pairs of swept spheres.
 
 use super::patience::Patience;
 use super::swept_spheres::{Gap, Leaves, Pair, Trees, Under};
@@ -13,7 +13,7 @@ mod closing;
 #[cfg(test)]
 mod tests;
 
-/// Controlled conservative advancement \[C2A09\].
+/// The method controlled conservative advancement \[C2A09\], with its trees and its memory.
 ///
 /// Every step descends both trees as a distance query does. The step is the least (distance) /
 /// (bound of the closing speed) over the pairs of nodes and triangles at which the descent stops.
@@ -37,39 +37,39 @@ pub struct C2a {
     pairs: Vec<Candidate>,
 }
 
-/// A pair of nodes to descend into.
+/// A pair of nodes whose children a descent may visit.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     pair: Pair,
     distance: f64,
-    /// The time during which they do not touch.
+    /// The time during which the nodes do not touch.
     step: f64,
 }
 
-/// The results of a descent so far.
+/// The nearest triangles and the safe step that a descent of both trees has found so far.
 #[derive(Clone, Copy, Debug)]
 struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
-    /// The nearest triangles.
+    /// The nearest triangles; `None` before any are found.
     nearest: Option<(Leaves, Pair)>,
-    /// The least step.
+    /// The least time during which all pairs seen so far stay apart.
     step: f64,
 }
 
-/// The placement of the bodies and the limits of a descent.
+/// The fixed inputs of a descent: the placement of the bodies and the limits.
 struct DescentSetup<'a> {
     /// Body B as seen from body A.
     placement: &'a Placement,
-    /// The time until the end of the duration.
+    /// The time from now to the end of the motions.
     remaining: f64,
     /// The distance at which triangles touch.
     tolerance: f64,
-    /// The allowed excess, as a fraction: an unopened pair may be nearer by it than the nearest triangles found.
+    /// The allowed excess of the distance found over the true distance, as a fraction.
     excess: f64,
 }
 
-/// The result of a descent.
+/// How a descent of both trees ended.
 enum Descent {
     /// The descent stopped at pairs that need not be opened.
     Done(DescentResult),
@@ -80,7 +80,7 @@ enum Descent {
 }
 
 impl C2a {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         let trees = Trees::new(a, b);
         C2a {
@@ -220,7 +220,7 @@ impl C2a {
 }
 
 impl Candidate {
-    /// Returns true if a pair need not be opened; then its step counts.
+    /// Returns true if a pair need not be opened; its step then counts for the whole descent.
     #[inline]
     fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
         if self.step >= lesser(found.step, setup.remaining) {
@@ -237,9 +237,9 @@ impl Candidate {
 /// Returns the excess allowed in a step, from the number of steps so far and the distance to
 /// contact.
 fn excess(step: u64, last: Option<&DescentResult>, duration: f64, tolerance: f64) -> f64 {
-    /// The number of coarse steps at the start, and their excess.
+    /// The number of coarse steps at the start, and the excess that they are allowed.
     const FIRST: (u64, f64) = (3, 3.0);
-    /// The number of steps after those, and their excess.
+    /// The number of steps after the coarse ones, and the excess that they are allowed.
     const THEN: (u64, f64) = (6, 0.5);
     /// The step length below which all later steps are exact, as a fraction of the duration.
     const SHORT: f64 = 0.005;

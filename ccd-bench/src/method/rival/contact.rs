@@ -1,4 +1,4 @@
-//! CONTACT: continuous overlap tests of oriented boxes by interval arithmetic \[CONTACT02\].
+//! Implements CONTACT: continuous overlap tests of oriented boxes by interval arithmetic \[CONTACT02\].
 
 mod boxes;
 mod clock;
@@ -55,10 +55,10 @@ pub struct Contact {
 /// The work limits of one query, some seconds.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
-    /// The number of pairs of boxes examined.
+    /// The maximum number of pairs of boxes examined.
     pairs: u64,
-    /// The number of halvings of time. Surfaces that slide past each other at a distance g are only
-    /// separated over intervals in which they move by about g.
+    /// The maximum number of halvings of time. Surfaces that slide past each other at a distance g are only separated
+    /// over intervals in which they move by about g.
     halvings: u64,
 }
 
@@ -75,7 +75,7 @@ struct Pair {
 }
 
 impl Contact {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Contact {
             trees: [a, b].map(ObbTree::new),
@@ -131,7 +131,7 @@ struct Search<'a> {
     clock: Clock,
     most_pairs: u64,
     stack: &'a mut Vec<Pair>,
-    /// The end of the relevant time: the first known contact, or the duration.
+    /// The time after which nothing matters: the first known contact, or the duration.
     end: f64,
 }
 

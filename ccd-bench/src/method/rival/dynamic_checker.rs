@@ -1,4 +1,5 @@
-//! A rival that halves time until undirected bounds on the distances at both ends prove each segment free.
+//! Implements the dynamic collision checker, which halves time until the distances at both ends prove each segment
+//! free.
 
 use super::RivalMotion;
 use super::patience::Patience;
@@ -42,7 +43,7 @@ pub struct DynamicChecker {
     pairs: Vec<(Pair, f64)>,
 }
 
-/// The distances of a body's points from its last centre of rotation.
+/// The largest distances of a body's points from its last centre of rotation, kept from query to query.
 #[derive(Clone, Copy, Debug, Default)]
 struct Reach(Option<(DVec3, f64)>);
 
@@ -55,7 +56,7 @@ struct Segment {
     at_to: f64,
 }
 
-/// The precision required of a distance.
+/// The required precision of a distance.
 #[derive(Clone, Copy, Debug)]
 struct Wanted {
     /// The distance above which no larger bound is needed.
@@ -64,7 +65,7 @@ struct Wanted {
     coarseness: f64,
 }
 
-/// A lower bound on the distance.
+/// The result of bounding a distance from below.
 #[derive(Clone, Copy, Debug)]
 enum LowerBound {
     Apart(f64),
@@ -73,7 +74,7 @@ enum LowerBound {
     GaveUp,
 }
 
-/// The motions of one query, their bounds, and the remaining work.
+/// The motions of one query, their bounds on speed, and the remaining work.
 struct Task {
     a: RivalMotion,
     b: RivalMotion,
@@ -87,7 +88,7 @@ struct Task {
 }
 
 impl DynamicChecker {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         DynamicChecker {
             trees: Trees::new(a, b),
@@ -121,7 +122,7 @@ impl Solver for DynamicChecker {
 }
 
 impl DynamicChecker {
-    /// Halves the duration until all of it is free, or until the earliest segment that is not free is short enough.
+    /// Halves the duration until all of it is free, or until the earliest segment that may not be free is short enough.
     fn search(&mut self, duration: f64, task: &mut Task) -> Claim {
         let path = task.speed * duration;
         let at_from = match self.bound(0.0, Wanted::at_least(path), task) {
@@ -157,7 +158,7 @@ impl DynamicChecker {
         }
     }
 
-    /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
+    /// Drops a segment that is proven free, and halves one that may not be free. Returns a claim if the search ends.
     fn examine(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
         let Segment {
             from,
@@ -268,8 +269,9 @@ impl DynamicChecker {
 
 impl Wanted {
     fn at_least(enough: f64) -> Self {
-        /// The coarseness that is fastest on the scenes. At 0, three times as much work goes into distances that are
-        /// better than needed. Without a bound, as published, up to twenty times as much work goes into halvings.
+        /// The default ratio of a node's size to its distance above which it is opened, the fastest on the scenes. At
+        /// 0, three times as much work goes into distances that are better than needed. Without a bound, as published,
+        /// up to twenty times as much work goes into halvings.
         const COARSENESS: f64 = 16.0;
         Wanted {
             enough,
@@ -284,7 +286,7 @@ impl Wanted {
         }
     }
 
-    /// Returns true if nodes at a distance, of the given sizes, need not be opened.
+    /// Returns true if nodes at a distance, of the given sizes, are precise enough to be left unopened.
     fn is_met(self, distance: f64, sizes: impl Fn() -> f64) -> bool {
         distance > 0.0 && (distance > self.enough || sizes() <= self.coarseness * distance)
     }

@@ -1,4 +1,4 @@
-//! The shortest vector between two rectangles in space.
+//! Computes the shortest vector between two rectangles in space.
 
 use super::Placement;
 use super::lanes::{Shortest, Vectors};
@@ -47,7 +47,7 @@ pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
     }
 }
 
-/// Returns the corners of a rectangle, in turn.
+/// Returns the corners of a rectangle in cyclic order.
 #[inline(always)]
 fn corners(lengths: DVec2, placement: &Placement) -> Vectors {
     let x = f64x4::new([0.0, lengths.x, lengths.x, 0.0]);

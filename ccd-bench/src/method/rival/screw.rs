@@ -1,4 +1,4 @@
-//! The screw between two poses.
+//! Computes the screw motion between two poses.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion};
@@ -11,7 +11,7 @@ use rigid_ccd::table::motions::Motions;
 /// at 2⁻¹² about 3e-13 of the travel.
 const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
 
-/// The share of its displacement by which a point's positions on two motions may differ due to rounding.
+/// The largest distance of a point's positions on two equal motions due to rounding, as a share of its displacement.
 const SAME: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose

@@ -11,7 +11,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::batch::SolverKind;
 use rstest::rstest;
 
-/// A cube of side 1 about the origin.
+/// Returns a cube of side 1 about the origin.
 fn cube() -> TriangleMesh {
     let half_extents = DVec3::splat(0.5);
     Board { half_extents }.mesh().unwrap()

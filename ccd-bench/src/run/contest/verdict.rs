@@ -1,4 +1,4 @@
-//! Judges a claim against the truth.
+//! Judges a solver's claim against the exact first contact.
 
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
@@ -9,10 +9,10 @@ use clap::ValueEnum;
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
-/// The judgement of a claim.
+/// The judgement of a claim about a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Verdict {
-    /// The claim is correct.
+    /// The claim agrees with the exact answer, to within the tolerance.
     Right,
     /// The claim is a contact after the exact first one.
     Late,
@@ -29,19 +29,19 @@ pub enum Verdict {
     /// The query exceeded the time limit and was stopped.
     #[value(name = "cut off")]
     CutOff,
-    /// The peer's process ended instead of answering.
+    /// The process of the method ended instead of answering.
     Died,
-    /// The truth is not known well enough.
+    /// The exact answer is not known well enough to judge the claim.
     Undecided,
     /// The reply is no answer to the query, such as a single distance measured for comparison.
     #[value(name = "not judged")]
     NotJudged,
 }
 
-/// A verdict and the error of the time.
+/// The verdict on a claim, with the error of the claimed time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
-    /// The verdict.
+    /// The verdict on the claim.
     pub verdict: Verdict,
     /// The distance of the reported time of contact from the bracket of the true one, as a fraction
     /// of the duration; `None` if either time is missing.
@@ -60,7 +60,7 @@ const WIDEST: f64 = 1e-9;
 const ROUNDING: f64 = 1e-6;
 
 impl Judged {
-    /// Returns a verdict without an error of the time.
+    /// Returns a judgement without an error of the time.
     pub fn plain(verdict: Verdict) -> Self {
         Judged {
             verdict,
@@ -69,7 +69,7 @@ impl Judged {
     }
 }
 
-/// Judges the outcome of a query, with a function for replies.
+/// Judges the outcome of a query, where the function `judge` judges a reply.
 pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),

@@ -1,5 +1,5 @@
-//! Maps of stability, with families as rows and methods as columns: the reach of each method, and the growth of its
-//! cost.
+//! Draws heat maps with families of scenes as rows and methods as columns: how far each method is right, and how its
+//! cost grows.
 
 use super::Drawing;
 use super::sheet::{INK, MARGIN, Sheet, Spot, TextFormat, WIDTH, rect, svg, text, text_width};
@@ -12,36 +12,36 @@ use plotters::style::{FontTransform, RGBColor, WHITE};
 /// A heat map of families and methods.
 #[derive(Clone, Debug)]
 pub struct HeatMap {
-    /// The quantity of the map.
+    /// What the colours of the cells show.
     pub kind: &'static HeatKind,
-    /// The names of the methods.
+    /// The names of the methods, one for each column.
     pub methods: Vec<String>,
-    /// The families.
+    /// The rows of the map, one for each family of scenes.
     pub rows: Vec<HeatRow>,
 }
 
-/// One family.
+/// A row of a heat map: one family of scenes.
 #[derive(Clone, Debug)]
 pub struct HeatRow {
-    /// The name of the family.
+    /// The name of the family of scenes.
     pub name: String,
-    /// The parameter that makes the family harder.
+    /// The description of the parameter that makes the family harder.
     pub parameter: String,
-    /// One cell for each method; `None` without data.
+    /// One cell for each method; `None` without measurements.
     pub cells: Vec<Option<HeatCell>>,
 }
 
-/// The quantity of a map, in words.
+/// What the colours of a heat map show, in words.
 #[derive(Debug)]
 pub struct HeatKind {
     name: &'static str,
     title: &'static str,
-    /// The lines of the remark.
+    /// The two lines of text below the title.
     remark: [&'static str; 2],
     legend: &'static [(&'static str, RGBColor)],
 }
 
-/// The reach of each method in each family: cells of [`HeatCell::reach`].
+/// The kind of map that shows how far each method is right in each family: cells of [`HeatCell::reach`].
 pub const REACH: &HeatKind = &HeatKind {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
@@ -59,7 +59,7 @@ pub const REACH: &HeatKind = &HeatKind {
     ],
 };
 
-/// The growth of the cost: cells of [`HeatCell::growth`].
+/// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::growth`].
 pub const GROWTH: &HeatKind = &HeatKind {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
@@ -75,7 +75,7 @@ pub const GROWTH: &HeatKind = &HeatKind {
     ],
 };
 
-/// The colours from light to dark, for costs that grow by up to 3, 30, 1000 times, and more.
+/// The colours of growing costs, from light to dark: up to 3, 30 and 1000 times, and more.
 const GROWN: [RGBColor; 4] = [
     RGBColor(0xea, 0xf2, 0xf8),
     RGBColor(0x9e, 0xc4, 0xe0),
@@ -83,30 +83,30 @@ const GROWN: [RGBColor; 4] = [
     RGBColor(0x10, 0x2f, 0x54),
 ];
 
-/// The width of the column of names.
+/// The width of the column of family names, in pixels.
 const NAMES: f64 = 196.0;
-/// The height of a row.
+/// The height of a row, in pixels.
 const ROW: f64 = 24.0;
-/// The height of the bar in a cell.
+/// The height of the bar in a cell, in pixels.
 const BAR: f64 = 5.0;
-/// The top of the first row.
+/// The distance of the first row from the top of the sheet, in pixels.
 const TOP: f64 = 250.0;
-/// The sizes of small and smallest text.
+/// The font sizes of small and of the smallest text, in pixels.
 const SMALL: f64 = 10.5;
 const SMALLEST: f64 = 7.5;
 
-/// The colour of steps that are right.
+/// The colour of families in which all answers are right.
 const RIGHT: RGBColor = COLOURS[0];
 /// The colour of missing answers.
 const GREY: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
-/// The colours of false contacts.
+/// The colours of early contacts and of false contacts.
 const EARLY: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
 const FALSE: RGBColor = COLOURS[4];
-/// The colour of missed contacts.
+/// The colour of late and missed contacts.
 const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
-/// One method on one family: a colour, two lines of text, and a bar.
+/// A cell of a heat map: a colour, two lines of text, and a bar.
 #[derive(Clone, Debug)]
 pub struct HeatCell {
     fill: RGBColor,
@@ -117,8 +117,8 @@ pub struct HeatCell {
 }
 
 impl HeatCell {
-    /// Returns the cell of the reach of a method: its worst verdict, the share of the values, from the easiest, before
-    /// the first wrong one, and the first value with the worst verdict, empty if all are right.
+    /// Returns the cell that shows how far a method is right: its worst verdict, the share of the values before the
+    /// first wrong answer, and the first value with the worst verdict, empty if all are right.
     pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
         let (fill, word, ink) = look_of(worst);
         HeatCell {
@@ -129,7 +129,7 @@ impl HeatCell {
         }
     }
 
-    /// Returns the cell of the largest cost of a step, as a multiple of that of the easiest one.
+    /// Returns the cell that shows the largest cost of a step, as a multiple of that of the easiest one.
     pub fn growth(factor: f64) -> Self {
         let steps = [3.0, 30.0, 1000.0].iter();
         let darkness = steps.filter(|&&most| factor > most).count();
@@ -148,7 +148,7 @@ impl HeatCell {
 }
 
 impl HeatMap {
-    /// Draws the map.
+    /// Draws the map on a sheet of its own.
     ///
     /// # Errors
     /// If the drawing library fails.
@@ -173,7 +173,7 @@ impl HeatMap {
         Ok(Drawing { name, svg })
     }
 
-    /// The width of a column.
+    /// Returns the width of a method's column, in pixels.
     fn column(&self) -> f64 {
         (WIDTH - 2.0 * MARGIN - NAMES) / self.methods.len() as f64
     }
@@ -206,7 +206,7 @@ fn small() -> TextFormat {
     }
 }
 
-/// Draws title, remark and legend.
+/// Draws the title, the remark and the legend of a kind of map.
 fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
@@ -225,7 +225,7 @@ fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     Ok(())
 }
 
-/// Draws a cell, given by its upper left corner and its width.
+/// Draws a cell at its upper left corner, with a given width.
 fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW - 1.0;
     rect(sheet, (x, y), (width, height), cell.fill)?;
@@ -243,7 +243,7 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Re
     Ok(())
 }
 
-/// Returns the colour of a verdict, a word for it, and the colour of text on it.
+/// Returns how a verdict is shown: its colour, a word for it, and the colour of the word.
 fn look_of(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
         Verdict::Right => (RIGHT, "", WHITE),

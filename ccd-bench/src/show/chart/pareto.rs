@@ -1,4 +1,4 @@
-//! Time against error: one plane for each scene, with a strip for unsafe methods.
+//! Draws the charts of time against error: one plane for each scene, with a strip for unsafe methods.
 
 use super::plane::{HEAD, Plane, Point, decades, foot, foot_height, head, marker, series};
 use super::sheet::{INK, Sheet, TEXT, WIDTH, font, svg, units};
@@ -9,14 +9,14 @@ use anyhow::Result;
 use ccd_core::order::greater;
 use plotters::prelude::*;
 
-/// The least error that is drawn; smaller ones are rounding, and are drawn at the edge.
+/// The least error on the axis; smaller ones are due to rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
-/// The number of planes side by side, and their height.
+/// The number of planes side by side, and their height in pixels.
 const PANELS: (usize, f64) = (3, 260.0);
-/// The width of a method's lane in the strip, and the least width of the strip, for its title.
+/// The width in pixels of a method's lane in the strip of unsafe methods, and the least width of the strip.
 const STRIP: (f64, f64) = (10.0, 50.0);
 
-/// Draws all scenes that were measured.
+/// Draws a plane for each scene that was measured; `None` without any.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
     let scenes = charts.measured_scenes();
     let shown = charts.shown(&Family::COMPARED);
@@ -121,7 +121,7 @@ fn draw_scene(
     Ok(())
 }
 
-/// Returns true if the median of a cell is the time of queries without a complete answer.
+/// Returns true if a cell's median is that of unfinished queries, so that the true time is longer.
 pub(super) fn is_lower_bound(cell: &Cell) -> bool {
     cell.rows > 0 && 2 * cell.unresolved >= cell.rows
 }

@@ -1,4 +1,4 @@
-//! A plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
+//! Draws a plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
 
 use super::MethodFacts;
 use super::sheet::{INK, MARGIN, Sheet, TEXT, TextFormat, font, text, units};
@@ -10,26 +10,26 @@ use plotters::element::{ComposedElement, DashedPathElement};
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// The height of a line of text.
+/// The height of a line of text, in pixels.
 pub(super) const LINE: f64 = 18.0;
-/// The height of the chart's title and of the line below it.
+/// The height of the chart's title and subtitle, in pixels.
 pub(super) const HEAD: f64 = 50.0;
-/// The columns of the legend, and the width of each.
+/// The number of columns of the legend, and the width of each in pixels.
 const LEGEND: (usize, f64) = (2, 400.0);
-/// The colour of lines under the data.
+/// The colour of grid lines behind the data.
 const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 
-/// The axes of a plane, with their labels.
+/// The two axes of a plane, with their labels and ranges.
 #[derive(Clone)]
 pub(super) struct Plane {
     pub(super) x: (Range<f64>, &'static str),
     pub(super) y: (Range<f64>, &'static str),
 }
 
-/// A plane on a sheet.
+/// A plane that is drawn on a sheet, with its coordinates.
 type Drawn<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
-/// A value to draw. The quantity of `y` is at least this if the measurement was cut off.
+/// A point to draw, in the units of the axes. The quantity of `y` is at least this if the measurement was cut off.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub(super) x: f64,
@@ -37,7 +37,7 @@ pub(super) struct Point {
     pub(super) is_lower_bound: bool,
 }
 
-/// A method that is shown, with its style.
+/// A method on a chart, with its style.
 pub(super) type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
 
 /// Returns the whole decades around positive values, at least one; `None` without values.
@@ -50,7 +50,7 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
 }
 
 impl Plane {
-    /// Draws the axes.
+    /// Draws the axes of the plane on a sheet.
     pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
         let mut drawn = self.frame(sheet, self.x.0.clone())?;
         drawn
@@ -70,7 +70,7 @@ impl Plane {
         Ok(drawn)
     }
 
-    /// Prepares a plane of the same height without numbers and lines, such as a strip beside this one.
+    /// Prepares a plane of the same height without numbers and grid lines, such as a strip beside this one.
     pub(super) fn frame<'a, 's>(
         &self,
         sheet: &'a Sheet<'s>,
@@ -110,7 +110,7 @@ pub(super) fn series(
     Ok(())
 }
 
-/// Draws a marker, with an arrow upwards if the value is a lower bound.
+/// Draws a method's marker, with an arrow upwards if the value is a lower bound.
 pub(super) fn marker(
     drawn: &mut Drawn<'_, '_>,
     at: (f64, f64),
@@ -142,11 +142,11 @@ fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
         + PathElement::new(closed, style.pen(13))
 }
 
-/// A marker, its corners relative to its position.
+/// The polygon of a marker, with its corners relative to its position.
 type Glyph<'s, C> =
     ComposedElement<C, SVGBackend<'s>, Polygon<(i32, i32)>, PathElement<(i32, i32)>>;
 
-/// Draws a chart's title, and the line below it.
+/// Draws the title and the subtitle of a chart.
 pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()> {
     let format = TextFormat {
         size: 16.0,
@@ -157,12 +157,12 @@ pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()>
     text(sheet, subtitle, (MARGIN, 36.0), &TextFormat::default())
 }
 
-/// Returns the height of legend and remarks.
+/// Returns the height of the legend and the remarks, in pixels.
 pub(super) fn foot_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
     LINE * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + MARGIN
 }
 
-/// Draws the legend, and remarks below it.
+/// Draws the legend, and the remarks below it.
 pub(super) fn foot(
     sheet: &Sheet<'_>,
     shown: &[Shown<'_>],

@@ -1,4 +1,4 @@
-//! Time against the size of the mesh, at the paper's tolerance.
+//! Draws the chart of time against the size of the mesh, at the tolerance of the paper's benchmarks.
 
 use super::pareto::is_lower_bound;
 use super::plane::{HEAD, Plane, Point, decades, foot, foot_height, head, series};
@@ -7,10 +7,10 @@ use super::{Charts, Drawing, Family, MethodFacts, SAME_ROWS, is_papers};
 use anyhow::Result;
 use std::collections::BTreeMap;
 
-/// The scenes of each size of each shape, which form one point of a line.
+/// The names of the scenes by their shape and size; those of one shape and size give one point.
 type Sizes<'a> = BTreeMap<(String, usize), Vec<&'a str>>;
 
-/// The height of the plane.
+/// The height of the plane, in pixels.
 const HEIGHT: f64 = 440.0;
 
 /// Draws one plane for all shapes: a line over the sizes of one shape, or a marker for a shape of one size.

@@ -4,7 +4,8 @@ use crate::show::tables::tests::trial;
 
 const OURS: &str = "best-first direct";
 
-/// Returns the default method on four rows, of which the last two are hard, and a slow method on the first two.
+/// Returns trials of the default method on four rows, of which the last two are hard, and of a slow method on the first
+/// two.
 fn trials() -> Vec<Trial> {
     let of = |method: &str, times: &[f64]| {
         let rows = times.iter().enumerate();

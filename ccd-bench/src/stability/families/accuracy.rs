@@ -1,4 +1,4 @@
-//! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
+//! Scenes whose contact depends on the last digits: nearly parallel parts, hardly any overlap.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
@@ -23,10 +23,10 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// The error of times computed from coordinates of a few units, at speeds of at least 1.
+/// The error of contact times computed from coordinates of a few units, at speeds of at least 1.
 const SLACK: f64 = 1e-14;
 
-/// T1, tilted: a face falls onto a face.
+/// Makes case T1, tilted by an angle: a face falls onto a face.
 fn face_onto_face(angle: f64) -> Result<Step> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_y(angle));
@@ -35,7 +35,7 @@ fn face_onto_face(angle: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// T8 with nearly parallel rods: an edge meets an edge.
+/// Makes case T8 with rods at a small angle: an edge meets an edge.
 fn edge_across_edge(angle: f64) -> Result<Step> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_z(angle) * on_edge);
@@ -45,7 +45,7 @@ fn edge_across_edge(angle: f64) -> Result<Step> {
     step.turned_too(falling, lying, expected)
 }
 
-/// T8: a cube falls onto a slab, nearly upright on a corner.
+/// Makes case T8: a cube falls onto a slab on a corner, with its diagonal nearly upright.
 fn corner_onto_face(angle: f64) -> Result<Step> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
@@ -56,7 +56,7 @@ fn corner_onto_face(angle: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
+/// Makes case T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
 fn peg_in_a_hole(clearance: f64) -> Result<Step> {
     let half = 0.5;
     let hole = half + clearance;
@@ -69,7 +69,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step> {
     step.turned_too(turning, BodyMotion::STILL, expected)
 }
 
-/// T25: a cube falls flat onto a slab, and rotates very little.
+/// Makes case T25: a cube falls flat onto a slab, and rotates very little.
 fn hardly_turning(turn: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
@@ -83,7 +83,7 @@ fn hardly_turning(turn: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// A cube comes down on a slab at a small angle, halfway through its flight.
+/// Makes a cube that comes down on a slab at a small angle, halfway through its flight.
 fn flat_approach(angle: f64) -> Result<Step> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
@@ -101,7 +101,7 @@ fn hardly_meeting(overlap: f64) -> Result<Step> {
     step.turned_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
 
-/// T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
+/// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
 fn hardly_reaching(share: f64) -> Result<Step> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
@@ -113,7 +113,7 @@ fn hardly_reaching(share: f64) -> Result<Step> {
     step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
-/// T17: two linked rings, a small distance apart.
+/// Makes case T17: two linked rings, a small distance apart.
 fn linked_rings(way: f64) -> Result<Step> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner

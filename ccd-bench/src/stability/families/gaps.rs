@@ -1,4 +1,4 @@
-//! Bodies that never meet, with smaller and smaller gaps.
+//! Scenes of bodies that never meet, with smaller and smaller gaps.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
@@ -26,7 +26,7 @@ fn tolerance(gap: f64) -> f64 {
     greater(0.25 * gap, 2.5e-13)
 }
 
-/// Returns a step with a gap that survives the rounding of rotated worlds; otherwise only its own world is used.
+/// Returns a step with a gap, in rotated worlds too if the gap survives their rounding.
 fn free(step: Step, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<Step> {
     let step = step.within(tolerance(gap));
     step.turned_if(gap >= 1e-12, a, b, Expected::Free)
@@ -62,7 +62,7 @@ fn leaving(gap: f64) -> Result<Step> {
     free(step, gap, rising, BodyMotion::UNDER)
 }
 
-/// T16: a peg moves through a hole with a gap on all four sides.
+/// Makes case T16: a peg moves through a hole with a gap on all four sides.
 fn peg_through_a_hole(gap: f64) -> Result<Step> {
     let step = Step::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
     let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
@@ -75,7 +75,8 @@ fn spinning_top(gap: f64) -> Result<Step> {
     free(step, gap, spinning, BodyMotion::UNDER)
 }
 
-/// A rod of half length 2 rotates by half a turn about its middle, past a wall that its corners just do not reach.
+/// Makes a rod of half length 2 that rotates by half a turn about its middle, past a wall that its corners just do not
+/// reach.
 fn rod_past_a_wall(gap: f64) -> Result<Step> {
     let (long, thin) = (2.0, 0.05);
     let reach = f64::hypot(long, thin);

@@ -1,4 +1,4 @@
-//! Bodies that hold each other: hooks, threads, rings, slits.
+//! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus};
@@ -27,7 +27,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
+/// Makes case T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
 fn hooks(slack: f64) -> Result<Step> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
@@ -44,7 +44,7 @@ fn hooks(slack: f64) -> Result<Step> {
     step.turned_too(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))
 }
 
-/// A ring falls flat onto an equal one; they meet all around.
+/// Makes a ring that falls flat onto an equal one; they meet all around.
 fn ring_onto_ring(way: f64) -> Result<Step> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
@@ -53,17 +53,17 @@ fn ring_onto_ring(way: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
 }
 
-/// The pitch of the threads.
+/// The pitch of the threads: their rise per turn.
 const PITCH: f64 = 0.2;
 /// The inner and outer radii of the threads.
 const THREAD: [f64; 2] = [0.9, 1.0];
 
-/// T18: the flank of a screw rotates between those of its nut at their common pitch.
+/// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch.
 fn screw(turns: f64) -> Result<Step> {
     threads(turns, 0.5)
 }
 
-/// T18, with one turn, and one flank close to the other.
+/// Makes case T18 with one turn, and with one flank close to the other.
 fn tight_screw(play: f64) -> Result<Step> {
     threads(1.0, play)
 }
@@ -79,7 +79,7 @@ fn threads(turns: f64, play: f64) -> Result<Step> {
     step.turned_too(turning, BodyMotion::STILL, Expected::Free)
 }
 
-/// A sheet slides between two others.
+/// Makes a sheet that slides between two others.
 fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free(
@@ -89,7 +89,7 @@ fn between(gap: f64) -> Result<Step> {
     )
 }
 
-/// T16: a tilted plate moves through a slit that is wider than its edges by a gap.
+/// Makes case T16: a tilted plate moves through a slit that is wider than its edges by a gap.
 fn through_slit(gap: f64) -> Result<Step> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
@@ -107,7 +107,7 @@ fn free(step: Step, gap: f64, moving: BodyMotion) -> Result<Step> {
     step.turned_if(gap >= 1e-12, moving, BodyMotion::STILL, Expected::Free)
 }
 
-/// T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
+/// Makes case T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
 fn turned_frame(degrees: f64) -> Result<Step> {
     let (long, thin, wall) = (2.0f64, 0.05, 1.2);
     let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);

@@ -1,4 +1,4 @@
-//! Meshes with many triangles, and with bad ones.
+//! Scenes of meshes with many triangles, and of meshes with bad ones.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{
@@ -25,7 +25,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// T19: the teeth of two combs pass between each other, until their tips meet the bars.
+/// Makes case T19: the teeth of two combs pass between each other, until their tips meet the bars.
 fn comb_into_comb(teeth: f64) -> Result<Step> {
     let step = Step::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
@@ -36,7 +36,7 @@ fn comb_into_comb(teeth: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
 }
 
-/// T22: a ball with a corner at its pole falls onto a slab.
+/// Makes case T22: a ball with a vertex at its pole falls onto a slab.
 fn ball_onto_slab(triangles: f64) -> Result<Step> {
     let step = Step::new(ball(0.5, triangles as usize / 2 + 2)?, slab()?);
     let falling = BodyMotion::FALLING.spinning(2.0 * DVec3::Z);
@@ -44,7 +44,7 @@ fn ball_onto_slab(triangles: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// A cone falls onto a slab, tip first.
+/// Makes a cone that falls onto a slab, tip first.
 fn tip_onto_slab(sides: f64) -> Result<Step> {
     let step = Step::new(cone(sides as u32, 0.7)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).spinning(2.0 * DVec3::Z);
@@ -52,14 +52,14 @@ fn tip_onto_slab(sides: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// A cube falls onto the first of many open sheets.
+/// Makes a cube that falls onto the first of many open sheets.
 fn layered(count: f64) -> Result<Step> {
     let step = Step::new(cube()?, layers(count as u32)?);
     let falling = BodyMotion::FALLING;
     step.turned_too(falling, BodyMotion::STILL, Expected::at(0.625, 1e-14))
 }
 
-/// T21: a cube with repeated and collapsed faces.
+/// Makes case T21: a cube with repeated and collapsed faces.
 fn bad_faces(count: f64) -> Result<Step> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
     let step = Step::new(cube, slab()?);
@@ -68,14 +68,14 @@ fn bad_faces(count: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// A cube falls onto a sliver triangle of a slab.
+/// Makes a cube that falls onto a sliver triangle of a slab.
 fn sliver(width: f64) -> Result<Step> {
     let step = Step::new(cube()?, sliver_slab(width)?);
     let expected = Expected::at(0.625, 1e-14);
     step.turned_too(BodyMotion::FALLING, BodyMotion::UNDER, expected)
 }
 
-/// A cube falls onto one mesh of many cubes, of which every other one is inside out.
+/// Makes a cube that falls onto one mesh of many cubes, of which every other one is inside out.
 fn field_of_solids(count: f64) -> Result<Step> {
     // The cube covers the middle of the field, where at least four others are.
     let step = Step::new(cube()?, field_of_cubes(count as u32)?);
@@ -83,7 +83,7 @@ fn field_of_solids(count: f64) -> Result<Step> {
     step.turned_too(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
-/// Two cones meet beside their tips: the tip of each touches a face of the other.
+/// Makes two cones that meet beside their tips: the tip of each touches a face of the other.
 fn tip_onto_tip(aside: f64) -> Result<Step> {
     let (sides, radius) = (8, 0.7);
     // After a rotation by half a side, a face looks along x. It rises by 1 up to its middle.

@@ -1,4 +1,4 @@
-//! Sizes, distances and units far from 1.
+//! Scenes whose sizes, distances and units are far from 1.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cone, cube, cuboid, slab};
@@ -35,7 +35,7 @@ fn margins() -> Vec<f64> {
     margins
 }
 
-/// A cube falls onto a larger or smaller one, which it meets halfway.
+/// Makes a cube that falls onto a larger or smaller one, which it meets halfway.
 fn size_against_size(size: f64) -> Result<Step> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
@@ -43,7 +43,7 @@ fn size_against_size(size: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
 }
 
-/// T1 in other units of length.
+/// Makes case T1 in other units of length.
 fn unit_of_length(size: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
@@ -56,7 +56,7 @@ fn unit_of_length(size: f64) -> Result<Step> {
     step.turned_too(falling, slab, Expected::at(0.625, 1e-14))
 }
 
-/// T1 in other units of time.
+/// Makes case T1 in other units of time.
 fn unit_of_time(duration: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING;
     let step = Step::new(cube()?, slab()?);
@@ -65,7 +65,7 @@ fn unit_of_time(duration: f64) -> Result<Step> {
     step.turned_too(falling, slab, Expected::at(0.625, 1e-14))
 }
 
-/// A cube falls onto another one, and both travel far to the side.
+/// Makes a cube that falls onto another one, while both travel far to the side.
 fn moving_together(travel: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
@@ -73,7 +73,7 @@ fn moving_together(travel: f64) -> Result<Step> {
     step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))
 }
 
-/// A cube rotates about a centre far below it, and so moves nearly straight to a wall.
+/// Makes a cube that rotates about a centre far below it, and so moves nearly straight to a wall.
 fn far_centre(distance: f64) -> Result<Step> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
@@ -89,7 +89,7 @@ fn far_centre(distance: f64) -> Result<Step> {
     step.exactly(turning, BodyMotion::rest(2.0 * DVec3::X), expected)
 }
 
-/// A cone falls onto a slab on its tip; its sides are long and thin triangles.
+/// Makes a cone that falls onto a slab on its tip; its sides are long and thin triangles.
 fn needle(width: f64) -> Result<Step> {
     let step = Step::new(cone(8, 0.5 * width)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
@@ -97,7 +97,7 @@ fn needle(width: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
+/// Makes case T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
 fn far_from_the_origin(distance: f64) -> Result<Step> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
@@ -106,7 +106,7 @@ fn far_from_the_origin(distance: f64) -> Result<Step> {
     step.exactly(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))
 }
 
-/// A needle falls onto a slab; its sides are long and thin triangles.
+/// Makes a needle that falls onto a slab; its sides are long and thin triangles.
 fn slender(ratio: f64) -> Result<Step> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
@@ -117,7 +117,7 @@ fn slender(ratio: f64) -> Result<Step> {
     step.turned_too(falling, BodyMotion::UNDER, expected)
 }
 
-/// T13: a bullet travels distance 1; a thin sheet stands halfway.
+/// Makes case T13: a bullet travels distance 1; a thin sheet stands halfway.
 fn bullet_and_paper(ratio: f64) -> Result<Step> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
@@ -127,7 +127,7 @@ fn bullet_and_paper(ratio: f64) -> Result<Step> {
     step.turned_too(flying, paper, expected)
 }
 
-/// A cube falls onto a slab, and comes as near as the margin halfway.
+/// Makes a cube that falls onto a slab, and comes as near as the margin halfway.
 fn margin(margin: f64) -> Result<Step> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
@@ -138,7 +138,7 @@ fn margin(margin: f64) -> Result<Step> {
     step.turned_too(falling, slab, Expected::at(0.5, 1e-14))
 }
 
-/// T24: a cube inside another one, both closed.
+/// Makes case T24: a cube inside another one, both closed.
 fn inside(size: f64) -> Result<Step> {
     let half = 0.9 * size;
     let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);

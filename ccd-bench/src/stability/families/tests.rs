@@ -1,4 +1,4 @@
-//! Compares the exact answers of the families with the referee's.
+//! Compares the exact answers of the families with those of the referee.
 
 use super::families;
 use crate::stability::{Case, Expected, Family, Step};
@@ -6,10 +6,10 @@ use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
-/// The number of triangles above which the referee takes too long.
+/// The number of triangles above which the referee takes too long for a test.
 const TRIANGLES: usize = 3000;
 
-/// The share of the values, from the easy ones, that are checked; the referee is slow on harder ones.
+/// The share of a family's values, from the easiest, that are checked; the referee is slow on harder ones.
 const CHECKED: f64 = 0.4;
 
 #[test]

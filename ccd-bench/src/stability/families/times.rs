@@ -1,4 +1,4 @@
-//! Contacts close to the start and close to the end.
+//! Scenes whose contact is close to the start or close to the end.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, sheet, slab};
@@ -46,7 +46,7 @@ fn after_the_end(after: f64) -> Result<Step> {
     step.turned_if(after > 1e-12, falling, slab, Expected::Free)
 }
 
-/// Two flat sheets without thickness, a small distance apart, meet face to face.
+/// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
 fn sheets(way: f64) -> Result<Step> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = Step::new(sheet(1.0)?, sheet(1.0)?).within(greater(0.1 * way, 1e-11));

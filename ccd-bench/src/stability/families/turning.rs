@@ -1,4 +1,4 @@
-//! Rotations, from very small ones to thousands of turns.
+//! Scenes of rotations, from very small ones to thousands of turns.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, cuboid, slab};
@@ -17,7 +17,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// A cube falls flat onto a slab while it rotates about the vertical.
+/// Makes a cube that falls flat onto a slab while it rotates about the vertical.
 fn drilling(turns: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
@@ -30,7 +30,7 @@ const LONG: f64 = 2.0;
 /// The half thickness of a rod.
 const THIN: f64 = 0.05;
 
-/// T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
+/// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
 fn rod_into_a_wall(turns: f64) -> Result<Step> {
     let wall = 1.2;
     let spin = TAU * turns;
@@ -41,8 +41,8 @@ fn rod_into_a_wall(turns: f64) -> Result<Step> {
     step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
-/// T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip moves along the
-/// wall, so that a bound on the speeds of that moment finds no approach.
+/// Makes case T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip
+/// moves along the wall, so that a bound on the speeds of that moment finds no approach.
 fn mace(spin: f64) -> Result<Step> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(THIN, 0.5 * arm, THIN)?;
@@ -58,7 +58,7 @@ fn mace(spin: f64) -> Result<Step> {
     )
 }
 
-/// T14: two rods rotate against each other, as mirror images.
+/// Makes case T14: two rods rotate against each other, as mirror images.
 fn rods(turns: f64) -> Result<Step> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning = |spin: f64, x: f64| BodyMotion::rest(x * DVec3::X).spinning(spin * DVec3::Y);

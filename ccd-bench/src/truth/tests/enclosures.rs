@@ -4,7 +4,8 @@ use super::super::enclosure::{Matrix, sin_cos};
 use super::super::interval::{Interval, exact};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
-/// Argument, sine, cosine. Sine and cosine are unevaluated sums of two floats, from 120 decimals.
+/// Known values: an argument, its sine and its cosine. Sine and cosine are unevaluated sums of two
+/// floats, from 120 decimals.
 #[rustfmt::skip]
 #[expect(clippy::approx_constant, reason = "floats, not the constants near them")]
 const KNOWN: [(f64, [f64; 2], [f64; 2]); 11] = [

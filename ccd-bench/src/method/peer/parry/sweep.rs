@@ -35,7 +35,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 use std::f64::consts::FRAC_PI_4;
 
-/// Two meshes to sweep. Steps are the segments examined.
+/// Two meshes whose triangles are swept against each other. Steps are the segments examined.
 #[derive(Clone, Debug)]
 pub struct SweptPairs {
     a: Swept,
@@ -50,11 +50,11 @@ const SHARE_OF_TURN: f64 = 0.25;
 const LARGEST_TURN: f64 = FRAC_PI_4;
 /// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
 const LONGEST_TRAVEL: f64 = 0.5;
-/// The maximum number of segments; longer motions are refused.
+/// The maximum number of segments of a motion; longer motions are refused.
 const MOST_SEGMENTS: f64 = 65_536.0;
 
 impl SweptPairs {
-    /// Prepares two meshes.
+    /// Converts two meshes, with their bounding boxes.
     ///
     /// # Errors
     /// If the library refuses a mesh.
@@ -65,7 +65,7 @@ impl SweptPairs {
         })
     }
 
-    /// Returns the number of segments of a query, or `None` if there are too many.
+    /// Returns the number of segments that a query is cut into; `None` if there are too many.
     fn segments(&self, query: &Motions, tolerance: f64) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
@@ -79,7 +79,7 @@ impl SweptPairs {
         (count <= MOST_SEGMENTS).then_some(count as u64)
     }
 
-    /// Returns the time in a segment at which triangles first meet, as a fraction of it.
+    /// Returns the first time in a segment at which triangles meet, as a fraction of the segment.
     fn first_hit(&self, query: &Motions, tolerance: f64, [from, to]: [f64; 2]) -> Option<Real> {
         let a = self.a.segment(&query.a, from, to);
         let b = self.b.segment(&query.b, from, to);
@@ -136,16 +136,16 @@ impl Solver for SweptPairs {
     }
 }
 
-/// A mesh and its bounding box.
+/// A mesh with its bounding box, in the body's frame.
 #[derive(Clone, Debug)]
 struct Swept {
     mesh: TriMesh,
-    /// The corners of the box.
+    /// The lowest and the highest corner of the box.
     corners: [DVec3; 2],
     radius: f64,
 }
 
-/// The motion of a body over a segment.
+/// The motion of a body over a segment of time.
 struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
@@ -187,7 +187,7 @@ impl Swept {
     }
 }
 
-/// Returns the largest rotation of a body in a segment.
+/// Returns the largest rotation, in radians, that a body may make in a segment.
 fn turn_within(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
@@ -195,7 +195,7 @@ fn turn_within(reach: f64, tolerance: f64) -> f64 {
     lesser(LARGEST_TURN, 4.0 * off.cbrt())
 }
 
-/// Returns the box that contains a box at the start and at the end.
+/// Returns the box that contains a body's box at the start and at the end of a segment.
 fn boxed(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))

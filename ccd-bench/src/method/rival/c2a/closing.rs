@@ -9,13 +9,13 @@ use ccd_core::glam::{DMat3, DVec3};
 pub(super) struct Closing {
     a: Spin,
     b: Spin,
-    /// The velocity of A's centre relative to B's, in the world.
+    /// The velocity of A's centre relative to B's, in the world frame.
     velocity_w: DVec3,
-    /// The same velocity in A's frame.
+    /// The velocity of A's centre relative to B's, in A's frame.
     velocity: DVec3,
-    /// B's axis in the world.
+    /// B's axis of rotation in the world frame.
     axis_b_w: DVec3,
-    /// The same axis in A's frame.
+    /// B's axis of rotation in A's frame.
     axis_b: DVec3,
 }
 
@@ -23,10 +23,11 @@ pub(super) struct Closing {
 #[derive(Clone, Debug)]
 struct Spin {
     centre: DVec3,
-    /// The axis in the body's frame, where it is fixed.
+    /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
     rate: f64,
-    /// The lever of each node, with the number of the motion for which it was computed.
+    /// For each node, the greatest distance of its points from the axis, with the number of the motion for which it was
+    /// computed.
     levers: Vec<(u64, f64)>,
     motion: u64,
 }
@@ -43,7 +44,7 @@ impl Closing {
         }
     }
 
-    /// Sets the motions of a query.
+    /// Sets the motions of both bodies in a query.
     pub(super) fn begin(&mut self, a: &RivalMotion, b: &RivalMotion) {
         self.a.begin(a);
         self.b.begin(b);
@@ -51,15 +52,15 @@ impl Closing {
         self.axis_b_w = b.axis;
     }
 
-    /// Sets body A's placement as the frame of directions.
+    /// Sets the placement of body A, in whose frame directions are given.
     pub(super) fn look_from(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
         self.velocity = to_a * self.velocity_w;
         self.axis_b = to_a * self.axis_b_w;
     }
 
-    /// Returns a time during which two nodes, or triangles in them, do not touch. It is the time to close their gap
-    /// along its direction, which is fixed, at the speed
+    /// Returns a time during which two nodes, and the triangles in them, do not touch. It is the time to close their
+    /// gap along its direction, which is fixed, at the speed
     ///
     /// `v·n + |n × ω_A| l_A + |n × ω_B| l_B`
     ///

@@ -2,18 +2,18 @@
 
 use super::relative::{Enclosure, Relative, Span};
 
-/// The largest number of halvings: intervals of 2⁻⁵² of the duration are the resolution of numbers.
+/// The maximum number of times that the duration is halved: 2⁻⁵² of it is the resolution of numbers.
 pub(super) const MAX_LEVEL: usize = 52;
 
-/// An interval from repeated halving, perhaps cut short at its end.
+/// An interval of time from repeated halving, perhaps cut short at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slice {
     pub(super) span: Span,
-    /// The number of halvings that led to the interval.
+    /// The number of halvings that led to this interval.
     pub(super) level: usize,
 }
 
-/// A cache of the last enclosure at every level, because the search stays within one interval for many pairs.
+/// Encloses the motion over intervals of time, with a cache of the last enclosure at each level of halving.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     relative: Relative,
@@ -21,7 +21,7 @@ pub(super) struct Clock {
     most_halvings: u64,
     placements: Vec<CachedEnclosure>,
     rates: Vec<CachedEnclosure>,
-    /// The number of halvings so far.
+    /// The number of halvings made so far.
     pub(super) halvings: u64,
 }
 
@@ -40,7 +40,7 @@ impl Slice {
         }
     }
 
-    /// Returns the first half and the second.
+    /// Returns the first and the second half of the interval.
     pub(super) fn halves(self) -> [Slice; 2] {
         let Span { start, end } = self.span;
         let middle = self.span.middle();
@@ -74,12 +74,12 @@ impl Clock {
         }
     }
 
-    /// Returns the motion.
+    /// Returns the relative motion of the two bodies.
     pub(super) fn relative(&self) -> &Relative {
         &self.relative
     }
 
-    /// Returns the width at which halving ends.
+    /// Returns the width at which intervals are no longer halved.
     pub(super) fn resolution(&self) -> f64 {
         self.resolution
     }
@@ -89,7 +89,7 @@ impl Clock {
         !(slice.span.width() > self.resolution) || slice.level >= MAX_LEVEL
     }
 
-    /// Returns true if the limit of halvings is reached.
+    /// Returns true if the limit on the number of halvings is reached.
     pub(super) fn is_spent(&self) -> bool {
         self.halvings >= self.most_halvings
     }

@@ -1,4 +1,4 @@
-//! The continuous elementary tests: a corner against a face, an edge against an edge.
+//! The elementary tests of two triangles in motion: a corner against a face, an edge against an edge.
 
 use super::relative::Enclosure;
 use crate::method::rival::Placement;
@@ -17,18 +17,18 @@ pub(super) struct Facet {
     inward: [DVec3; 3],
 }
 
-/// One elementary test of a pair of triangles.
+/// An elementary test of one feature of each of two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Test {
     /// A corner of the first triangle against the second's face.
     CornerFace(usize),
-    /// The first's face against a corner of the second.
+    /// The face of the first triangle against a corner of the second.
     FaceCorner(usize),
     /// An edge of each triangle.
     EdgeEdge(usize, usize),
 }
 
-/// The set of tests that may still have a root.
+/// The set of elementary tests that may still have a root, as bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Open(u16);
 
@@ -60,10 +60,10 @@ impl Facet {
 }
 
 impl Test {
-    /// The number of tests.
+    /// The number of elementary tests of two triangles.
     const COUNT: usize = 15;
 
-    /// Returns a test by its number: corners first, then faces, then pairs of edges.
+    /// Returns the test with the given number: corners first, then faces, then pairs of edges.
     fn numbered(number: usize) -> Test {
         match number {
             0..3 => Test::CornerFace(number),
@@ -74,13 +74,13 @@ impl Test {
 }
 
 impl Open {
-    /// The empty set.
+    /// The set without any test.
     const NONE: Open = Open(0);
 
-    /// The set of all tests.
+    /// The set of all elementary tests.
     pub(super) const ALL: Open = Open((1 << Test::COUNT) - 1);
 
-    /// Returns true if the set is empty.
+    /// Returns true if no test is in the set.
     pub(super) fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -233,12 +233,12 @@ fn from_point(point: DVec3, from: IntervalVec) -> IntervalVec {
     }
 }
 
-/// Returns true if all three are positive or all three negative.
+/// Returns true if three intervals are all positive or all negative.
 fn one_side(values: [Interval; 3]) -> bool {
     values.iter().all(|value| value.low() > 0.0) || values.iter().all(|value| value.high() < 0.0)
 }
 
-/// Returns true if `part` cannot contain a multiple between 0 and 1 of any vector in `whole`.
+/// Returns true if `part` cannot contain a vector of `whole` scaled by a factor from 0 to 1.
 fn exceeds(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.smallest() - whole.largest()).max_element() > 0.0
 }

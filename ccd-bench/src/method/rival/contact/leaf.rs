@@ -5,10 +5,10 @@ use super::elementary::{Open, Test, Triangles};
 use super::relative::Span;
 use ccd_core::order::{greater, lesser};
 
-/// The result for two triangles over an interval of time.
+/// When two triangles first touch in an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Touch {
-    /// The triangles touch at this time, and not before.
+    /// The triangles first touch at this time.
     At(f64),
     /// The triangles do not touch.
     Never,
@@ -16,8 +16,8 @@ pub(super) enum Touch {
     Unknown,
 }
 
-/// Returns the first root of all elementary tests. Time is halved, the first half first, until
-/// every test is excluded, or its contact function is monotone so that signs find its root, or the
+/// Returns when two triangles first touch: the first root of all elementary tests. Time is halved, the first half
+/// first, until every test is excluded, or its contact function is monotone so that signs find its root, or the
 /// interval is as short as the resolution \[CONTACT02\].
 pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock) -> Touch {
     let mut first = Touch::Never;
@@ -70,15 +70,15 @@ fn earlier(first: Touch, time: f64) -> Touch {
     }
 }
 
-/// The roots of a contact function at which the features meet.
+/// The roots of a contact function in an interval at which the features meet.
 enum Root {
     None,
     At(f64),
-    /// There may be several roots.
+    /// The function may have several roots in the interval.
     Several,
 }
 
-/// Returns the root of a function that is monotone over the interval, if it is known to be.
+/// Returns the root of a contact function over the interval, if the function is known to be monotone.
 fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> Root {
     let rates = *clock.rates(slice);
     let rate = triangles.rate(test, clock.placements(slice), &rates);
@@ -105,8 +105,8 @@ fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> R
     }
 }
 
-/// The largest number of narrowings of a bracket. Every other one halves it, so 2·53 lead to
-/// neighbouring numbers.
+/// The maximum number of steps that narrow a bracket of a root. Every other one halves it, so 2·53 lead to neighbouring
+/// numbers.
 const MAX_NARROWINGS: usize = 110;
 
 /// Returns the root of a monotone function between two times, to within the resolution. Uses false

@@ -4,7 +4,7 @@ use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// The motion of the first body in the frame of the second, both about their reference points.
+/// The motion of the first body in the frame of the second, each about a reference point.
 ///
 /// For a point `x` of the first body relative to its reference point, `rotation(t) x + offset(t)`
 /// is the same point relative to the reference point of the second body, along that body's axes.
@@ -54,7 +54,7 @@ impl Span {
 }
 
 impl Relative {
-    /// Combines two motions; the reference points are given in each body's frame.
+    /// Combines the motions of two bodies, each with its reference point in the body's frame.
     pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not rotate then needs no
         // inverse rotation.
@@ -71,7 +71,7 @@ impl Relative {
         relative
     }
 
-    /// Returns the placement at a time.
+    /// Returns the placement of the first body in the second one's frame at a time.
     pub(super) fn at(&self, time: f64) -> Placement {
         let (first, position_first) = self.first.at(time);
         let (second, position_second) = self.second.at(time);
@@ -147,7 +147,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the position of the reference point of a body that does not rotate, without the linear motion.
+    /// Returns the position of the reference point of a body that does not rotate, without its linear motion.
     fn still_position(&self) -> DVec3 {
         self.from + self.fixed * self.lever
     }
@@ -212,7 +212,7 @@ fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
     }
 }
 
-/// Like [`swing`], for vectors.
+/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc, for vectors.
 fn swing_vec(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {

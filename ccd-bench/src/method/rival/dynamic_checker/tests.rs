@@ -39,7 +39,7 @@ fn motions_beyond_numbers_are_given_up() {
     assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
 }
 
-/// The bodies touch at a halving time, and all earlier segments are free up to rounding.
+/// Tests bodies that touch at a halving time, when all earlier segments are free up to rounding.
 #[test]
 fn a_touch_at_a_halving_is_a_contact() {
     let cuboid = |x, y, z| Board {

@@ -2,7 +2,7 @@ use super::*;
 use crate::method::rival::tests::samples::Samples;
 use ccd_core::order::{greater, lesser};
 
-/// An allowance for rounding.
+/// The allowed error of a comparison, due to rounding.
 const SLACK: f64 = 1e-12;
 
 fn interval_vec(samples: &mut Samples) -> IntervalVec {

@@ -63,14 +63,14 @@ pub(in crate::method::rival) fn crossing(
     Crossing::None
 }
 
-/// Returns true if A's node is to be opened, because B's is a leaf or smaller.
+/// Returns true if A's node is to be opened next, because B's is a leaf or smaller.
 fn other_is_smaller(other: Content, a: &Obb, b: &Obb) -> bool {
     matches!(other, Content::Triangle(_)) || a.half.max_element() > b.half.max_element()
 }
 
 impl Obb {
-    /// Returns true if one of the 15 axes separates this box, placed in the other's frame, from the
-    /// other \[OBBTREE96 §5\].
+    /// Returns true if one of the 15 axes separates this box, placed in the frame of `other`, from that box \[OBBTREE96
+    /// §5\].
     fn apart(&self, other: &Obb, placement: &Placement) -> bool {
         let into = other.axes.transpose();
         let t = into * (placement.apply(self.centre) - other.centre);

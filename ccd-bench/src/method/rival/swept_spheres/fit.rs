@@ -1,4 +1,4 @@
-//! Builds a tree: fits swept spheres to triangles, and splits sets of triangles.
+//! Builds a tree of swept spheres: fits them to triangles, and splits sets of triangles.
 
 use super::{Below, Node, SphereTree, principal_axes};
 use crate::method::rival::Placement;
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// The relative increase of radii, which covers the rounding here and in computations with the tree.
 const ROUNDING: f64 = 1e-14;
 
-/// Returns the tree over triangles, which are sorted into the order of the leaves.
+/// Builds the tree over triangles, and sorts these into the order of the leaves.
 pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
     let mut tree = SphereTree {
         nodes: Vec::with_capacity(2 * triangles.len()),
@@ -63,7 +63,7 @@ impl SphereTree {
 
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
 fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
-    /// The fraction of all triangles below which a side is too small.
+    /// The smallest share of the triangles that a side may get.
     const LOPSIDED: f64 = 1.0 / 16.0;
 
     let part = &mut triangles[range.clone()];
@@ -81,7 +81,8 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     range.start + below
 }
 
-/// Returns a rectangle across the direction in which triangles are thinnest, and the required radius \[PQP99 §3\].
+/// Fits a rectangle across the direction in which the triangles are thinnest, and returns it with the required radius
+/// \[PQP99 §3\].
 fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let (_, axes) = principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
@@ -112,7 +113,7 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     (frame, shape.high - shape.low, farthest + ROUNDING * extent)
 }
 
-/// A rectangle in a plane z = `middle` that grows until all points are within the radius.
+/// A rectangle in the plane z = `middle` that grows until all points are within the radius of it.
 struct Stadium {
     low: DVec2,
     high: DVec2,
@@ -121,21 +122,20 @@ struct Stadium {
 }
 
 impl Stadium {
-    /// Returns the distance from a point's foot in the plane at which the point is still within the
-    /// radius.
+    /// Returns how far from a point's foot in the plane the rectangle may end with the point still within the radius.
     fn reach(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
-    /// Moves each side outwards, as a line, until a point is within the radius.
+    /// Moves each side outwards until a point is within the radius of the line along that side.
     fn reach_sides(&mut self, point: DVec3) {
         let reach = self.reach(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
     }
 
-    /// Repairs sides that have passed each other: every position between them is valid.
+    /// Repairs sides that have passed each other, for which every position between them is valid.
     fn straighten(&mut self) {
         let middle = 0.5 * (self.low + self.high);
         self.low = self.low.min(middle);

@@ -19,7 +19,7 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
     }
 }
 
-/// Returns the triangles below a node.
+/// Returns the indices of the triangles below a node.
 fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].below {
         Below::Triangle(k) => vec![k],

@@ -1,4 +1,4 @@
-//! The tests that all rivals share: scenes with exact answers, and shots checked by brute force.
+//! Tests that all rivals share: scenes with exact answers, and shots checked by brute force.
 
 use crate::method::rival::patience::Patience;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
@@ -13,14 +13,14 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2};
 
-/// Two bodies, their motions, and the first contact.
+/// A test case: two bodies, their motions, and the exact first contact.
 struct Exact {
     name: &'static str,
     a: TriangleMesh,
     b: TriangleMesh,
     query: Motions,
     time: f64,
-    /// The closing speed at the contact point.
+    /// The closing speed at the contact point, in units of length per unit of time.
     closing_speed: f64,
 }
 
@@ -71,7 +71,7 @@ fn query(a: Motion, b: Motion) -> Motions {
     }
 }
 
-/// The half extents of a slab. Its near face is at the origin's height if it is lowered by its
+/// The half extents of a slab onto which bodies fall. Its near face is at the origin's height if it is lowered by its
 /// third half extent.
 const SLAB: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 
@@ -111,8 +111,7 @@ fn falling_boxes() -> Vec<Exact> {
     ]
 }
 
-/// Returns rods of half length 2 and half width 0.05 whose corner meets a plane at a height, or
-/// another rod.
+/// Returns cases of rotating rods of half length 2 and half width 0.05 whose corner meets a plane, or another rod.
 fn turning_rods() -> Vec<Exact> {
     let (length, width, height) = (2.0_f64, 0.05_f64, 1.2);
     let radius = length.hypot(width);
@@ -160,7 +159,7 @@ fn turning_rods() -> Vec<Exact> {
     scenes
 }
 
-/// Returns a rotating rod with an edge along z that meets an edge of a post.
+/// Returns the case of a rotating rod with an edge along z that meets an edge of a post.
 fn rod_on_post() -> Exact {
     let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
     let near = DVec3::new(at.cos(), at.sin(), 0.0);
@@ -210,7 +209,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     }
 }
 
-/// The distance of two knots over all pairs of triangles.
+/// Two torus knots whose distance is computed over all pairs of triangles.
 struct BruteForce {
     triangles: Vec<Triangle>,
     balls: Vec<(DVec3, f64)>,

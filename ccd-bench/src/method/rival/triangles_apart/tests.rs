@@ -8,7 +8,7 @@ fn random_vec(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Returns triangles with corners in the plane, on a grid, or anywhere, or twice the same triangle.
+/// Returns two triangles with corners in the plane, on a grid, or anywhere, or the same triangle twice.
 fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     let kind = rng.random_range(0..5);
     let mut triangle = |shift: DVec3| {

@@ -193,8 +193,8 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     }
 }
 
-/// A bound on the relative speed of the triangles' points below: centres move by √3 (2 + 4), points up to 3 √3 from
-/// them by √3 times as much, twice.
+/// A bound on the relative speed of the triangles' points in this test: centres move by √3 (2 + 4), points up to 3 √3
+/// from them by √3 times as much, twice.
 const MAX_SPEED: f64 = 30.0;
 
 /// Returns a motion of the first body towards the second one's start.

@@ -38,7 +38,8 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Compares answers with samples. Returns the number of hits.
+/// Compares the method's answers to queries with samples, and returns the number of contacts. Returns the number of
+/// hits.
 fn judge(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
@@ -101,7 +102,7 @@ fn both_bodies_may_move_and_turn_far() {
     assert!((6..20).contains(&hits), "{hits} of 20 hit");
 }
 
-/// Returns another motion from the same start.
+/// Returns another motion from the same start pose.
 fn turned(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(motion.start(), velocity, spin).unwrap()
 }
