@@ -2,7 +2,7 @@
 
 use crate::closed::open_edge;
 use crate::order::{greater, length};
-use crate::tolerance::PLACED;
+use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
@@ -63,11 +63,11 @@ impl Form {
     }
 
     /// Returns the form with a polytope in place of a cylinder or a cone, if it is one.
-    pub(crate) fn expanded(&self) -> Result<Cow<'_, Form>, ShapeError> {
+    pub(crate) fn with_polytope(&self) -> Result<Cow<'_, Form>, ShapeError> {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
         };
-        let about = enclosed(round, *excess)?;
+        let about = polytope_around(round, *excess)?;
         let (triangles, numbers) = about.triangles();
         let has_surface = *radius == 0.0 && !triangles.is_empty();
         let turned = |point: &DVec3| DVec3::new(point.y, point.z, point.x);
@@ -162,7 +162,7 @@ impl Form {
     ///
     /// # Errors
     /// [`ShapeError::Open`] unless they are closed.
-    pub(crate) fn filled(self) -> Result<Self, ShapeError> {
+    pub(crate) fn as_solid(self) -> Result<Self, ShapeError> {
         match open_edge(&self.vertices, &self.triangles) {
             Some([from, to]) => Err(ShapeError::Open { from, to }),
             None => Ok(Form {
@@ -179,13 +179,13 @@ impl Form {
         inner: &Form,
         number: u32,
     ) -> Result<(), ShapeError> {
-        let inner = inner.expanded()?;
+        let inner = inner.with_polytope()?;
         let place = |point: &DVec3| pose.transform_point(*point);
         let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
         let moved = if *pose == Pose::IDENTITY {
             0.0
         } else {
-            PLACED * (reach + length(pose.translation()))
+            POSE_ROUNDING * (reach + length(pose.translation()))
         };
         let first = self.vertices.len() as u32;
         self.vertices.extend(inner.vertices.iter().map(place));
@@ -241,7 +241,7 @@ impl Form {
             |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, farthest(self.vertices.iter(), middle));
-        (middle, radius * crate::tolerance::BEYOND)
+        (middle, radius * crate::tolerance::END_ROUNDED_UP)
     }
 
     /// Returns the centre if the form is a single ball; `None` for other forms.
@@ -271,10 +271,10 @@ impl Form {
                 Pieces::triangles(&self.vertices, &self.triangles, &self.triangle_numbers)
                     .and_then(|pieces| Body::new(&pieces, self.volume))
             }
-            (parts, false) => self.of_parts(&self.all_parts(parts)),
+            (parts, false) => self.of_parts(&self.parts_and_triangles(parts)),
         };
-        let body = made.map_err(|error| self.named(error))?;
-        let numbers = (0..body.pieces().len()).map(|k| self.number(&body, k));
+        let body = made.map_err(|error| self.with_sub_shape(error))?;
+        let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_of_piece(&body, k));
         let numbers = numbers.collect();
         Ok((body, numbers))
     }
@@ -301,7 +301,7 @@ impl Form {
     }
 
     /// Returns the given parts followed by each triangle as a part of its own.
-    fn all_parts(&self, parts: &[Part]) -> Vec<Part> {
+    fn parts_and_triangles(&self, parts: &[Part]) -> Vec<Part> {
         // A vertex that does not exist is refused as a point that is not finite.
         let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
         let of_face = |(face, number): (&[u32; 3], &u32)| Part {
@@ -320,7 +320,7 @@ impl Form {
     }
 
     /// Returns the sub-shape index of a piece of the body.
-    fn number(&self, body: &Body, piece: usize) -> u32 {
+    fn sub_shape_of_piece(&self, body: &Body, piece: usize) -> u32 {
         let inside = match body.pieces().all_triangles() {
             true => {
                 let mut inside = Combination::segment([0, 1], 0.5);
@@ -339,7 +339,7 @@ impl Form {
     }
 
     /// Returns the error with the sub-shape index in place of the index of the body's piece.
-    fn named(&self, error: InputError) -> ShapeError {
+    fn with_sub_shape(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }
             | InputError::BadRadius { piece, .. }
@@ -361,7 +361,7 @@ impl Form {
 }
 
 /// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
-fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
+fn polytope_around(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
         Excess::Fine => round.usual_excess(),
         Excess::Length(length) => length,

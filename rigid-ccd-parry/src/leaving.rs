@@ -8,7 +8,7 @@ mod direction;
 use crate::form::Form;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{ALONG, BEYOND};
+use crate::tolerance::{END_ROUNDED_UP, LARGEST_SLIDING_RATE};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
@@ -25,13 +25,13 @@ struct Task {
 }
 
 /// Returns the first contact of all pairs of pieces that do not begin to part; `overlap` is the hit at the start.
-pub(crate) fn parting(
+pub(crate) fn first_contact_unless_parting(
     scene: &Scene<'_>,
     overlap: CastHit,
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
     let mut tasks = vec![Task {
-        pieces: [0, 1].map(|k| near(scene, k)),
+        pieces: [0, 1].map(|k| pieces_near_other(scene, k)),
     }];
     let (mut first, mut left_out) = (None, 0);
     while let Some(task) = tasks.pop() {
@@ -84,7 +84,7 @@ fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOu
     let some = |k: usize| {
         let which = k as u8 + 1;
         let named = |error| CastError::Shape { which, error };
-        some_pieces(scene.bodies[k], &task.pieces[k]).map_err(named)
+        body_of_pieces(scene.bodies[k], &task.pieces[k]).map_err(named)
     };
     let (a, b) = (some(0)?, some(1)?);
     let part = Scene {
@@ -106,7 +106,7 @@ fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOu
 }
 
 /// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
-fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
+fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
     let mut form = Form::EMPTY;
     for &number in pieces {
         let piece = body.body().pieces().get(number as usize);
@@ -116,7 +116,7 @@ fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Shape
 }
 
 /// Returns the indices of the pieces of body `k` that the other body may reach.
-fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
+fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
@@ -127,10 +127,11 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
-        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(displacement));
+        let rounding =
+            (END_ROUNDED_UP - 1.0) * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * BEYOND + rounding)
+        !(apart > (within + radius) * END_ROUNDED_UP + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces
@@ -163,7 +164,7 @@ fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> b
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
     // The comparison is false for NaN, which does not part.
-    let least = -ALONG * length(velocity);
+    let least = -LARGEST_SLIDING_RATE * length(velocity);
     direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
 }
 

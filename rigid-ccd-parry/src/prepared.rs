@@ -27,11 +27,11 @@ pub struct Prepared {
 impl Prepared {
     /// Makes the body from the geometry of a shape.
     pub(crate) fn new(form: &Form) -> Result<Self, ShapeError> {
-        let form = form.expanded()?;
+        let form = form.with_polytope()?;
         let (body, numbers) = form.body()?;
         let (middle, radius) = form.ball();
         Ok(Prepared {
-            body: exceeding(body, form.slack(), form.excess())?,
+            body: with_excess(body, form.slack(), form.excess())?,
             numbers,
             middle,
             radius,
@@ -70,8 +70,8 @@ impl Prepared {
     ///
     /// # Errors
     /// [`ShapeError::Body`] for what is no length.
-    pub(crate) fn exceeding(self, excess: f64) -> Result<Self, ShapeError> {
-        let body = exceeding(self.body, self.slack, excess)?;
+    pub(crate) fn with_excess(self, excess: f64) -> Result<Self, ShapeError> {
+        let body = with_excess(self.body, self.slack, excess)?;
         Ok(Prepared {
             body,
             excess,
@@ -96,7 +96,7 @@ impl Prepared {
 }
 
 /// Returns a body whose excess is the sum of `slack` and `excess`.
-fn exceeding(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
+fn with_excess(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
     let together = if slack > 0.0 {
         (slack + excess).next_up()
     } else {

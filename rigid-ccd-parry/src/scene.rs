@@ -3,7 +3,7 @@
 use crate::horizon::Horizon;
 use crate::interval::Interval;
 use crate::order::lesser;
-use crate::tolerance::LOOK;
+use crate::tolerance::BUDGET_AT_LIMIT;
 use crate::{CastError, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, Motion, Outcome, Overlap, Pose, Settings, Volume};
@@ -134,7 +134,7 @@ impl Scene<'_> {
     /// Returns the hit for a limit reached at the time `after`, with the nearest points if they can be found.
     fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
-            budget: lesser(self.settings.budget, LOOK),
+            budget: lesser(self.settings.budget, BUDGET_AT_LIMIT),
             deadline: self.settings.deadline,
             ..Settings::DEFAULT
         });

@@ -28,7 +28,7 @@ use crate::table::results::{ResultRow, Status};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, InputError, Pose};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
-use drawn::lit;
+use drawn::feature_corners;
 
 /// The colours of body A and body B, in CSS.
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
@@ -97,7 +97,7 @@ impl<'a> Painter<'a> {
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
         if self.asked.claim == Claim::Told {
-            self.compare(row, [a, b])?;
+            self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
         let name = match (self.asked.claim, row.time) {
@@ -146,7 +146,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Checks that the bodies are no farther apart than the row of a table of results says.
-    fn compare(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
+    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
         let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
             return Ok(());
         };
@@ -170,8 +170,8 @@ impl<'a> Painter<'a> {
             Some(DVec3::new(x?, y?, z?))
         };
         let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
-        let lit = |k: usize, body: &Body, feature: &Option<String>| {
-            lit(
+        let feature_corners = |k: usize, body: &Body, feature: &Option<String>| {
+            feature_corners(
                 body,
                 &poses[k],
                 feature.as_deref().unwrap_or_default(),
@@ -183,8 +183,8 @@ impl<'a> Painter<'a> {
             words: verdict::contact(row),
             witnesses: Some(witnesses),
             normal: point(row.normal),
-            lit_a: lit(0, self.bodies.a, &row.feature_a),
-            lit_b: lit(1, self.bodies.b, &row.feature_b),
+            lit_a: feature_corners(0, self.bodies.a, &row.feature_a),
+            lit_b: feature_corners(1, self.bodies.b, &row.feature_b),
         })
     }
 }

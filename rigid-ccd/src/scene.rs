@@ -1,12 +1,12 @@
 //! Many moving bodies: which of them touch, and in which order.
 
 mod clock;
-mod due;
 mod event;
 mod goal;
 mod groups;
+mod pair_queue;
 mod pairs;
-mod race;
+mod queue_entry;
 mod shifted;
 mod stops;
 
@@ -18,7 +18,7 @@ use event::Event;
 pub use event::{Impact, PairError};
 use goal::Goal;
 pub use groups::Groups;
-use race::{Race, Worker};
+use pair_queue::{PairQueue, Worker};
 use std::num::NonZeroUsize;
 pub use stops::Stop;
 
@@ -85,7 +85,7 @@ pub struct FixedBody {
 const PAIRS_A_THREAD: usize = 32;
 
 /// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
-const EVERYWHERE: SweptBox = SweptBox {
+const EVERYWHERE_BOX: SweptBox = SweptBox {
     min: DVec3::splat(-1e15),
     max: DVec3::splat(1e15),
 };
@@ -254,23 +254,23 @@ impl<'a> Scene<'a> {
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        self.race(&pairs, &clock, goal)
+        self.pair_queue(&pairs, &clock, goal)
     }
 
-    fn race(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
+    fn pair_queue(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
         let (members, settings) = (&self.members, &self.settings);
         let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
             let [a, b] = pair.map(|index| members[index].moving());
             Ok(Query::new(a, b, clock.duration, settings)?.with_deadline(clock.left()))
         };
-        let race = Race::new(pairs, &query, clock.duration, goal);
+        let pair_queue = PairQueue::new(pairs, &query, clock.duration, goal);
         let threads = self
             .workers
             .threads()
             .min(pairs.len().div_ceil(PAIRS_A_THREAD));
         let events = self
             .workers
-            .map(&vec![(); threads], |worker, ()| worker.run(&race));
+            .map(&vec![(); threads], |worker, ()| worker.run(&pair_queue));
         events.into_iter().flatten().collect()
     }
 
@@ -279,10 +279,10 @@ impl<'a> Scene<'a> {
         let swept = |member: &Member<'_>| {
             let swept = member.moving().swept_box(duration, &self.settings);
             // Each pair of such a body reports its error.
-            swept.unwrap_or(EVERYWHERE)
+            swept.unwrap_or(EVERYWHERE_BOX)
         };
         let boxes: Vec<SweptBox> = self.members.iter().map(swept).collect();
-        pairs::meeting(&boxes, |[a, b]| {
+        pairs::meeting_pairs(&boxes, |[a, b]| {
             let pair = [&self.members[a], &self.members[b]];
             pair.iter()
                 .any(|member| member.mobility == Mobility::Moving)

@@ -11,11 +11,11 @@ mod error;
 mod foreign;
 mod lines;
 pub mod motions;
-mod oddities;
 pub mod paths;
 mod position;
 mod quotes;
 pub mod records;
+mod remark_collector;
 pub mod results;
 
 pub use lines::Lines;

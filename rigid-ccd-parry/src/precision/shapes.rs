@@ -10,7 +10,7 @@ use crate::form::Form;
 use crate::half_space::HalfSpace;
 use crate::limits::{DEEPEST, FARTHEST_VOXEL};
 use crate::order::{greater, length};
-use crate::tolerance::GRID;
+use crate::tolerance::VOXEL_ROUNDING;
 use crate::{Meshes, Options, Prepared, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{InputError, Round};
@@ -40,13 +40,13 @@ pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError
 
 /// Returns the geometry of a shape in double precision.
 pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeError> {
-    let form = nested(shape, options, 0)?;
+    let form = form_at_depth(shape, options, 0)?;
     let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
         return Ok(form);
     };
     let oriented = mesh.flags().contains(TriMeshFlags::ORIENTED);
     if options.meshes == Meshes::SolidIfOriented && oriented {
-        form.filled()
+        form.as_solid()
     } else {
         Ok(form)
     }
@@ -58,7 +58,7 @@ pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError
 }
 
 /// Returns the geometry of a shape that is nested in `depth` compounds.
-fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
+fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
@@ -66,7 +66,11 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
-            push_cuboid(&mut form, &round.inner_shape, border(round.border_radius)?)?;
+            push_cuboid(
+                &mut form,
+                &round.inner_shape,
+                border_radius(round.border_radius)?,
+            )?;
         }
         TypedShape::Capsule(capsule) => {
             let ends = [capsule.segment.a, capsule.segment.b].map(point);
@@ -78,11 +82,15 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
         TypedShape::Triangle(t) => form.push_triangle([t.a, t.b, t.c].map(point), 0),
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);
-            form.push_hull(corners.to_vec(), border(round.border_radius)?, &[]);
+            form.push_hull(corners.to_vec(), border_radius(round.border_radius)?, &[]);
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
         TypedShape::RoundConvexPolyhedron(round) => {
-            push_polyhedron(&mut form, &round.inner_shape, border(round.border_radius)?);
+            push_polyhedron(
+                &mut form,
+                &round.inner_shape,
+                border_radius(round.border_radius)?,
+            );
         }
         TypedShape::TriMesh(mesh) => {
             let vertices = mesh.vertices().iter().copied().map(point);
@@ -94,15 +102,15 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
         TypedShape::Compound(compound) => push_parts(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
         TypedShape::Custom(_) => return Err(ShapeError::Custom),
-        typed => return round(&typed, options),
+        typed => return push_round(&typed, options),
     }
     Ok(form)
 }
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
-fn round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
-    type Made = fn(f64, f64) -> Result<Round, InputError>;
-    let (made, half_height, radius, grown): (Made, _, _, _) = match shape {
+fn push_round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
+    type MakeRound = fn(f64, f64) -> Result<Round, InputError>;
+    let (made, half_height, radius, grown): (MakeRound, _, _, _) = match shape {
         TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),
         TypedShape::Cone(s) => (Round::cone, s.half_height, s.radius, 0.0),
         TypedShape::RoundCylinder(s) => {
@@ -119,13 +127,13 @@ fn round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> 
     };
     let half_height = size("half height", half_height)?;
     let round = made(size("radius", radius)?, half_height).map_err(ShapeError::Body)?;
-    Ok(Form::of_round(round, border(grown)?, options.excess))
+    Ok(Form::of_round(round, border_radius(grown)?, options.excess))
 }
 
 fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
     let half = point(cuboid.half_extents);
     for length in half.to_array() {
-        checked("half extent", length)?;
+        not_negative("half extent", length)?;
     }
     form.push_box(-half, half, radius);
     Ok(())
@@ -194,7 +202,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
         reach = greater(reach, greater(length(low), length(high)));
         form.push_box(low, high, 0.0);
     }
-    form.add_slack(GRID * reach);
+    form.add_slack(VOXEL_ROUNDING * reach);
     Ok(())
 }
 
@@ -213,22 +221,22 @@ fn push_parts(
             part,
             error: Box::new(error),
         };
-        let inner = nested(&**shape, options, depth + 1).map_err(named)?;
+        let inner = form_at_depth(&**shape, options, depth + 1).map_err(named)?;
         let at = pose(at).map_err(|error| named(ShapeError::Body(error)))?;
         form.push_placed(&at, &inner, part).map_err(named)?;
     }
     Ok(())
 }
 
-fn border(radius: Real) -> Result<f64, ShapeError> {
+fn border_radius(radius: Real) -> Result<f64, ShapeError> {
     size("border radius", radius)
 }
 
 fn size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
-    checked(what, f64::from(value))
+    not_negative(what, f64::from(value))
 }
 
-fn checked(what: &'static str, value: f64) -> Result<f64, ShapeError> {
+fn not_negative(what: &'static str, value: f64) -> Result<f64, ShapeError> {
     if value >= 0.0 && value.is_finite() {
         Ok(value)
     } else {

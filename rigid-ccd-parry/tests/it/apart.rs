@@ -47,7 +47,7 @@ impl Scene {
     }
 
     /// Returns the shapes and motions in single precision.
-    fn single(
+    fn in_single_precision(
         &self,
     ) -> (
         [single::make::SharedShape; 2],
@@ -106,7 +106,7 @@ impl Scene {
 
     /// Bounds the error of parry's distances, for shapes of size 1 or less: the search for round shapes ends at that
     /// error.
-    fn blur(&self) -> f64 {
+    fn distance_error(&self) -> f64 {
         let kinds = self.recipes.each_ref().map(Recipe::name);
         let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
         let is_round = |kind: &String| round.iter().any(|round| kind.starts_with(round));
@@ -171,17 +171,21 @@ impl Count {
         tolerance: f64,
         name: &str,
     ) {
-        let (until, blur) = (found.unwrap_or(end), scene.blur());
+        let (until, distance_error) = (found.unwrap_or(end), scene.distance_error());
         if found == Some(start) {
             self.starts += 1;
         } else {
-            let by = if target > 0.0 { target - blur } else { 0.0 };
+            let by = if target > 0.0 {
+                target - distance_error
+            } else {
+                0.0
+            };
             assert!(scene.is_apart([start, until], by), "{name}: before {until}");
         }
         match found {
             Some(time) => {
                 self.hits += u64::from(time > start);
-                let most = target + tolerance + scene.excess() + blur;
+                let most = target + tolerance + scene.excess() + distance_error;
                 let near = scene.distance(time) <= most || scene.bracket(time).0 <= most;
                 assert!(near, "{name}: {:e} at {time}", scene.bracket(time).0);
             }
@@ -204,7 +208,7 @@ fn nothing_touches_before_a_hit() {
         let scene = Scene::new(seed);
         let start = [0.0, 0.0, -0.25, 0.125f32][seed as usize % 4];
         let interval = [f64::from(start), 2.0];
-        let ([a, b], [m, n]) = scene.single();
+        let ([a, b], [m, n]) = scene.in_single_precision();
         let hit32 = ours32::cast_shapes_nonlinear(&m, &*a, &n, &*b, start, 2.0, true);
         let ([a, b], [m, n]) = (&scene.shapes, &scene.motions);
         let hit64 = ours64::cast_shapes_nonlinear(m, &**a, n, &**b, interval[0], 2.0, true);

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// The state of a command that answers the rows of a table in batches.
-pub(super) struct Answering<'a> {
+pub(super) struct BatchRun<'a> {
     pub(super) bodies: Bodies<'a>,
     pub(super) timing: Timing,
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
@@ -28,7 +28,7 @@ pub(super) struct Batch {
 }
 
 /// A row of a table of motions, with its row in the table of results.
-pub(super) struct Answered<'b> {
+pub(super) struct AnsweredRow<'b> {
     pub(super) position: RowPosition,
     /// The motions or paths of the row; `None` for a row that cannot be read.
     pub(super) course: Option<&'b Course>,
@@ -37,7 +37,7 @@ pub(super) struct Answered<'b> {
     pub(super) timed: Option<&'b Timed>,
 }
 
-impl<'a> Answering<'a> {
+impl<'a> BatchRun<'a> {
     /// Starts to answer the table in a file, with one solver for each of `threads`.
     pub(super) fn new(
         bodies: Bodies<'a>,
@@ -49,7 +49,7 @@ impl<'a> Answering<'a> {
         let solver = on_threads(threads, || {
             timing.method.solver(timing.settings.instructions)
         });
-        Answering {
+        BatchRun {
             bodies,
             batch: BatchSize::new(solver.threads()),
             timing,
@@ -61,7 +61,7 @@ impl<'a> Answering<'a> {
 
     /// Reads some rows, but no more than `most`, and answers them; `None` at the end of the table.
     pub(super) fn next(&mut self, rows: &mut Rows, most: usize) -> Option<Batch> {
-        let (batch, broken) = read(rows, self.batch.items().min(most));
+        let (batch, broken) = read_rows(rows, self.batch.items().min(most));
         if batch.is_empty() && broken.is_none() {
             return None;
         }
@@ -82,10 +82,10 @@ impl<'a> Answering<'a> {
     }
 
     /// Returns the row of results for a row of motions, and reports the row if it is bad.
-    pub(super) fn answered<'b>(
+    pub(super) fn answered_row<'b>(
         &mut self,
         (asked, answer): &'b (CourseRow, Result<Timed, RowProblem>),
-    ) -> Answered<'b> {
+    ) -> AnsweredRow<'b> {
         let (position, id, course) = match asked {
             Ok((position, course)) => (*position, course.id(), Some(course)),
             Err(error) => (error.position, error.id.as_str(), None),
@@ -97,7 +97,7 @@ impl<'a> Answering<'a> {
                 ResultRow::error(id, problem)
             }
         };
-        Answered {
+        AnsweredRow {
             position,
             course,
             row,
@@ -107,7 +107,7 @@ impl<'a> Answering<'a> {
 }
 
 /// Reads up to `count` rows, and returns the error that ended the table early, if any.
-fn read(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
+fn read_rows(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
     let mut batch = Vec::new();
     for row in rows.take(count) {
         match row {

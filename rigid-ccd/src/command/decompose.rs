@@ -5,7 +5,7 @@ mod statistics;
 use super::Exit;
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
-use super::named::{ORDERS, named};
+use super::named::{ORDERS, named_value_parser};
 use super::output::{CannotWrite, Output};
 use super::pieces::PiecesArgs;
 use crate::command::progress::Progress;
@@ -35,7 +35,7 @@ pub(super) struct DecomposeArgs {
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Order in which --pieces patches grow [default: cresting]
-    #[arg(long, value_parser = named(ORDERS))]
+    #[arg(long, value_parser = named_value_parser(ORDERS))]
     order: Option<Order>,
     /// Also build the tree of convex hulls, for `ccd query --schedule fast`
     #[arg(long)]

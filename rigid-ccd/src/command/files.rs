@@ -1,6 +1,6 @@
 //! Input tables from files or standard input, and the names of files in messages.
 
-use super::output::{RESUME, is_standard, is_standard_output};
+use super::output::{JOURNAL_EXTENSION, is_standard, is_standard_output};
 use crate::table::courses::Courses;
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
@@ -23,7 +23,7 @@ pub fn refuse_overwriting(
         bail!("{written} would overwrite the file of {read}; give {written} another file");
     }
     let end = end_of_links(target).unwrap_or_else(|_| target.to_owned());
-    for ending in [PARTIAL, RESUME] {
+    for ending in [PARTIAL, JOURNAL_EXTENSION] {
         let mut name = end.clone().into_os_string();
         name.push(ending);
         let pending = PathBuf::from(name);

@@ -9,7 +9,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 pub(super) type Named<T> = [(&'static str, T, &'static str)];
 
 /// Returns a parser that maps the names in `all` to their values.
-pub(super) fn named<T>(all: &'static Named<T>) -> impl TypedValueParser<Value = T>
+pub(super) fn named_value_parser<T>(all: &'static Named<T>) -> impl TypedValueParser<Value = T>
 where
     T: Copy + Send + Sync + 'static,
 {

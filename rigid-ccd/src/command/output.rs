@@ -22,7 +22,7 @@ impl CannotWrite {
 }
 
 /// The file extension of a query's journal, which lies beside its results.
-pub(super) const RESUME: &str = ".resume";
+pub(super) const JOURNAL_EXTENSION: &str = ".resume";
 
 /// A destination that is checked and reserved before anything is written to it.
 pub(super) enum Output {
@@ -52,7 +52,9 @@ impl Output {
     pub(super) fn claim_table(path: &Path) -> Result<Self, CannotWrite> {
         let output = Output::claim(path)?;
         match &output {
-            Output::File(claim, _) if claim.left() > 0 && claim.sibling(RESUME).exists() => {
+            Output::File(claim, _)
+                if claim.left() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
+            {
                 let problem = format!(
                     "{} has rows of an interrupted query; continue that with --resume, or delete the file",
                     claim.partial().display()

@@ -55,14 +55,14 @@ impl BodiesArgs {
         let source_b = source(&self.b).context("--b")?;
         let load = |option, text, source| self.load_one((option, text), source, method, quiet);
         let (a, unit_a) = load("--a", &self.a, &source_a)?;
-        let b = if same(&source_a, &source_b) {
+        let b = if same_source(&source_a, &source_b) {
             None
         } else {
             Some(load("--b", &self.b, &source_b)?)
         };
         if let (Some((b, unit_b)), false) = (&b, quiet) {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
-            match mixed_units(sources) {
+            match warn_of_mixed_units(sources) {
                 Some(remark) => complain(&remark),
                 None => Size::compare(Size::of(&a), Size::of(b)),
             }
@@ -131,7 +131,9 @@ impl Pair {
 
 /// Warns if two files have different units, or if the unit of only one is known. Shapes have none: their numbers are
 /// the user's own.
-fn mixed_units([(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2]) -> Option<String> {
+fn warn_of_mixed_units(
+    [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
+) -> Option<String> {
     let (known, unit, other) = match (a, b) {
         (Some(a), Some(b)) if a != b => {
             return Some(format!(
@@ -157,7 +159,7 @@ fn with_hull_tree(body: Body) -> Result<Body> {
     Ok(body.with_hull_tree(tree)?)
 }
 
-fn same(a: &BodySource, b: &BodySource) -> bool {
+fn same_source(a: &BodySource, b: &BodySource) -> bool {
     match (a, b) {
         (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
         (BodySource::Mesh(a), BodySource::Mesh(b)) => {

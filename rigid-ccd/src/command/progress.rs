@@ -1,6 +1,6 @@
 //! Shows the progress of long work on standard error.
 
-use super::program;
+use super::program_name;
 use crate::text::Printable;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
@@ -38,13 +38,13 @@ pub enum Total {
 }
 
 /// The time from the start of the work until progress is first shown.
-const DELAY: Duration = Duration::from_secs(1);
+const SHOWN_AFTER: Duration = Duration::from_secs(1);
 
 /// The time between two redraws of the bar on a terminal.
-const FRAME: Duration = Duration::from_millis(120);
+const REDRAW_INTERVAL: Duration = Duration::from_millis(120);
 
 /// The time between two printed lines of progress, without a terminal.
-const LINE: Duration = Duration::from_secs(5);
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Progress {
     /// Starts to show progress; dropping the value ends it.
@@ -64,16 +64,21 @@ impl Progress {
         let (working, done) = mpsc::channel();
         let show = move || {
             let still_working = |time| done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
-            if !still_working(DELAY) {
+            if !still_working(SHOWN_AFTER) {
                 return;
             }
             if io::stderr().is_terminal() {
                 bar.set_draw_target(ProgressDrawTarget::stderr());
-                bar.enable_steady_tick(FRAME);
+                bar.enable_steady_tick(REDRAW_INTERVAL);
                 return;
             }
-            while still_working(LINE) {
-                let _ = writeln!(io::stderr(), "{}: {}", program(), line(&bar, total, &steps));
+            while still_working(LINE_INTERVAL) {
+                let _ = writeln!(
+                    io::stderr(),
+                    "{}: {}",
+                    program_name(),
+                    line(&bar, total, &steps)
+                );
             }
         };
         // Without a thread nothing is shown, but the work is done.

@@ -3,7 +3,7 @@
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::{complain, complain_of, print_line};
+use super::{complain, print_line, print_remarks};
 use crate::picture::Shown;
 use crate::scene::{Impact, PairError};
 use crate::table::columns::{BODY_NAME, Columns, Form};
@@ -20,7 +20,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// The time at which all motions end by default.
-const DURATION: f64 = 1.0;
+const DEFAULT_DURATION: f64 = 1.0;
 
 /// The options that name a scene's table and the end of its motions.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub(super) struct SceneTable {
     /// The time at which all motions end.
     pub(super) duration: f64,
     /// Whether `duration` is the default because none was given.
-    is_usual: bool,
+    is_default_duration: bool,
 }
 
 /// One row of the table: a body, its name and its motion.
@@ -66,7 +66,7 @@ pub(super) fn read(
 ) -> Result<SceneTable> {
     refuse_overwriting((option, path), ("--out", out))?;
     let name = || path.display().to_string();
-    let duration = how.duration.unwrap_or(DURATION);
+    let duration = how.duration.unwrap_or(DEFAULT_DURATION);
     let (rows, remarks) = read_rows(path, duration).with_context(name)?;
     let mut scene = SceneTable {
         bodies: HashMap::new(),
@@ -75,7 +75,7 @@ pub(super) fn read(
         remarks,
         rows: Vec::new(),
         duration,
-        is_usual: how.duration.is_none(),
+        is_default_duration: how.duration.is_none(),
     };
     for (position, BodyRow { id, text, motion }) in rows {
         scene
@@ -99,10 +99,10 @@ pub(super) fn read(
 }
 
 /// A parsed row of a table, with its position for messages.
-type Placed = (RowPosition, BodyRow);
+type PlacedRow = (RowPosition, BodyRow);
 
 /// Reads the rows of a table, and returns them with remarks about probable mistakes.
-fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
+fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)> {
     let mut records = CsvRecords::new(File::open(path)?)?;
     let header = records.header()?;
     if !header.iter().any(|column| column == BODY_NAME) {
@@ -112,17 +112,17 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
     }
     if let Some(time) = header
         .iter()
-        .find(|column| TIMES.contains(&column.as_str()))
+        .find(|column| LIKELY_TIME_COLUMNS.contains(&column.as_str()))
     {
         bail!(
             "all motions of a scene end together: give --duration in place of the column `{time}`"
         );
     }
     let columns = Columns::of_form(&header, Form::Scene)?;
-    let mut rows: Vec<Placed> = Vec::new();
+    let mut rows: Vec<PlacedRow> = Vec::new();
     while let Some(position) = records.advance()? {
         let row = body(&columns, records.current(), position.row, duration);
-        let row = row.map_err(|problem| anyhow!("{position}: {}", in_words(&problem)))?;
+        let row = row.map_err(|problem| anyhow!("{position}: {}", message_of(&problem)))?;
         rows.push((position, row));
     }
     if rows.is_empty() {
@@ -133,10 +133,10 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
 }
 
 /// The likely names of a column of times, which the table of a scene does not have.
-const TIMES: [&str; 3] = ["duration", "t", "time"];
+const LIKELY_TIME_COLUMNS: [&str; 3] = ["duration", "t", "time"];
 
 /// Returns the message for a bad row of a scene's table, in which all motions end together.
-fn in_words(problem: &RowProblem) -> String {
+fn message_of(problem: &RowProblem) -> String {
     let words = problem.to_string().replace("column duration", "--duration");
     match problem {
         RowProblem::WrongLength { .. } => {
@@ -147,7 +147,7 @@ fn in_words(problem: &RowProblem) -> String {
 }
 
 /// Refuses rows with the same id, which contacts could not distinguish.
-fn refuse_equal_ids(rows: &[Placed]) -> Result<()> {
+fn refuse_equal_ids(rows: &[PlacedRow]) -> Result<()> {
     let mut known = HashMap::new();
     for (position, BodyRow { id, .. }) in rows {
         if let Some(first) = known.insert(id, position) {
@@ -176,7 +176,7 @@ impl SceneTable {
         for report in &self.reports {
             print_line(report);
         }
-        if self.is_usual {
+        if self.is_default_duration {
             complain(&format!(
                 "without --duration, all motions end at {}",
                 self.duration
@@ -185,7 +185,7 @@ impl SceneTable {
         let sizes = self.bodies.values().map(Remark::size);
         let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);
         let remarks = self.remarks.iter().copied();
-        complain_of(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
+        print_remarks(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
     }
 
     /// Returns the bodies to draw, in the order of their rows.

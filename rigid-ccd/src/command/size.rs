@@ -13,7 +13,7 @@ use std::fmt;
 pub struct Size(DVec3);
 
 /// The ratio of sizes above which the command warns; millimetres and metres differ by 1000.
-const RATIO: f64 = 100.0;
+const WARNING_RATIO: f64 = 100.0;
 
 impl Size {
     /// Returns the side lengths of a body's bounding box.
@@ -38,10 +38,10 @@ impl Size {
         } else {
             ("--b", "--a", of_b / of_a)
         };
-        if ratio > RATIO && ratio.is_finite() {
+        if ratio > WARNING_RATIO && ratio.is_finite() {
             complain(&format!(
                 "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
-                Figure(ratio)
+                FourDigits(ratio)
             ));
         }
     }
@@ -49,15 +49,15 @@ impl Size {
 
 impl fmt::Display for Size {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array().map(Figure);
+        let [x, y, z] = self.0.to_array().map(FourDigits);
         write!(f, "{x} × {y} × {z}")
     }
 }
 
 /// Displays a number rounded to four digits.
-struct Figure(f64);
+struct FourDigits(f64);
 
-impl fmt::Display for Figure {
+impl fmt::Display for FourDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
         write!(f, "{}", Number(rounded))

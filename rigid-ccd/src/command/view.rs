@@ -11,7 +11,7 @@ use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, complain, complain_of};
+use super::{Exit, complain, print_remarks};
 use crate::batch::{Bodies, Question, Solve, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
@@ -24,7 +24,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// The maximum number of rows read from which some are chosen for the page.
-const MOST_READ: usize = 10_000;
+const MOST_ROWS_READ: usize = 10_000;
 
 /// Runs `ccd view`: writes the page.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
@@ -60,7 +60,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         clearance: None,
     };
     let mut solver = timing.method.solver(Instructions::Best);
-    for row in rows.by_ref().take(MOST_READ) {
+    for row in rows.by_ref().take(MOST_ROWS_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
@@ -68,15 +68,15 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
                 continue;
             }
         };
-        if chosen.is_named(course.id()) == Some(false) {
+        if chosen.is_requested(course.id()) == Some(false) {
             continue;
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answered(pair.bodies(), &course, &timing, solver.as_mut())),
+            None => Some(answer_row(pair.bodies(), &course, &timing, solver.as_mut())),
         };
         if let Some(row) = row {
-            chosen.offer(&course, &row);
+            chosen.add_if_wanted(&course, &row);
         }
         if chosen.is_full() {
             break;
@@ -90,7 +90,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
             results.display()
         );
     }
-    let subject = Drawn {
+    let subject = RowsPage {
         title: &title(bodies),
         pair: &pair,
         asked,
@@ -102,13 +102,13 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
 fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
     if args.results.is_none() && !args.quiet {
         let of_tolerance = pair.remark(args.tolerance);
-        complain_of(of_tolerance.into_iter().chain(rows.remarks()));
+        print_remarks(of_tolerance.into_iter().chain(rows.remarks()));
     }
 }
 
 /// The two bodies, their title and their context, for a page of rows.
 #[derive(Clone, Copy)]
-pub(super) struct Drawn<'a> {
+pub(super) struct RowsPage<'a> {
     pub(super) title: &'a str,
     pub(super) pair: &'a Pair,
     pub(super) asked: Asked,
@@ -129,7 +129,7 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
 }
 
 /// Answers a row of motions or paths, and returns its row of results.
-fn answered(
+fn answer_row(
     bodies: Bodies<'_>,
     course: &Course,
     timing: &Timing,
@@ -143,7 +143,7 @@ fn answered(
 
 /// Writes the page of the chosen rows. Without any there is none, which is told.
 pub(super) fn write_rows(
-    Drawn { title, pair, asked }: Drawn<'_>,
+    RowsPage { title, pair, asked }: RowsPage<'_>,
     mut chosen: Chosen,
     out: Output,
     quiet: bool,
@@ -160,7 +160,7 @@ pub(super) fn write_rows(
             Err(error) => chosen.leave_out(format!("row {}: {error}", row.id)),
         }
     }
-    if let Some(faults) = chosen.faults() {
+    if let Some(faults) = chosen.describe_faults() {
         complain(&faults);
     }
     if views.is_empty() {
@@ -168,7 +168,7 @@ pub(super) fn write_rows(
         return Ok(Exit::SomeRowsBad);
     }
     write_page(&painter.page(title, views), out, quiet)?;
-    Ok(if all_found && chosen.is_whole() {
+    Ok(if all_found && chosen.is_complete() {
         Exit::AllAnswered
     } else {
         Exit::SomeRowsBad

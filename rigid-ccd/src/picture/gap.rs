@@ -9,11 +9,11 @@ use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
 /// The maximum number of poses that are drawn as ghosts for one query, besides the start.
-const GHOSTS: f64 = 12.0;
+const MOST_GHOSTS: f64 = 12.0;
 /// The number of times at which the distance is measured.
-const TIMES: usize = 96;
+const MOST_MEASUREMENTS: usize = 96;
 /// The maximum number of steps of conservative advancement.
-const STEPS: usize = 48;
+const MOST_STEPS: usize = 48;
 /// The time limit for all measurements of one query, checked after each measurement.
 const TIME_LIMIT: Duration = Duration::from_secs(1);
 /// The work limit of one measurement of a distance.
@@ -52,7 +52,7 @@ impl GapOverTime {
         for &step in &self.steps {
             if drawn
                 .last()
-                .is_none_or(|last| step - last > duration / GHOSTS)
+                .is_none_or(|last| step - last > duration / MOST_GHOSTS)
             {
                 drawn.push(step);
             }
@@ -87,7 +87,7 @@ pub fn gap(
         budget: BUDGET,
         ..Settings::DEFAULT
     });
-    let mut survey = Survey {
+    let mut survey = GapSampler {
         solver,
         bodies,
         course,
@@ -105,7 +105,7 @@ pub fn gap(
     })
 }
 
-struct Survey<'a> {
+struct GapSampler<'a> {
     solver: &'a mut Solver,
     bodies: Bodies<'a>,
     course: &'a Course,
@@ -115,21 +115,21 @@ struct Survey<'a> {
 
 /// The maximum closing speed of two bodies between two times, and a bound on their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
-struct Shrinking {
+struct ClosingSpeed {
     speed: f64,
     deviation: f64,
 }
 
-impl Survey<'_> {
+impl GapSampler<'_> {
     /// Advances conservatively from the start until the bodies may touch, then measures at the end.
     fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
         let end = self.course.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
-        while points.len() < STEPS && Instant::now() < self.time_limit {
+        while points.len() < MOST_STEPS && Instant::now() < self.time_limit {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let Shrinking { speed, deviation } = self.shrinking(time, end)?;
+            let ClosingSpeed { speed, deviation } = self.closing_speed(time, end)?;
             let next = time + (point.lower - deviation) / speed;
             // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
@@ -147,17 +147,17 @@ impl Survey<'_> {
     fn refine(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
-            worths.push(self.worth(points[k - 1], points[k])?);
+            worths.push(self.gain(points[k - 1], points[k])?);
         }
-        while points.len() < TIMES && Instant::now() < self.time_limit {
+        while points.len() < MOST_MEASUREMENTS && Instant::now() < self.time_limit {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
             let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
                 return Ok(());
             };
             let (before, after) = (points[worst], points[worst + 1]);
             let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
-            worths[worst] = self.worth(before, middle)?;
-            worths.insert(worst + 1, self.worth(middle, after)?);
+            worths[worst] = self.gain(before, middle)?;
+            worths.insert(worst + 1, self.gain(middle, after)?);
             points.insert(worst + 1, middle);
         }
         Ok(())
@@ -165,12 +165,12 @@ impl Survey<'_> {
 
     /// Returns how much a measurement between two others would improve the plot: the area between the distance and the
     /// proven bound.
-    fn worth(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
+    fn gain(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.course.duration()) {
             return Ok(0.0);
         }
-        let Shrinking { speed, deviation } = self.shrinking(before.time, after.time)?;
+        let ClosingSpeed { speed, deviation } = self.closing_speed(before.time, after.time)?;
         let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
@@ -186,14 +186,14 @@ impl Survey<'_> {
     }
 
     /// Bounds the closing speed of the bodies' points, and their deviation from the motions, between two times.
-    fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
+    fn closing_speed(&self, from: f64, to: f64) -> Result<ClosingSpeed, InputError> {
         let [a, b] = self.course.trajectories();
         let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);
         let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
-        Ok(Shrinking {
+        Ok(ClosingSpeed {
             speed: (shift + turns + gains) * ROUNDED_UP,
             // Bound the deviation both at the measured times and between them.
             deviation: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
@@ -207,7 +207,7 @@ impl Survey<'_> {
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let Shrinking { speed, deviation } = self.shrinking(one.time, two.time)?;
+            let ClosingSpeed { speed, deviation } = self.closing_speed(one.time, two.time)?;
             let height = |point: GapPoint| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);

@@ -42,18 +42,26 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         None => "The clearance".to_owned(),
     };
     match row.status {
-        Status::Contact => on_the_way(row, asked, &time),
+        Status::Contact => later_contact(row, asked, &time),
         Status::Free => free(asked, end, proven),
         Status::Touching if asked.margin > 0.0 => {
             format!(
                 "Within the margin at the start: {}.{}",
                 contact(row),
-                after(row)
+                after_start_contact(row)
             )
         }
-        Status::Touching => format!("In contact at the start: {}.{}", contact(row), after(row)),
+        Status::Touching => format!(
+            "In contact at the start: {}.{}",
+            contact(row),
+            after_start_contact(row)
+        ),
         Status::Overlapping => {
-            format!("Overlapping at the start: {}.{}", contact(row), after(row))
+            format!(
+                "Overlapping at the start: {}.{}",
+                contact(row),
+                after_start_contact(row)
+            )
         }
         Status::Measured if asked.claim == Claim::Then => format!("At {time}: {}.", apart(row)),
         Status::Measured if asked.claim == Claim::Farthest => {
@@ -88,14 +96,14 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
 }
 
 /// Describes what is proven after a contact at the start; empty if the question was about the first contact only.
-fn after(row: &ResultRow) -> String {
+fn after_start_contact(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
         format!(" Proven: not after {}.", number_up(last))
     })
 }
 
 /// Describes in words a contact that begins after the start.
-fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
+fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
         (

@@ -31,12 +31,12 @@ pub(super) struct Event {
     /// The time before which the bodies do not touch.
     pub(super) time: f64,
     pub(super) bodies: [usize; 2],
-    what: What,
+    what: EventKind,
 }
 
 #[allow(clippy::large_enum_variant, reason = "most events are hits")]
 #[derive(Clone, Debug)]
-enum What {
+enum EventKind {
     Hit(Hit),
     Unresolved(Unresolved),
     Refused(InputError),
@@ -44,10 +44,10 @@ enum What {
 
 impl Event {
     /// Returns the event for the answer to a pair's query; `None` for bodies that stay apart.
-    pub(super) fn answered(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
+    pub(super) fn from_answer(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
         let (time, what) = match answer.hit() {
-            Ok(hit) => hit.map(|hit| (hit.time, What::Hit(hit)))?,
-            Err(known) => (known.safe_until, What::Unresolved(known)),
+            Ok(hit) => hit.map(|hit| (hit.time, EventKind::Hit(hit)))?,
+            Err(known) => (known.safe_until, EventKind::Unresolved(known)),
         };
         Some(Event {
             // Times are compared by their bits, so that a negative zero must not occur.
@@ -57,11 +57,11 @@ impl Event {
         })
     }
 
-    pub(super) fn refused(bodies: [usize; 2], error: InputError) -> Self {
+    pub(super) fn from_error(bodies: [usize; 2], error: InputError) -> Self {
         Event {
             time: 0.0,
             bodies,
-            what: What::Refused(error),
+            what: EventKind::Refused(error),
         }
     }
 
@@ -70,12 +70,12 @@ impl Event {
         Event {
             time: 0.0,
             bodies,
-            what: What::Unresolved(Unresolved::until(0.0, Limit::Undecided)),
+            what: EventKind::Unresolved(Unresolved::until(0.0, Limit::Undecided)),
         }
     }
 
     /// Returns this event of a query that started at time `from`, with its times shifted by `from` and rounded down.
-    pub(super) fn later(self, from: f64) -> Self {
+    pub(super) fn delayed(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
                 greater(from, (from + time).next_down())
@@ -84,7 +84,7 @@ impl Event {
             }
         };
         let what = match self.what {
-            What::Hit(hit) => What::Hit(Hit {
+            EventKind::Hit(hit) => EventKind::Hit(Hit {
                 time: later(hit.time),
                 ..hit
             }),
@@ -98,15 +98,15 @@ impl Event {
     }
 
     /// Returns the same event at time 0.
-    pub(super) fn at_once(self) -> Self {
+    pub(super) fn at_start(self) -> Self {
         Event { time: 0.0, ..self }
     }
 
     /// Returns whether the bodies are in contact, and not certainly at least `distance` apart.
     pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
         let contact = match &self.what {
-            What::Hit(hit) => hit.contact(),
-            What::Unresolved(_) | What::Refused(_) => None,
+            EventKind::Hit(hit) => hit.contact(),
+            EventKind::Unresolved(_) | EventKind::Refused(_) => None,
         };
         // The comparison treats NaN as nearer.
         contact.is_some_and(|contact| !(contact.separation.lower >= distance))
@@ -114,12 +114,12 @@ impl Event {
 
     /// Returns whether the event is an overlap at the start.
     pub(super) fn overlaps(&self) -> bool {
-        matches!(&self.what, What::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
+        matches!(&self.what, EventKind::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
     }
 
     /// Returns whether the event is the error of an invalid query.
     pub(super) fn is_refused(&self) -> bool {
-        matches!(self.what, What::Refused(_))
+        matches!(self.what, EventKind::Refused(_))
     }
 
     /// Compares two events by time, and at equal times by the bodies' indices.
@@ -130,9 +130,9 @@ impl Event {
     pub(super) fn impact(&self) -> Result<Impact, PairError> {
         let bodies = self.bodies;
         let error = match &self.what {
-            What::Hit(hit) => return Ok(Impact { bodies, hit: *hit }),
-            What::Refused(error) => error.clone().into(),
-            What::Unresolved(known) => Error::Unresolved(Unresolved {
+            EventKind::Hit(hit) => return Ok(Impact { bodies, hit: *hit }),
+            EventKind::Refused(error) => error.clone().into(),
+            EventKind::Unresolved(known) => Error::Unresolved(Unresolved {
                 safe_until: self.time,
                 ..*known
             }),

@@ -22,7 +22,7 @@ impl Goal {
     }
 
     /// Returns the time after which an event of the pair cannot change the answer.
-    pub(super) fn limit(&self, [a, b]: [usize; 2]) -> f64 {
+    pub(super) fn last_useful_time(&self, [a, b]: [usize; 2]) -> f64 {
         match self {
             Goal::First(earliest) => earliest.time(),
             Goal::OfEach(earliest) => {

@@ -1,10 +1,10 @@
 //! Finds when each body stops if it stops at its first contact.
 
 use super::clock::Clock;
-use super::due::Due;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
+use super::queue_entry::QueueEntry;
 use super::shifted::Shifted;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
@@ -94,11 +94,11 @@ impl Scene<'_> {
     /// ```
     pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.clone();
-        self.settings = keeping_half(&given);
+        self.settings = with_half_tolerance_kept(&given);
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        let events = self.race(&pairs, &clock, &Goal::All);
-        let stops = Stopping::new(self, &pairs, clock).run(events);
+        let events = self.pair_queue(&pairs, &clock, &Goal::All);
+        let stops = StopSearch::new(self, &pairs, clock).run(events);
         self.settings = given;
         stops
     }
@@ -106,7 +106,7 @@ impl Scene<'_> {
 
 /// Returns the settings with half of the tolerance moved into the margin, so that bodies at rest do not sink into each
 /// other over many steps.
-fn keeping_half(given: &Settings) -> Settings {
+fn with_half_tolerance_kept(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
         margin: lesser(given.margin + half, MAX_COORDINATE),
@@ -117,10 +117,10 @@ fn keeping_half(given: &Settings) -> Settings {
 }
 
 /// The state of the search: the bodies that have stopped so far, and solvers for the contacts still to come.
-struct Stopping<'s, 'a> {
+struct StopSearch<'s, 'a> {
     scene: &'s Scene<'a>,
     /// For each body, the indices of the bodies that it may touch.
-    others: Vec<Vec<usize>>,
+    partners: Vec<Vec<usize>>,
     stops: Vec<Stop>,
     clock: Clock,
     schedule: BestFirst<Direct>,
@@ -128,23 +128,23 @@ struct Stopping<'s, 'a> {
 }
 
 /// A contact that is still to come, with which of the two bodies moved when it was found; at most one has stopped.
-type FutureContact = Due<(Event, [bool; 2])>;
+type FutureContact = QueueEntry<(Event, [bool; 2])>;
 
-impl<'s, 'a> Stopping<'s, 'a> {
+impl<'s, 'a> StopSearch<'s, 'a> {
     fn new(scene: &'s Scene<'a>, pairs: &[[usize; 2]], clock: Clock) -> Self {
-        let mut others = vec![Vec::new(); scene.len()];
+        let mut partners = vec![Vec::new(); scene.len()];
         for &[a, b] in pairs {
-            others[a].push(b);
-            others[b].push(a);
+            partners[a].push(b);
+            partners[b].push(a);
         }
         let goes_on = Stop {
             time: clock.duration,
             by: None,
             contact: None,
         };
-        Stopping {
+        StopSearch {
             scene,
-            others,
+            partners,
             stops: vec![goes_on; scene.len()],
             clock,
             schedule: BestFirst::default(),
@@ -158,8 +158,8 @@ impl<'s, 'a> Stopping<'s, 'a> {
         for event in events {
             let [a, b] = event.bodies;
             if event.overlaps() {
-                self.others[a].retain(|&other| other != b);
-                self.others[b].retain(|&other| other != a);
+                self.partners[a].retain(|&other| other != b);
+                self.partners[b].retain(|&other| other != a);
             } else {
                 coming.push(self.future_contact(event, 0.0));
             }
@@ -195,10 +195,10 @@ impl<'s, 'a> Stopping<'s, 'a> {
     /// Returns the contacts that others will have with a body that has just stopped.
     fn contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
-        let others = std::mem::take(&mut self.others[index]);
-        let moving = others.iter().filter(|&&other| self.moves(other));
+        let partners = std::mem::take(&mut self.partners[index]);
+        let moving = partners.iter().filter(|&&other| self.moves(other));
         let pairs: Vec<[usize; 2]> = moving.map(|&other| ordered(index, other)).collect();
-        self.others[index] = others;
+        self.partners[index] = partners;
         let found = pairs
             .into_iter()
             .filter_map(|pair| self.contact_after(time, pair));
@@ -208,7 +208,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
     /// Returns the contact of two bodies after `time`, at which one of them stopped.
     fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
-            Ok(answer) => Event::answered(bodies, &answer)?,
+            Ok(answer) => Event::from_answer(bodies, &answer)?,
             // The pose of a body is out of range, so the body stops here.
             Err(_) => Event::unresolved(bodies),
         };
@@ -220,11 +220,11 @@ impl<'s, 'a> Stopping<'s, 'a> {
     fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
-            event.at_once()
+            event.at_start()
         } else {
             event
         };
-        let event = event.later(from);
+        let event = event.delayed(from);
         let moving = event.bodies.map(|index| self.moves(index));
         FutureContact {
             time: event.time,

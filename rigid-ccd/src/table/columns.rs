@@ -3,7 +3,7 @@
 use crate::Remark;
 use crate::table::error::TableError;
 use crate::table::foreign;
-use crate::table::oddities::Oddities;
+use crate::table::remark_collector::RemarkCollector;
 use std::ops::Range;
 
 /// Body A or body B of a row.
@@ -37,13 +37,13 @@ pub enum Form {
 }
 
 /// The columns of a body in a table of motions, without the body's prefix.
-const OF_BODY: [&str; 23] = [
+const BODY_COLUMNS: [&str; 23] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
     "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
 /// The columns of a body in a table of paths, without the body's prefix.
-const OF_POSE: [&str; 13] = [
+const POSE_COLUMNS: [&str; 13] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
@@ -78,7 +78,7 @@ impl Form {
 
     /// Returns the known columns that hold a quantity's components, as indices into [`Form::names`]; empty if tables of
     /// this kind do not have it.
-    pub(in crate::table) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
+    pub(in crate::table) fn column_range(self, side: Side, quantity: Quantity) -> Range<usize> {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
@@ -105,13 +105,13 @@ impl Form {
     /// Returns the names of a body's columns, without its prefix.
     fn of_body(self) -> &'static [&'static str] {
         match self {
-            Form::Motions | Form::Scene => &OF_BODY,
-            Form::Paths => &OF_POSE,
+            Form::Motions | Form::Scene => &BODY_COLUMNS,
+            Form::Paths => &POSE_COLUMNS,
         }
     }
 
     /// Returns the names of all columns as text for messages.
-    pub(in crate::table) fn listed(self) -> &'static str {
+    pub(in crate::table) fn listed_names(self) -> &'static str {
         match self {
             Form::Motions => {
                 "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
@@ -138,7 +138,7 @@ pub struct Columns {
     /// For each known column, the index of its cell in a row; `None` if the table does not have it.
     cells: Vec<Option<usize>>,
     len: usize,
-    oddities: Oddities,
+    remark_collector: RemarkCollector,
 }
 
 impl Columns {
@@ -165,13 +165,13 @@ impl Columns {
         }
         let names = form.names();
         if let Some(number) = number_without_names(header, &names) {
-            let known = form.listed();
+            let known = form.listed_names();
             return Err(TableError::NoHeader { number, known });
         }
         let mut cells = vec![None; names.len()];
         for (cell, column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(unknown(header, column, form));
+                return Err(unknown_column(header, column, form));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -184,7 +184,7 @@ impl Columns {
             names,
             cells,
             len: header.len(),
-            oddities: Oddities::default(),
+            remark_collector: RemarkCollector::default(),
         };
         columns.check_whole()?;
         Ok(columns)
@@ -201,7 +201,7 @@ impl Columns {
             for &quantity in [Quantity::Orientation].iter().chain(further) {
                 let is_there = |&slot: &usize| self.cells[slot].is_some();
                 let (given, missing): (Vec<usize>, Vec<usize>) =
-                    self.slots(side, quantity).partition(is_there);
+                    self.column_range(side, quantity).partition(is_there);
                 if let (Some(&given), Some(&missing)) = (given.first(), missing.first()) {
                     return Err(self.missing(given, missing));
                 }
@@ -214,9 +214,9 @@ impl Columns {
     /// Refuses angular velocities in a table of paths without orientations.
     fn check_spin(&self, side: Side) -> Result<(), TableError> {
         let is_there = |&slot: &usize| self.cells[slot].is_some();
-        let spin = self.slots(side, Quantity::Spin).find(is_there);
+        let spin = self.column_range(side, Quantity::Spin).find(is_there);
         let orientation = self
-            .slots(side, Quantity::Orientation)
+            .column_range(side, Quantity::Orientation)
             .find(|slot| !is_there(slot));
         match (self.form, spin, orientation) {
             (Form::Paths, Some(given), Some(missing)) => Err(self.missing(given, missing)),
@@ -238,16 +238,16 @@ impl Columns {
 
     /// Returns the remarks about the rows read so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
-        self.oddities.remarks()
+        self.remark_collector.remarks()
     }
 
-    pub(in crate::table) fn oddities(&self) -> &Oddities {
-        &self.oddities
+    pub(in crate::table) fn remark_collector(&self) -> &RemarkCollector {
+        &self.remark_collector
     }
 
     /// Returns the known columns that hold a quantity's components.
-    pub(in crate::table) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
-        self.form.slots(side, quantity)
+    pub(in crate::table) fn column_range(&self, side: Side, quantity: Quantity) -> Range<usize> {
+        self.form.column_range(side, quantity)
     }
 
     /// Returns the number of columns in the table's header.
@@ -285,7 +285,7 @@ fn number_without_names(header: &[String], names: &[String]) -> Option<String> {
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown(header: &[String], column: &str, form: Form) -> TableError {
+fn unknown_column(header: &[String], column: &str, form: Form) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::separator(column)) {
         return TableError::Separator {
             found: separator,
@@ -300,7 +300,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     if lower == "time" {
         return TableError::UnknownColumn {
             column: column.to_owned(),
-            known: form.listed(),
+            known: form.listed_names(),
             nearest: Some(TIME_NAME.to_owned()),
         };
     }
@@ -315,7 +315,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     let of_other_form = form == Form::Paths && Form::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
-        known: form.listed(),
+        known: form.listed_names(),
         // Names are short, so that a larger edit distance means another name.
         nearest: nearest
             .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
@@ -333,25 +333,25 @@ fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
     let found = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
     let prefix = found.copied().unwrap_or(usual);
     let name = lower.strip_prefix(prefix).unwrap_or(lower);
-    ANGLES.contains(&name).then_some(prefix)
+    ANGLE_NAMES.contains(&name).then_some(prefix)
 }
 
 /// Typical names of columns of angles, without the body's prefix.
-const ANGLES: [&str; 27] = [
+const ANGLE_NAMES: [&str; 27] = [
     "rx", "ry", "rz", "roll", "pitch", "yaw", "heading", "rpy", "euler", "alpha", "beta", "gamma",
     "phi", "theta", "psi", "rot_x", "rot_y", "rot_z", "rotx", "roty", "rotz", "euler_x", "euler_y",
     "euler_z", "angle_x", "angle_y", "angle_z",
 ];
 
 /// The index of the column `id` among the known columns.
-pub(in crate::table) const ID: usize = 0;
+pub(in crate::table) const ID_COLUMN: usize = 0;
 /// The index of the column `duration` among those of a table of motions.
-pub(in crate::table) const DURATION: usize = 2 * OF_BODY.len() + 1;
+pub(in crate::table) const DURATION_COLUMN: usize = 2 * BODY_COLUMNS.len() + 1;
 /// The index of the column `t` among those of a table of paths.
-pub(in crate::table) const TIME: usize = 1;
+pub(in crate::table) const TIME_COLUMN: usize = 1;
 const TIME_NAME: &str = "t";
 /// The index of the column `body` among those of a scene's table.
 #[cfg(feature = "command")]
-pub(crate) const BODY: usize = OF_BODY.len() + 1;
+pub(crate) const BODY: usize = BODY_COLUMNS.len() + 1;
 /// The name of the column that describes a body in a scene's table.
 pub(crate) const BODY_NAME: &str = "body";

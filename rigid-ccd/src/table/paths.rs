@@ -10,7 +10,7 @@ use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
 use crate::trajectory;
-use crate::trajectory::poses::{MOST_LEFT, leftover};
+use crate::trajectory::poses::{MOST_LEFTOVER, leftover};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Pose, Trajectory};
@@ -124,7 +124,7 @@ impl<S: Records> PathRows<S> {
     fn read(
         &mut self,
         mut row: impl FnMut(RowPosition, &Columns, &S::Record),
-    ) -> Result<Option<Beginning>, TableError> {
+    ) -> Result<Option<FirstRow>, TableError> {
         let Some(position) = self.next.take() else {
             return Ok(None);
         };
@@ -151,7 +151,7 @@ impl<S: Records> PathRows<S> {
         }
         let index = self.paths;
         self.paths += 1;
-        Ok(Some(Beginning {
+        Ok(Some(FirstRow {
             position,
             id: id.unwrap_or_else(|| index.to_string()),
             seen,
@@ -163,14 +163,14 @@ impl<S: Records> PathRows<S> {
         let mut bad: Option<(RowPosition, RowProblem)> = None;
         let read = self.read(|position, columns, record| {
             if bad.is_none() {
-                let found = row::poses(columns, record).and_then(|row| after(&poses, row));
+                let found = row::poses(columns, record).and_then(|row| checked_after(&poses, row));
                 match found {
                     Ok(row) => poses.push(row),
                     Err(problem) => bad = Some((position, problem)),
                 }
             }
         })?;
-        let Some(Beginning { position, id, seen }) = read else {
+        let Some(FirstRow { position, id, seen }) = read else {
             return Ok(None);
         };
         if seen {
@@ -193,7 +193,7 @@ impl<S: Records> PathRows<S> {
 }
 
 /// What the first row says about its path.
-struct Beginning {
+struct FirstRow {
     position: RowPosition,
     id: String,
     /// Whether an earlier path has the same id.
@@ -201,7 +201,7 @@ struct Beginning {
 }
 
 /// Returns `row`, or an error if it is not later than the row before, also after subtracting the first time.
-fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
+fn checked_after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
@@ -219,19 +219,23 @@ fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
             first: first.time,
         });
     }
-    follows('a', [before.a, row.a], since - since_before)?;
-    follows('b', [before.b, row.b], since - since_before)?;
+    check_orientation('a', [before.a, row.a], since - since_before)?;
+    check_orientation('b', [before.b, row.b], since - since_before)?;
     Ok(row)
 }
 
 /// Refuses a row whose orientation is not where the angular velocity of the row before leads.
-fn follows(body: char, [before, row]: [BodyPose; 2], duration: f64) -> Result<(), RowProblem> {
+fn check_orientation(
+    body: char,
+    [before, row]: [BodyPose; 2],
+    duration: f64,
+) -> Result<(), RowProblem> {
     if before.centre != row.centre {
         return Err(RowProblem::CentreMoves { body });
     }
     let left = length(leftover([&before.pose, &row.pose], before.spin, duration));
     // Written so that NaN is refused.
-    if before.spin == DVec3::ZERO || left <= MOST_LEFT {
+    if before.spin == DVec3::ZERO || left <= MOST_LEFTOVER {
         Ok(())
     } else {
         Err(RowProblem::LedElsewhere { body, left })

@@ -31,7 +31,7 @@ pub struct Compared {
 
 impl Compared {
     /// Returns the reason for a clearance that is neither proven kept nor proven violated.
-    fn within_bounds(&self) -> String {
+    fn reason_unverified(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
         match self.clearance {
             _ if self.excess > 0.0 => format!(
@@ -138,7 +138,7 @@ impl ResultRow {
             micros: Some(micros),
             reason: match (outcome.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
-                (None, Status::Unverified) => Some(compared.within_bounds()),
+                (None, Status::Unverified) => Some(compared.reason_unverified()),
                 (None, _) => None,
             },
             counters: Some(answer.stats),

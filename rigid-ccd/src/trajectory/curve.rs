@@ -105,7 +105,7 @@ impl Curve {
     /// half of the time, by which a curve strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         let velocity = |segment: &Segment, time| segment.derivative(1, segment.share(time));
-        self.most(2, from, to) + self.segments.jumps(from, to, velocity)
+        self.derivative_bound(2, from, to) + self.segments.jump_acceleration(from, to, velocity)
     }
 
     /// Returns the acceleration at a time, with a bound on its rate of change between two times; `None` if these span
@@ -116,19 +116,19 @@ impl Curve {
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),
-            jerk: segment.most(3, from, to),
+            jerk: segment.derivative_bound(3, from, to),
         })
     }
 
     /// Bounds the speed along the curve between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        self.most(1, from, to)
+        self.derivative_bound(1, from, to)
     }
 
     /// Bounds the magnitude of the derivative of an order on the segments between two times.
-    fn most(&self, order: usize, from: f64, to: f64) -> f64 {
-        self.segments.most(from, to, |segment| {
-            segment.most(order, greater(from, segment.from), lesser(to, segment.to))
+    fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
+        self.segments.greatest(from, to, |segment| {
+            segment.derivative_bound(order, greater(from, segment.from), lesser(to, segment.to))
         })
     }
 
@@ -173,7 +173,7 @@ impl Segment {
     }
 
     /// Bounds the magnitude of the derivative of an order between two times of the segment.
-    fn most(&self, order: usize, from: f64, to: f64) -> f64 {
+    fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.differences(order).into_iter();
             points.map(length).fold(0.0, greater)

@@ -2,7 +2,7 @@
 
 mod segment;
 
-pub(crate) use segment::{MOST_LEFT, leftover};
+pub(crate) use segment::{MOST_LEFTOVER, leftover};
 
 use super::U;
 use super::checks::{check_later, finite, out_of_range};
@@ -105,7 +105,7 @@ impl Poses {
             finite(spin, "angular velocity")?;
             let left = length(leftover([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
-            if spin != DVec3::ZERO && !(left <= MOST_LEFT) {
+            if spin != DVec3::ZERO && !(left <= MOST_LEFTOVER) {
                 return Err(out_of_range(
                     "angle from where an angular velocity leads to the next pose",
                     left,
@@ -173,7 +173,7 @@ impl Poses {
     }
 
     /// Returns the poses strictly between two times.
-    fn between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
+    fn poses_between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
         &self.poses[first..last.max(first)]
@@ -186,7 +186,7 @@ impl Poses {
         let mut stray = Stray::NONE;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
         let mut last = (from, Deviation::default());
-        for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
+        for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
             let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
             // The motion of the segment that ends at this pose.
             let (before, acceleration) = self.at(time, time)?;
@@ -224,7 +224,7 @@ impl Poses {
 
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let stretch = if self.between(from, to).is_empty() {
+        let stretch = if self.poses_between(from, to).is_empty() {
             let (motion, acceleration) = self.at(from, to)?;
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
@@ -242,7 +242,7 @@ impl Trajectory for Poses {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let inner = self.between(from, to);
+        let inner = self.poses_between(from, to);
         inner.get(inner.len() / 2).map(|&(time, _)| time)
     }
 }

@@ -41,14 +41,14 @@ impl<T> Segments<T> {
     }
 
     /// Returns the greatest value of `bound` over the segments between two times.
-    pub(super) fn most(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
+    pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
         let segments = self.overlapping(from, to).iter();
         segments.map(bound).fold(0.0, greater)
     }
 
     /// Bounds the effect of jumps of the velocity at knots strictly inside an interval, as an acceleration with the
     /// same deviation over half of the interval.
-    pub(super) fn jumps(
+    pub(super) fn jump_acceleration(
         &self,
         from: f64,
         to: f64,

@@ -266,7 +266,7 @@ fn links_behind_joints_that_are_held() {
         let joints: Result<Vec<_>, InputError> = joints.into_iter().collect();
         let mut angle = || rng.random_range(-2.0..2.0);
         let (first, held, last) = (angle(), angle(), angle());
-        Ok(Owned {
+        Ok(OwnedLink {
             chain: Chain::new(Pose::IDENTITY, joints?),
             positions: [vec![0.0, held, 0.0], vec![first, held, last]],
             link: 3,
@@ -276,14 +276,14 @@ fn links_behind_joints_that_are_held() {
 }
 
 /// A link that owns its chain, for tests of trajectories without lifetimes.
-struct Owned {
+struct OwnedLink {
     chain: Chain,
     positions: [Vec<f64>; 2],
     link: usize,
     seen_from: Option<usize>,
 }
 
-impl Owned {
+impl OwnedLink {
     fn draw(rng: &mut Rng, axes: Axes) -> Result<Self, InputError> {
         let count = rng.random_range(1..8);
         let chain = arm(rng, count, axes);
@@ -298,7 +298,7 @@ impl Owned {
         });
         let positions = [first.clone(), last.collect()];
         let link = rng.random_range(0..=count);
-        Ok(Owned {
+        Ok(OwnedLink {
             chain,
             positions,
             link,
@@ -307,7 +307,7 @@ impl Owned {
     }
 }
 
-impl Trajectory for Owned {
+impl Trajectory for OwnedLink {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
         let link = self.chain.link(self.link, first, last, 2.0)?;
@@ -320,20 +320,22 @@ impl Trajectory for Owned {
 
 #[test]
 fn links() {
-    check("link of a chain", 0.2, |rng| Owned::draw(rng, Axes::Any));
+    check("link of a chain", 0.2, |rng| {
+        OwnedLink::draw(rng, Axes::Any)
+    });
 }
 
 #[test]
 fn links_with_parallel_axes() {
     check("link, parallel axes", 0.5, |rng| {
-        Owned::draw(rng, Axes::Parallel)
+        OwnedLink::draw(rng, Axes::Parallel)
     });
 }
 
 #[test]
 fn links_with_axes_across() {
     check("link, axes across", 0.5, |rng| {
-        Owned::draw(rng, Axes::Across)
+        OwnedLink::draw(rng, Axes::Across)
     });
 }
 
@@ -361,8 +363,8 @@ fn timed() {
 /// Tests that the check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {
-    struct False(Spline);
-    impl Trajectory for False {
+    struct FalseBound(Spline);
+    impl Trajectory for FalseBound {
         fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch(from, to)?;
             stretch.stray.shift *= 0.9;
@@ -372,7 +374,7 @@ fn a_false_bound_is_found() {
     let mut rng = Rng::seed_from_u64(2);
     let curve = Curve::bezier(&points(&mut rng, 4), 2.0).unwrap();
     let spline = Spline::new(curve, Turns::NONE);
-    let worst = worst_stray(&False(spline), 2.0, 1.0, 1_000, 1).unwrap();
+    let worst = worst_stray(&FalseBound(spline), 2.0, 1.0, 1_000, 1).unwrap();
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
@@ -393,7 +395,7 @@ fn stretches_between_knots_accelerate() {
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);
     for _ in 0..200 {
-        let owned = Owned::draw(&mut rng, Axes::Any).unwrap();
+        let owned = OwnedLink::draw(&mut rng, Axes::Any).unwrap();
         let other = owned.link / 2;
         let [first, last] = &owned.positions;
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();

@@ -40,10 +40,10 @@ pub enum Pace {
 }
 
 /// The maximum first derivative of [`Pace::Eased`], at half the time: `30/16`.
-const STEEPEST: f64 = 1.875;
+const MOST_EASED_RATE: f64 = 1.875;
 
 /// The maximum second derivative of [`Pace::Eased`]: `10/√3`, rounded up.
-const MOST_CURVED: f64 = 5.774;
+const MOST_EASED_CURVATURE: f64 = 5.774;
 
 impl Pace {
     /// Returns the share of the trajectory that is done at a share `u` of the time, and its derivative.
@@ -61,10 +61,10 @@ impl Pace {
     }
 
     /// Bounds the first and second derivative of the time law.
-    fn most(self) -> [f64; 2] {
+    fn derivative_bounds(self) -> [f64; 2] {
         match self {
             Pace::Even => [1.0, 0.0],
-            Pace::Eased => [STEEPEST, MOST_CURVED],
+            Pace::Eased => [MOST_EASED_RATE, MOST_EASED_CURVATURE],
         }
     }
 }
@@ -90,7 +90,7 @@ impl<T> Timed<T> {
     }
 
     /// Returns the time of the inner trajectory at a time, and its rate of change.
-    fn time(&self, time: f64) -> [f64; 2] {
+    fn inner_time(&self, time: f64) -> [f64; 2] {
         let u = time / self.duration;
         if (0.0..=1.0).contains(&u) {
             let [way, rate] = self.pace.at(u);
@@ -104,14 +104,14 @@ impl<T> Timed<T> {
     }
 
     /// Returns the times of the inner trajectory at two times.
-    fn times(&self, from: f64, to: f64) -> [f64; 2] {
-        let [[first, _], [last, _]] = [self.time(from), self.time(to)];
+    fn inner_times(&self, from: f64, to: f64) -> [f64; 2] {
+        let [[first, _], [last, _]] = [self.inner_time(from), self.inner_time(to)];
         [first, greater(first, last)]
     }
 
     /// Bounds the first and second derivative of the inner trajectory's time.
-    fn rates(&self) -> [f64; 2] {
-        let [slope, curve] = self.pace.most();
+    fn inner_rate_bounds(&self) -> [f64; 2] {
+        let [slope, curve] = self.pace.derivative_bounds();
         let rate = self.length / self.duration;
         [rate * slope, rate / self.duration * curve]
     }
@@ -119,7 +119,7 @@ impl<T> Timed<T> {
 
 impl<T: Bounded> Smooth for Timed<T> {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
-        let [inner, rate] = self.time(time);
+        let [inner, rate] = self.inner_time(time);
         let tangent = self.inner.tangent(inner)?;
         let (velocity, spin) = (tangent.velocity() * rate, tangent.spin() * rate);
         Motion::about(tangent.start(), velocity, spin, tangent.centre())
@@ -129,8 +129,8 @@ impl<T: Bounded> Smooth for Timed<T> {
         if to <= 0.0 || from >= self.duration {
             return Accelerations::default();
         }
-        let [first, last] = self.times(from, to);
-        let [rate, change] = self.rates();
+        let [first, last] = self.inner_times(from, to);
+        let [rate, change] = self.inner_rate_bounds();
         let speeds = self.inner.speeds(first, last);
         let inner = self.inner.accelerations(first, last);
         // With the even time law, the velocity jumps to zero at both ends.
@@ -148,7 +148,7 @@ impl<T: Bounded> Smooth for Timed<T> {
 
     /// Bounds the rounding errors of poses, including that of the inner trajectory's time.
     fn rounding(&self, from: f64, to: f64) -> Stray {
-        let [first, last] = self.times(from, to);
+        let [first, last] = self.inner_times(from, to);
         let speeds = self.inner.speeds(first, last);
         let off = 64.0 * U * (self.first.abs() + self.length);
         let inner = self.inner.rounding(first, last);
@@ -163,7 +163,7 @@ impl<T: Bounded> Smooth for Timed<T> {
         let end = ends.into_iter().find(|&end| end > from && end < to);
         match self.pace {
             Pace::Even => {
-                let [first, last] = self.times(from, to);
+                let [first, last] = self.inner_times(from, to);
                 let inner = self.inner.corner(first, last);
                 let rate = self.duration / self.length;
                 inner
@@ -178,9 +178,9 @@ impl<T: Bounded> Smooth for Timed<T> {
 
 impl<T: Bounded> Bounded for Timed<T> {
     fn speeds(&self, from: f64, to: f64) -> Speeds {
-        let [first, last] = self.times(from, to);
+        let [first, last] = self.inner_times(from, to);
         let inner = self.inner.speeds(first, last);
-        let [rate, _] = self.rates();
+        let [rate, _] = self.inner_rate_bounds();
         Speeds {
             linear: inner.linear * rate,
             angular: inner.angular * rate,

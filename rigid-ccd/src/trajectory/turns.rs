@@ -117,20 +117,20 @@ impl Turns {
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         let smooth = self
             .segments
-            .most(from, to, |segment| match &segment.course {
+            .greatest(from, to, |segment| match &segment.course {
                 Turn::Slerp { .. } => 0.0,
                 Turn::Squad(squad) => squad.acceleration(),
             });
         let jumps = self
             .segments
-            .jumps(from, to, |segment, time| segment.at(time).1);
+            .jump_acceleration(from, to, |segment, time| segment.at(time).1);
         smooth + jumps
     }
 
     /// Bounds the angular speed between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
         self.segments
-            .most(from, to, |segment| match &segment.course {
+            .greatest(from, to, |segment| match &segment.course {
                 Turn::Slerp { spin, .. } => length(*spin),
                 Turn::Squad(squad) => squad.speed(),
             })

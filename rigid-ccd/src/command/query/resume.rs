@@ -11,7 +11,7 @@ use anyhow::{Context, Result, bail};
 /// Prints the row at which a resumed run continues.
 pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     if earlier.is_some() {
-        tell_of_page(args);
+        warn_of_page(args);
     }
     match earlier {
         Some(_) if args.quiet => {}
@@ -49,7 +49,7 @@ pub(super) fn skip_rows(
 }
 
 /// Warns that the page of a resumed run shows only the rows answered in this run.
-fn tell_of_page(args: &QueryArgs) {
+fn warn_of_page(args: &QueryArgs) {
     if args.html.is_some() {
         complain(
             "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
@@ -58,8 +58,8 @@ fn tell_of_page(args: &QueryArgs) {
 }
 
 /// Checks that the motions are those of the finished run, whose tables stay unchanged, and returns the exit status.
-pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
-    tell_of_page(args);
+pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
+    warn_of_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
     let same = (skipped, rows.checksum()) == (end.rows, end.checksum);

@@ -5,7 +5,7 @@ use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
 use crate::batch::{Timed, Timing};
-use crate::command::answering::{Answered, Answering, Batch};
+use crate::command::answering::{AnsweredRow, Batch, BatchRun};
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
 use crate::command::view::Chosen;
@@ -18,7 +18,7 @@ use anyhow::{Context, Result};
 /// The state of `ccd query` while it answers rows.
 pub(super) struct Run<'a> {
     pub(super) args: &'a QueryArgs,
-    pub(super) answering: Answering<'a>,
+    pub(super) answering: BatchRun<'a>,
     pub(super) outputs: Outputs,
     /// The rows chosen for the page of `--html`; `None` without this option.
     pub(super) shown: Option<Chosen>,
@@ -55,19 +55,19 @@ impl Run<'_> {
     fn write(&mut self, batch: &Batch) -> Result<(), CannotWrite> {
         let (columns, mut all) = (self.args.columns(), Vec::new());
         for row in &batch.rows {
-            let Answered {
+            let AnsweredRow {
                 position,
                 course,
                 mut row,
                 timed,
-            } = self.answering.answered(row);
+            } = self.answering.answered_row(row);
             match timed {
                 Some(timed) => self.summary.add(row.status, timed),
                 None => self.summary.add_error(),
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);
             if let (Some(shown), Some(course)) = (&mut self.shown, course) {
-                shown.offer(course, &row);
+                shown.add_if_wanted(course, &row);
             }
             self.outputs.results.row(&Line(&columns, &row))?;
             all.extend(
@@ -87,7 +87,7 @@ impl Run<'_> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
         };
-        let Answering {
+        let BatchRun {
             bodies,
             timing,
             solver,

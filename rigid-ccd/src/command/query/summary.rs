@@ -85,7 +85,7 @@ impl Summary {
     }
 
     /// Returns the number of rows answered in this run.
-    fn answered(&self) -> u64 {
+    fn answered_rows(&self) -> u64 {
         self.times.count
     }
 
@@ -101,8 +101,8 @@ impl Summary {
 
     /// Returns the means of the counters as one line; `None` without answers.
     pub(super) fn means(&self) -> Option<String> {
-        let mean = |total: u64| total as f64 / self.answered() as f64;
-        (self.answered() > 0).then(|| {
+        let mean = |total: u64| total as f64 / self.answered_rows() as f64;
+        (self.answered_rows() > 0).then(|| {
             format!(
                 "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
                 mean(self.advancements),
@@ -123,11 +123,14 @@ struct Times {
 }
 
 /// The number of low bits dropped from a time: all except the leading 10 of its fraction.
-const DROPPED: u32 = f64::MANTISSA_DIGITS - 1 - 10;
+const DROPPED_BITS: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl Times {
     fn add(&mut self, micros: f64) {
-        *self.counts.entry(micros.to_bits() >> DROPPED).or_default() += 1;
+        *self
+            .counts
+            .entry(micros.to_bits() >> DROPPED_BITS)
+            .or_default() += 1;
         self.count += 1;
         self.total += micros;
     }
@@ -142,7 +145,7 @@ impl Times {
         for (&bits, &count) in &self.counts {
             passed += count;
             if passed > index {
-                return f64::from_bits(bits << DROPPED);
+                return f64::from_bits(bits << DROPPED_BITS);
             }
         }
         f64::NAN
@@ -165,7 +168,7 @@ impl fmt::Display for Summary {
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,
         }
-        if self.answered() == 0 {
+        if self.answered_rows() == 0 {
             return Ok(());
         }
         write!(

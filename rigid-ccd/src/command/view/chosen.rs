@@ -4,9 +4,9 @@ use crate::table::courses::Course;
 use crate::table::results::{ResultRow, Status};
 
 /// The maximum number of rows of each status on a page, if no ids are given.
-const OF_EACH: usize = 4;
+const MOST_OF_EACH_STATUS: usize = 4;
 /// The maximum number of rows on a page in total.
-const MOST: usize = 100;
+const MOST_ROWS: usize = 100;
 
 /// The rows chosen for a page so far, and the rule by which they are chosen.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ impl Chosen {
     }
 
     /// Returns whether an id is one of those given; `None` if no ids are given.
-    pub(super) fn is_named(&self, id: &str) -> Option<bool> {
+    pub(super) fn is_requested(&self, id: &str) -> Option<bool> {
         if self.ids.is_empty() {
             None
         } else {
@@ -40,16 +40,16 @@ impl Chosen {
     }
 
     /// Adds a row if it is one of the wanted ids, or if there are few of its status.
-    pub(in crate::command) fn offer(&mut self, course: &Course, row: &ResultRow) {
-        let wanted = self.is_named(&row.id).unwrap_or_else(|| {
+    pub(in crate::command) fn add_if_wanted(&mut self, course: &Course, row: &ResultRow) {
+        let wanted = self.is_requested(&row.id).unwrap_or_else(|| {
             let alike = self
                 .rows
                 .iter()
                 .filter(|(_, known)| known.status == row.status);
-            alike.count() < OF_EACH
+            alike.count() < MOST_OF_EACH_STATUS
         });
         if row.status == Status::Error {
-            if self.is_named(&row.id) != Some(false) {
+            if self.is_requested(&row.id) != Some(false) {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
                 self.leave_out(format!("row {}: {reason}", row.id));
             }
@@ -60,7 +60,7 @@ impl Chosen {
 
     /// Returns whether the page can take no further row.
     pub(super) fn is_full(&self) -> bool {
-        self.rows.len() >= MOST || (!self.ids.is_empty() && self.missing().next().is_none())
+        self.rows.len() >= MOST_ROWS || (!self.ids.is_empty() && self.missing().next().is_none())
     }
 
     /// Returns the given ids that no row of the table had.
@@ -89,12 +89,12 @@ impl Chosen {
     }
 
     /// Returns whether all chosen rows could be drawn.
-    pub(super) fn is_whole(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         self.left_out == 0
     }
 
     /// Describes the chosen rows that could not be drawn; `None` if there are none.
-    pub(super) fn faults(&self) -> Option<String> {
+    pub(super) fn describe_faults(&self) -> Option<String> {
         let fault = self.first_fault.as_ref()?;
         Some(match self.left_out {
             1 => format!("one row is no valid query, and is not shown: {fault}"),

@@ -18,7 +18,7 @@ pub(super) struct Segment {
 }
 
 /// The largest allowed leftover rotation in radians: half a turn would leave the number of turns ambiguous.
-pub(crate) const MOST_LEFT: f64 = FRAC_PI_2;
+pub(crate) const MOST_LEFTOVER: f64 = FRAC_PI_2;
 
 impl Segment {
     /// Creates the segment with the shortest rotation, or with the number of turns nearest to a given angular velocity.

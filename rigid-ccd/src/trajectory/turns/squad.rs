@@ -79,9 +79,9 @@ impl Squad {
             (r - p).length()
         };
         // Between two samples the distance grows by at most the rate times half of their spacing.
-        let looks = (0..=LOOKS).map(|k| apart(f64::from(k) / f64::from(LOOKS)));
+        let looks = (0..=ARC_SAMPLES).map(|k| apart(f64::from(k) / f64::from(ARC_SAMPLES)));
         let change = p.speed() + r.speed();
-        let apart = looks.fold(0.0, greater) + 0.5 * change / f64::from(LOOKS);
+        let apart = looks.fold(0.0, greater) + 0.5 * change / f64::from(ARC_SAMPLES);
         // The comparison treats NaN as too far.
         if !(apart * apart <= 2.0) {
             return None;
@@ -123,7 +123,7 @@ impl Squad {
 }
 
 /// The number of samples from which the distance between both arcs is bounded.
-const LOOKS: u32 = 16;
+const ARC_SAMPLES: u32 = 16;
 
 /// Bounds the angular speed and acceleration per unit of u, for arcs with these speeds that are at most `d` apart.
 fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {

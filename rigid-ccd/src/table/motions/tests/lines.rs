@@ -98,9 +98,9 @@ fn lines_are_counted_as_editors_count_them() {
 }
 
 /// A reader of one byte at a time, which splits every pair of a return and a line feed.
-struct Drip<'a>(&'a [u8]);
+struct OneByteReader<'a>(&'a [u8]);
 
-impl io::Read for Drip<'_> {
+impl io::Read for OneByteReader<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let some = out.len().min(1);
         self.0.read(&mut out[..some])
@@ -110,7 +110,7 @@ impl io::Read for Drip<'_> {
 #[test]
 fn lines_split_anywhere_are_the_same_lines() {
     let text = "id,a_px\r\n\r\n1,x\r\n2,2\r\n";
-    let mut rows = MotionRows::new(Drip(text.as_bytes())).unwrap();
+    let mut rows = MotionRows::new(OneByteReader(text.as_bytes())).unwrap();
     let error = rows.next().unwrap().unwrap().unwrap_err();
     assert_eq!((error.position.row, error.position.line), (0, 3));
     assert!(rows.next().unwrap().unwrap().is_ok());
@@ -132,7 +132,7 @@ fn bytes_are_those_up_to_the_last_row() {
 /// Tests a byte order mark that arrives in several reads; found by the fuzz target `motions`.
 #[test]
 fn a_byte_order_mark_in_parts_is_ignored() {
-    let mut rows = MotionRows::new(Drip("\u{feff}id\nx\n".as_bytes())).unwrap();
+    let mut rows = MotionRows::new(OneByteReader("\u{feff}id\nx\n".as_bytes())).unwrap();
     assert_eq!(rows.next().unwrap().unwrap().unwrap().1.id, "x");
 }
 

@@ -7,14 +7,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The remarks on the rows read so far, one of each kind.
 #[derive(Debug, Default)]
-pub(in crate::table) struct Oddities {
+pub(in crate::table) struct RemarkCollector {
     quaternion: OnceLock<Remark>,
     spin: OnceLock<Remark>,
     /// Whether some body rotates many times by no round number of degrees, which implies radians.
     has_radians: AtomicBool,
 }
 
-impl Oddities {
+impl RemarkCollector {
     /// Adds a remark if a quaternion w, x, y, z is far from unit length.
     pub(in crate::table) fn note_quaternion(&self, parts: [f64; 4]) {
         if let Some(remark) = Remark::of_quaternion(parts) {

@@ -9,16 +9,16 @@ use std::sync::Arc;
 ///
 /// A body is found by its form, number by number: no other shape is ever taken for it.
 #[derive(Debug)]
-pub(crate) struct Shelf {
+pub(crate) struct BodyCache {
     /// The cached bodies, the most recently used one last.
     bodies: Vec<Entry>,
     /// The maximum memory of all cached bodies, in bytes.
     most_bytes: usize,
 }
 
-impl Default for Shelf {
+impl Default for BodyCache {
     fn default() -> Self {
-        Shelf {
+        BodyCache {
             bodies: Vec::new(),
             most_bytes: KEPT_BYTES,
         }
@@ -32,7 +32,7 @@ struct Entry {
     bytes: usize,
 }
 
-impl Shelf {
+impl BodyCache {
     /// Returns the body of a form from the cache, or makes it.
     pub(crate) fn body(&mut self, form: Form) -> Result<Arc<Prepared>, ShapeError> {
         if let Some(at) = self.bodies.iter().rposition(|kept| kept.form == form) {
