@@ -145,11 +145,14 @@ impl PoseSequence {
 
 /// The largest allowed difference between the distances of two backends. It is far above their rounding at the largest
 /// distance here.
-const ALIKE: f64 = 1e-9;
+const DISTANCE_TOLERANCE: f64 = 1e-9;
 
 fn assert_alike(one: &[f64], other: &[f64]) {
     for (one, other) in one.iter().zip(other) {
-        assert!((one - other).abs() <= ALIKE, "{one} and {other}");
+        assert!(
+            (one - other).abs() <= DISTANCE_TOLERANCE,
+            "{one} and {other}"
+        );
     }
 }
 

@@ -16,11 +16,11 @@ use settings::settings;
 use std::hint::black_box;
 
 /// The number of directions in which the extremal corner is searched for.
-const LOOKS: usize = 256;
+const DIRECTIONS: usize = 256;
 
 fn support(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("support");
-    group.throughput(Throughput::Elements(LOOKS as u64));
+    group.throughput(Throughput::Elements(DIRECTIONS as u64));
     let mut rng = Pcg64::seed_from_u64(7);
     for corners in [8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048, 4096] {
         let tree = ball(&mut rng, corners);
@@ -28,8 +28,8 @@ fn support(criterion: &mut Criterion) {
         let scan = SupportScan::new(piece.points);
         let table =
             SupportTable::new(piece.points, piece.facets).expect("the hull of a ball has facets");
-        let cold: Vec<DVec3> = (0..LOOKS).map(|_| direction(&mut rng)).collect();
-        let warm = turning(&mut rng);
+        let cold: Vec<DVec3> = (0..DIRECTIONS).map(|_| direction(&mut rng)).collect();
+        let warm = rotating_directions(&mut rng);
         group.bench_with_input(BenchmarkId::new("scan", corners), &cold, |b, looks| {
             b.iter(|| {
                 looks
@@ -60,12 +60,12 @@ fn support(criterion: &mut Criterion) {
 }
 
 /// Returns directions, each a hundredth of a radian from the one before, as in the steps of a query.
-fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
+fn rotating_directions(rng: &mut Pcg64) -> Vec<DVec3> {
     let turn = DQuat::from_scaled_axis(0.01 * direction(rng));
     let first = direction(rng);
     let next = |at: &DVec3| Some(turn * *at);
     std::iter::successors(Some(first), next)
-        .take(LOOKS)
+        .take(DIRECTIONS)
         .collect()
 }
 

@@ -118,7 +118,7 @@ impl Method {
     }
 
     /// Returns FAST as published, whose bound does not hold over a step, so that its answers may be late.
-    pub fn published() -> Method {
+    pub fn fast_as_published() -> Method {
         let kind = SolverKind {
             schedule: ScheduleKind::Fast,
             oracle: OracleKind::Vmarch,
@@ -128,7 +128,7 @@ impl Method {
     }
 
     /// Returns all methods that a script runs.
-    pub fn of_scripts() -> impl Iterator<Item = Method> {
+    pub fn script_methods() -> impl Iterator<Item = Method> {
         ScriptKind::value_variants()
             .iter()
             .copied()
@@ -139,7 +139,7 @@ impl Method {
     pub fn named(name: &str) -> Option<Method> {
         let more = Method::combinations()
             .into_iter()
-            .chain(Method::of_scripts());
+            .chain(Method::script_methods());
         let mut all = Method::all().into_iter().chain(more);
         all.find(|method| method.to_string() == name)
     }

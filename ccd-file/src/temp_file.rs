@@ -22,7 +22,7 @@ impl TempFile {
             match File::create_new(&part) {
                 // Left behind by a process with the same id.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(naming(&part, &error)),
+                Err(error) => return Err(error_with_path(&part, &error)),
                 Ok(file) => {
                     let part = Some(part);
                     return Ok(TempFile { file, part, target });
@@ -81,6 +81,6 @@ pub(crate) fn sibling(path: &Path, ending: &str) -> PathBuf {
 }
 
 /// Returns the error with the path added to its message.
-pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
+pub(crate) fn error_with_path(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }

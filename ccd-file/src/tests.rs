@@ -38,7 +38,7 @@ fn text(path: &Path) -> String {
 }
 
 /// Writes a few bytes, and then fails as on a full disk.
-fn fills_up(out: &mut dyn Write) -> io::Result<()> {
+fn write_until_full(out: &mut dyn Write) -> io::Result<()> {
     out.write_all(b"half")?;
     out.flush()?;
     Err(io::ErrorKind::StorageFull.into())
@@ -49,10 +49,10 @@ fn a_write_that_fails_leaves_the_older_file() {
     let folder = Folder::new("fails");
     let file = folder.path("good");
     fs::write(&file, "good").unwrap();
-    let error = write(&file, fills_up).unwrap_err();
+    let error = write(&file, write_until_full).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
     assert_eq!(text(&file), "good");
-    assert!(write(folder.path("new"), fills_up).is_err());
+    assert!(write(folder.path("new"), write_until_full).is_err());
     assert_eq!(folder.names(), ["good"]);
     write(&file, |out| out.write_all(b"better")).unwrap();
     assert_eq!(text(&file), "better");
@@ -95,7 +95,12 @@ fn a_claimed_file_is_given_to_one() {
     again.file().write_all(b"over").unwrap();
     again.place().unwrap();
     assert_eq!(text(&target), "moreover");
-    assert!(claim(target.clone()).unwrap().write(fills_up).is_err());
+    assert!(
+        claim(target.clone())
+            .unwrap()
+            .write(write_until_full)
+            .is_err()
+    );
     assert_eq!(
         (text(&target).as_str(), folder.names().len()),
         ("moreover", 1)

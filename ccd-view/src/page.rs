@@ -67,7 +67,7 @@ impl Page<'_> {
             ("views", data(&self.meshes, &self.groups)?),
             ("scripts", scripts()),
         ];
-        Ok(filled(include_str!("page/page.html"), &parts))
+        Ok(fill_template(include_str!("page/page.html"), &parts))
     }
 }
 
@@ -79,11 +79,11 @@ pub fn scripts() -> String {
         include_str!("page/marks.js"),
         include_str!("page/view.js"),
     ];
-    stage_scripts() + &elements(&views)
+    drawing_scripts() + &elements(&views)
 }
 
 /// Returns the scripts for a page that draws its own scene: three.js, `Motion`, `Stage` and `Player`.
-pub fn stage_scripts() -> String {
+pub fn drawing_scripts() -> String {
     elements(&[
         include_str!("../vendor/three/three.min.js"),
         include_str!("page/motion.js"),
@@ -160,7 +160,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
-pub fn filled(template: &str, parts: &[(&str, String)]) -> String {
+pub fn fill_template(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {

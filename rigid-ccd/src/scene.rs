@@ -254,10 +254,10 @@ impl<'a> Scene<'a> {
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        self.pair_queue(&pairs, &clock, goal)
+        self.run_pair_queue(&pairs, &clock, goal)
     }
 
-    fn pair_queue(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
+    fn run_pair_queue(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
         let (members, settings) = (&self.members, &self.settings);
         let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
             let [a, b] = pair.map(|index| members[index].moving());

@@ -14,7 +14,7 @@ pub(crate) struct Depths {
 }
 
 /// The least depth on the chart's axis, in metres; smaller depths are drawn there.
-const LEAST: f64 = 1e-6;
+const LEAST_DEPTH: f64 = 1e-6;
 
 /// The maximum number of values of a line, each of which is the deepest of several steps.
 const MOST_VALUES: usize = 300;
@@ -26,7 +26,7 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
     sheet.fill(&WHITE)?;
     for (panel, depths) in sheet.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
         let steps = depths.methods.first().map_or(0, Vec::len);
-        let range: Range<f64> = LEAST..1.0;
+        let range: Range<f64> = LEAST_DEPTH..1.0;
         let mut chart = ChartBuilder::on(panel)
             .caption(depths.world, ("sans-serif", 18))
             .margin(10)
@@ -45,7 +45,7 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
             let style = style(*method);
             let line = deepest(values)
                 .into_iter()
-                .map(|(step, depth)| (step, greater(LEAST, depth)));
+                .map(|(step, depth)| (step, greater(LEAST_DEPTH, depth)));
             let drawn = chart.draw_series(LineSeries::new(line, style))?;
             drawn
                 .label(method.name())

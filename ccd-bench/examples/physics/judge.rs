@@ -32,7 +32,7 @@ impl Tally {
             self.moves += usize::from(!body.is_fixed);
             self.stops += usize::from(stop < duration);
         }
-        for [a, b] in near(world, moved, duration)? {
+        for [a, b] in pairs_that_may_meet(world, moved, duration)? {
             deepest = greater(deepest, depth(world, moved, [a, b], duration));
             self.passed += usize::from(passes(world, moved, [a, b], duration));
         }
@@ -51,7 +51,7 @@ impl Tally {
 }
 
 /// Returns the pairs whose swept boxes meet, except joined pairs and pairs at rest.
-fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
+fn pairs_that_may_meet(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
     let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &Moved)| {
         let moving = Moving::from((&body.body, motion));
         moving.swept_box(duration, &rigid_ccd::Settings::DEFAULT)

@@ -106,7 +106,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration
     }
     let (mut tally, mut time) = (Tally::default(), Duration::ZERO);
     for step in 0..steps {
-        world.act(step);
+        world.apply_forces(step);
         let starts = poses(world)?;
         let begun = Instant::now();
         let stops = match method {
@@ -125,7 +125,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration
                     (motion.expect("a step is a motion"), stop.time)
                 })
                 .collect(),
-            None => moved(world, &starts, duration)?,
+            None => motions_without_stops(world, &starts, duration)?,
         };
         tally.step(world, &moved, duration)?;
     }
@@ -141,7 +141,7 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
 }
 
 /// Returns the motion that each body has in a step without stops.
-fn moved(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
+fn motions_without_stops(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
     let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];
         let centre = rigid.mass_properties().local_mprops.local_com.to_array();

@@ -35,10 +35,10 @@ pub(crate) struct Simulated {
 
 /// The distance that rapier keeps around each body, in metres. Bodies that rest on each other are farther apart than
 /// those that are stopped.
-const SKIN: f64 = 0.002;
+const CONTACT_SKIN: f64 = 0.002;
 
 /// The number of steps after which the bodies are thrown again.
-const ROUND: u32 = 60;
+const STEPS_PER_ROUND: u32 = 60;
 
 impl World {
     /// The number of different worlds.
@@ -54,7 +54,7 @@ impl World {
     }
 
     /// Applies forces to the bodies, or throws them again, before a step.
-    pub(crate) fn act(&mut self, step: u32) {
+    pub(crate) fn apply_forces(&mut self, step: u32) {
         (self.act)(self, step);
     }
 
@@ -76,7 +76,7 @@ impl World {
     }
 
     fn add(&mut self, builder: RigidBodyBuilder, shape: SharedShape, body: Body) -> usize {
-        let collider = ColliderBuilder::new(shape.clone()).contact_skin(SKIN);
+        let collider = ColliderBuilder::new(shape.clone()).contact_skin(CONTACT_SKIN);
         let (handle, _) = self.physics.insert(builder, collider);
         self.bodies.push(Simulated {
             handle,
@@ -127,7 +127,7 @@ fn bullets(method: Method) -> Result<World> {
     let mut world = World::empty("bullets and paper", method, 0.001, |world, step| {
         for index in SHEETS..world.bodies.len() {
             // One after the other.
-            if step % ROUND == 3 * (index - SHEETS) as u32 {
+            if step % STEPS_PER_ROUND == 3 * (index - SHEETS) as u32 {
                 let aside = 0.4 * world.any();
                 let speed = world.rng.random_range(100.0..390.0);
                 let place = DVec3::new(-2.0, aside.y, aside.z);
@@ -152,7 +152,7 @@ fn bullets(method: Method) -> Result<World> {
 /// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
 fn bunnies(method: Method) -> Result<World> {
     let mut world = World::empty("bunnies onto bunnies", method, 0.01, |world, step| {
-        if step % ROUND != 0 {
+        if step % STEPS_PER_ROUND != 0 {
             return;
         }
         for index in 5..world.bodies.len() {
@@ -201,10 +201,10 @@ const HALF: f64 = 0.06;
 /// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and then placed anew.
 fn chain(method: Method) -> Result<World> {
     let mut world = World::empty("chain through a slot", method, 0.004, |world, step| {
-        if step.is_multiple_of(4 * ROUND) {
+        if step.is_multiple_of(4 * STEPS_PER_ROUND) {
             (0..LINKS).for_each(|link| world.lay_out(link));
         }
-        let is_back = !(step / ROUND).is_multiple_of(2);
+        let is_back = !(step / STEPS_PER_ROUND).is_multiple_of(2);
         let towards = if is_back { -1.0 } else { 1.0 };
         let aside = 3.0 * world.any();
         let first = &mut world.physics.bodies[world.bodies[2].handle];

@@ -21,7 +21,7 @@ use std::time::Duration;
 pub struct Guarded {
     program: PathBuf,
     setting: Setting,
-    meshes: Meshes,
+    meshes: MeshFiles,
     /// The running process; `None` after the last one was stopped, until the next one starts.
     process: Option<Process>,
 }
@@ -172,7 +172,7 @@ impl Guarded {
         Ok(Guarded {
             program,
             setting,
-            meshes: Meshes::write(meshes)?,
+            meshes: MeshFiles::create(meshes)?,
             process: None,
         })
     }
@@ -289,18 +289,18 @@ impl Drop for Process {
 
 /// Two meshes written to files, which are removed when this value is dropped.
 #[derive(Debug)]
-struct Meshes {
+struct MeshFiles {
     directory: PathBuf,
 }
 
-impl Meshes {
-    fn write(meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
+impl MeshFiles {
+    fn create(meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let name = format!("ccd-bench-{}-{count}", std::process::id());
         let directory = std::env::temp_dir().join(name);
         fs::create_dir_all(&directory)?;
-        let written = Meshes { directory };
+        let written = MeshFiles { directory };
         for (k, mesh) in meshes.into_iter().enumerate() {
             write_obj(mesh, File::create(written.path(k))?)?;
         }
@@ -313,7 +313,7 @@ impl Meshes {
     }
 }
 
-impl Drop for Meshes {
+impl Drop for MeshFiles {
     fn drop(&mut self) {
         // A folder left behind does no harm.
         let _ = fs::remove_dir_all(&self.directory);

@@ -22,19 +22,19 @@ pub struct TimedReply {
 
 /// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
-const REPEATS: usize = 4;
+const MOST_REPEATS: usize = 4;
 /// The total time after which a query is not answered again for timing.
-const REPEATED_WITHIN: Duration = Duration::from_millis(40);
+const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
 pub fn timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
-    let mut micros = Vec::with_capacity(REPEATS);
+    let mut micros = Vec::with_capacity(MOST_REPEATS);
     let first = Instant::now();
     loop {
         let start = Instant::now();
         let reply = solver.answer(query, tolerance);
         micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if first.elapsed() > REPEATED_WITHIN || micros.len() == REPEATS {
+        if first.elapsed() > REPEAT_TIME_LIMIT || micros.len() == MOST_REPEATS {
             let warm = usize::from(micros.len() > 1);
             let micros = median(&mut micros[warm..]);
             return TimedReply { reply, micros };
@@ -67,7 +67,7 @@ impl Reply {
     }
 
     /// Returns the tolerance by which the reply is judged: that of the query, or a higher one that the solver states.
-    pub fn judged_by(&self, tolerance: f64) -> f64 {
+    pub fn judging_tolerance(&self, tolerance: f64) -> f64 {
         greater(tolerance, self.tolerance.unwrap_or(0.0))
     }
 }

@@ -58,7 +58,7 @@ pub fn format_query(query: &Motions) -> String {
 }
 
 /// The number of values by which a line gives one motion.
-const OF_MOTION: usize = 16;
+const VALUES_PER_MOTION: usize = 16;
 
 /// Parses a line as a query; returns `None` if it is invalid.
 pub fn parse_query(line: &str) -> Option<Motions> {
@@ -66,8 +66,8 @@ pub fn parse_query(line: &str) -> Option<Motions> {
         .split(' ')
         .map(|text| text.parse().ok())
         .collect::<Option<_>>()?;
-    let (a, rest) = numbers.split_at_checked(OF_MOTION)?;
-    let (b, rest) = rest.split_at_checked(OF_MOTION)?;
+    let (a, rest) = numbers.split_at_checked(VALUES_PER_MOTION)?;
+    let (b, rest) = rest.split_at_checked(VALUES_PER_MOTION)?;
     let &[duration] = rest else {
         return None;
     };

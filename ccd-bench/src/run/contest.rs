@@ -152,7 +152,7 @@ impl<'s> Contest<'s> {
                 )
             })
             .collect();
-        Ok(Some((sum_up(&trials), trials)))
+        Ok(Some((summarise(&trials), trials)))
     }
 
     /// Returns the scene that the methods are run on.
@@ -162,7 +162,7 @@ impl<'s> Contest<'s> {
 }
 
 /// Summarises the trials of one method on one scene, of which there is at least one.
-pub fn sum_up(trials: &[Trial]) -> Cell {
+pub fn summarise(trials: &[Trial]) -> Cell {
     let count = |verdict: Verdict| {
         let name = verdict.to_string();
         trials.iter().filter(|t| t.verdict == name).count()

@@ -8,14 +8,14 @@ use rigid_ccd::batch::median;
 use std::collections::HashMap;
 
 /// The key of a row in a table of trials: scene, bits of the tolerance, index of the row.
-type Place<'a> = (&'a str, u64, usize);
+type RowKey<'a> = (&'a str, u64, usize);
 
 /// The times of the method with which the others are compared, by row.
 #[derive(Debug)]
 pub struct Reference<'a> {
     name: &'a str,
     trials: &'a [Trial],
-    times: HashMap<Place<'a>, f64>,
+    times: HashMap<RowKey<'a>, f64>,
 }
 
 impl<'a> Reference<'a> {
@@ -25,7 +25,7 @@ impl<'a> Reference<'a> {
         Reference {
             name,
             trials,
-            times: own.map(|trial| (place(trial), trial.micros)).collect(),
+            times: own.map(|trial| (row_key(trial), trial.micros)).collect(),
         }
     }
 
@@ -43,7 +43,7 @@ impl<'a> Reference<'a> {
                 && trial.tolerance == cell.tolerance
         };
         let ratios = self.trials.iter().filter(of_cell).filter_map(|trial| {
-            let ratio = trial.micros / self.times.get(&place(trial))?;
+            let ratio = trial.micros / self.times.get(&row_key(trial))?;
             ratio.is_finite().then_some(ratio)
         });
         let mut ratios: Vec<f64> = ratios.collect();
@@ -74,7 +74,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-fn place(trial: &Trial) -> Place<'_> {
+fn row_key(trial: &Trial) -> RowKey<'_> {
     (&trial.scene, trial.tolerance.to_bits(), trial.row)
 }
 

@@ -3,7 +3,7 @@
 use super::chart::Drawing;
 use super::tables::TextTable;
 use super::views::Views;
-use ccd_view::{escape, filled};
+use ccd_view::{escape, fill_template};
 
 #[cfg(test)]
 mod tests;
@@ -28,7 +28,7 @@ pub fn html(
         ("view_scripts", ccd_view::scripts()),
         ("tables_script", include_str!("page/tables.js").to_owned()),
     ];
-    Ok(filled(include_str!("page/page.html"), &parts))
+    Ok(fill_template(include_str!("page/page.html"), &parts))
 }
 
 fn table_html(table: &TextTable) -> String {

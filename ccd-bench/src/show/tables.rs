@@ -29,10 +29,10 @@ pub struct TextTable {
 type Column<'c> = (&'c str, &'c dyn Fn(&Cell) -> String);
 
 /// The number of rows below which a median is shown together with the number of rows.
-const FEW: usize = 10;
+const FEW_ROWS: usize = 10;
 
 /// The text in place of a value that is missing.
-const NOTHING: &str = "–";
+const NO_VALUE: &str = "–";
 
 impl TextTable {
     /// Creates a table without a name and without rows.
@@ -55,15 +55,15 @@ impl TextTable {
 
     /// Returns the text of the table for a terminal, with aligned columns.
     pub fn for_terminal(&self) -> String {
-        self.laid_out(UTF8_BORDERS_ONLY)
+        self.with_layout(UTF8_BORDERS_ONLY)
     }
 
     /// Returns the text of the table for a README, in Markdown.
     pub fn as_markdown(&self) -> String {
-        self.laid_out(ASCII_MARKDOWN)
+        self.with_layout(ASCII_MARKDOWN)
     }
 
-    fn laid_out(&self, style: TableStyle) -> String {
+    fn with_layout(&self, style: TableStyle) -> String {
         let mut table = Table::new();
         table.load_style(style).set_header(&self.header);
         for (index, column) in table.column_iter_mut().enumerate() {
@@ -88,10 +88,10 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -
     let ratio = format!("× {}", reference.name());
     let of_reference = |cell: &Cell| match reference.ratio(cell) {
         Some(ratio) => format!("{ratio:.2}"),
-        None => NOTHING.to_owned(),
+        None => NO_VALUE.to_owned(),
     };
     let mean_error = |cell: &Cell| match cell.mean_error {
-        error if error.is_nan() => NOTHING.to_owned(),
+        error if error.is_nan() => NO_VALUE.to_owned(),
         error => format!("{error:.0e}"),
     };
     let columns: [Column<'_>; 12] = [
@@ -201,7 +201,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         }
     }
     if ratios.is_empty() {
-        return NOTHING.to_owned();
+        return NO_VALUE.to_owned();
     }
     let occurs = |verdict: Verdict| {
         let name = verdict.to_string();
@@ -213,7 +213,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         ""
     };
     let rows = match ratios.len() {
-        few @ ..FEW => format!(" [{few}]"),
+        few @ ..FEW_ROWS => format!(" [{few}]"),
         _ => String::new(),
     };
     let mark = if occurs(Verdict::Late) || occurs(Verdict::Missed) {

@@ -38,12 +38,12 @@ fn family(name: &'static str, make: fn(f64) -> Result<Step>) -> Family {
 }
 
 /// Returns the powers 10⁻ᵏ for each k.
-fn tenths(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
+fn negative_powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(-k)).collect()
 }
 
 /// Returns the powers 10ᵏ for each k.
-fn tens(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
+fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(k)).collect()
 }
 

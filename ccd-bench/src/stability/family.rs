@@ -82,7 +82,7 @@ pub(super) struct BodyMotion {
 }
 
 /// The rotations of the whole scene in which its queries are repeated, about axes of no symmetry.
-const WORLDS: [(DVec3, f64); 2] = [
+const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
     (DVec3::new(0.6, 0.0, 0.8), 1.1),
     (DVec3::new(-0.48, 0.6, 0.64), 2.3),
 ];
@@ -128,7 +128,7 @@ impl BodyMotion {
     };
 
     /// The motion of a slab that rests at z = −1, so that its top is at 0.
-    pub(super) const UNDER: BodyMotion = BodyMotion {
+    pub(super) const SLAB_BELOW: BodyMotion = BodyMotion {
         at: DVec3::NEG_Z,
         ..BodyMotion::STILL
     };
@@ -181,31 +181,36 @@ impl Step {
     }
 
     /// Returns the same step with another tolerance.
-    pub(super) fn within(self, tolerance: f64) -> Self {
+    pub(super) fn with_tolerance(self, tolerance: f64) -> Self {
         Step { tolerance, ..self }
     }
 
     /// Adds a query with exactly these motions; the expected answer is for a duration of 1.
-    pub(super) fn exactly(self, a: BodyMotion, b: BodyMotion, expected: Expected) -> Result<Self> {
+    pub(super) fn with_query(
+        self,
+        a: BodyMotion,
+        b: BodyMotion,
+        expected: Expected,
+    ) -> Result<Self> {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
     /// Adds the query, and the same query in rotated worlds. The answer has to bear their rounding.
-    pub(super) fn turned_too(
+    pub(super) fn with_rotated_queries(
         mut self,
         a: BodyMotion,
         b: BodyMotion,
         expected: Expected,
     ) -> Result<Self> {
-        self = self.exactly(a, b, expected)?;
-        for (axis, angle) in WORLDS {
+        self = self.with_query(a, b, expected)?;
+        for (axis, angle) in WORLD_ROTATIONS {
             self = self.in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
         }
         Ok(self)
     }
 
     /// Adds the query, and the same query in rotated worlds if the answer bears their rounding.
-    pub(super) fn turned_if(
+    pub(super) fn with_rotated_queries_if(
         self,
         bears_rounding: bool,
         a: BodyMotion,
@@ -213,9 +218,9 @@ impl Step {
         expected: Expected,
     ) -> Result<Self> {
         if bears_rounding {
-            self.turned_too(a, b, expected)
+            self.with_rotated_queries(a, b, expected)
         } else {
-            self.exactly(a, b, expected)
+            self.with_query(a, b, expected)
         }
     }
 

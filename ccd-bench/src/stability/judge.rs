@@ -18,14 +18,14 @@ pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, outcome: &QueryOut
 fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judged {
     let claim = reply.claim;
     let query = &case.query;
-    let within = step.margin + reply.judged_by(step.tolerance);
+    let within = step.margin + reply.judging_tolerance(step.tolerance);
     match case.expected {
-        _ if claim == Claim::Refused => Judged::plain(Verdict::Refused),
+        _ if claim == Claim::Refused => Judged::without_error(Verdict::Refused),
         Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
             is_near(referee, query, time, within)
         }),
         Expected::Free => contest::judge(referee, query, Truth::Free, claim, within),
-        Expected::Start => Judged::plain(from_start(claim, query.duration)),
+        Expected::Start => Judged::without_error(from_start(claim, query.duration)),
     }
 }
 

@@ -61,12 +61,12 @@ pub(super) fn cone(sides: u32, radius: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// The width of a comb's tooth, as a share of the step from tooth to tooth.
-pub(super) const TOOTH: f64 = 0.4;
+pub(super) const TOOTH_SHARE: f64 = 0.4;
 
 /// Returns a comb of depth 1 along y: a bar from z = 0 to 1 below teeth that reach to z = 2. The first tooth
 /// begins at x = 0, and the steps from tooth to tooth add up to 1.
 pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
-    let border = |k: u32| (f64::from(k / 2) + TOOTH * f64::from(k % 2)) / f64::from(teeth);
+    let border = |k: u32| (f64::from(k / 2) + TOOTH_SHARE * f64::from(k % 2)) / f64::from(teeth);
     let borders: Vec<f64> = (0..2 * teeth).map(border).collect();
     extruded(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
         level == 0 || column % 2 == 0
@@ -112,11 +112,11 @@ pub(super) fn extruded(
             quad([at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1)]);
         }
     }
-    used(&vertices, faces)
+    with_used_vertices(&vertices, faces)
 }
 
 /// Returns the mesh with only the vertices that the faces use.
-fn used(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
+fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
     let mut numbers = vec![None; vertices.len()];
     let mut kept = Vec::new();
     let mut number = |v: u32| {

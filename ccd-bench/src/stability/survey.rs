@@ -7,7 +7,7 @@ use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::rival::is_screw;
 use crate::method::solver::Reply;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Journal, Judged, Verdict, program_stamp, sum_up};
+use crate::run::contest::{Journal, Judged, Verdict, program_stamp, summarise};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
@@ -34,13 +34,13 @@ pub struct Survey {
 }
 
 /// The time limit of one query.
-const PATIENCE: Duration = Duration::from_secs(3);
+const QUERY_TIME_LIMIT: Duration = Duration::from_secs(3);
 
 /// The time limit for preparing the bodies of a step.
-const PREPARATION: Duration = Duration::from_secs(20);
+const PREPARATION_TIME_LIMIT: Duration = Duration::from_secs(20);
 
 /// The number of consecutive steps at which a method is stopped before its harder steps are skipped.
-const CHANCES: usize = 2;
+const STOPS_BEFORE_SKIPPING: usize = 2;
 
 /// Returns the name of a step in the tables.
 pub(super) fn step_name(family: &Family, value: f64) -> String {
@@ -87,13 +87,13 @@ impl Survey {
         for value in self.values(family) {
             let name = step_name(family, value);
             let step = (family.make)(value).with_context(|| name.clone())?;
-            let ready = Ready::new(&step, &name);
+            let ready = PreparedStep::new(&step, &name);
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
                 progress.say(&format!("{name}: {method}"));
                 progress.step();
                 let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
                 let known = locked().has(&name, &method.to_string(), step.tolerance);
-                if *stopped >= CHANCES || known {
+                if *stopped >= STOPS_BEFORE_SKIPPING || known {
                     continue;
                 }
                 let trials = ready.ask(method, &self.programs);
@@ -104,7 +104,7 @@ impl Survey {
                 } else {
                     *stopped = 0;
                 }
-                locked().add(sum_up(&trials), trials)?;
+                locked().add(summarise(&trials), trials)?;
             }
         }
         Ok(())
@@ -112,16 +112,16 @@ impl Survey {
 }
 
 /// A step with its meshes, prepared for queries.
-struct Ready<'s> {
+struct PreparedStep<'s> {
     step: &'s Step,
     name: &'s str,
     surfaces: [Surface; 2],
 }
 
-impl<'s> Ready<'s> {
+impl<'s> PreparedStep<'s> {
     fn new(step: &'s Step, name: &'s str) -> Self {
         let surfaces = step.meshes.each_ref().map(Surface::new);
-        Ready {
+        PreparedStep {
             step,
             name,
             surfaces,
@@ -133,14 +133,14 @@ impl<'s> Ready<'s> {
         let step = self.step;
         let setting = Setting {
             margin: step.margin,
-            preparation: PREPARATION,
+            preparation: PREPARATION_TIME_LIMIT,
             ..Setting::new(method, step.tolerance)
         };
         let mut guarded = match Guarded::start(programs, setting, step.meshes.each_ref()) {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
-                let trial = self.trial(method, 0, &QueryOutcome::Died, not_started(error)?);
+                let trial = self.trial(method, 0, &QueryOutcome::Died, judge_not_started(error)?);
                 return Ok(vec![Trial { note, ..trial }]);
             }
         };
@@ -152,13 +152,13 @@ impl<'s> Ready<'s> {
                     method,
                     row,
                     &QueryOutcome::Died,
-                    Judged::plain(Verdict::Refused),
+                    Judged::without_error(Verdict::Refused),
                 );
                 let note = "bodies move along screws only".to_owned();
                 trials.push(Trial { note, ..trial });
                 continue;
             }
-            let outcome = guarded.ask(&case.query, PATIENCE)?;
+            let outcome = guarded.ask(&case.query, QUERY_TIME_LIMIT)?;
             let judged = judge(step, case, &Referee::new(a, b), &outcome);
             trials.push(self.trial(method, row, &outcome, judged));
             if outcome == QueryOutcome::CutOff {
@@ -176,7 +176,7 @@ impl<'s> Ready<'s> {
         let trial = Trial::new(
             (self.name, &method.to_string(), self.step.tolerance),
             (row, &row.to_string()),
-            (outcome, PATIENCE),
+            (outcome, QUERY_TIME_LIMIT),
             judged,
         );
         Trial { note, ..trial }
@@ -194,8 +194,8 @@ impl<'s> Ready<'s> {
 }
 
 /// Judges a method that ends before its first query.
-fn not_started(error: io::Error) -> io::Result<Judged> {
-    Ok(Judged::plain(match error.kind() {
+fn judge_not_started(error: io::Error) -> io::Result<Judged> {
+    Ok(Judged::without_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
         io::ErrorKind::TimedOut => Verdict::CutOff,
         io::ErrorKind::Other => Verdict::Died,
@@ -206,5 +206,5 @@ fn not_started(error: io::Error) -> io::Result<Judged> {
 /// Describes the settings that determine all answers, for comparison with those of a folder.
 fn stamp() -> String {
     let program = program_stamp();
-    format!("{program}patience {PATIENCE:?} {PREPARATION:?}\n")
+    format!("{program}patience {QUERY_TIME_LIMIT:?} {PREPARATION_TIME_LIMIT:?}\n")
 }

@@ -16,7 +16,7 @@ const ZERO: Interval = exact(0.0);
 const ONE: Interval = exact(1.0);
 const TWO: Interval = exact(2.0);
 /// The range of every sine and cosine.
-const UNIT: Interval = Interval::new(-1.0, 1.0);
+const SINE_RANGE: Interval = Interval::new(-1.0, 1.0);
 
 impl Vector {
     pub(super) fn scaled(&self, by: Interval) -> Self {
@@ -79,16 +79,17 @@ impl Matrix {
         let angle = rate * exact(time);
         if !(square.inf() > FAINTEST_SPIN) {
             // The bound |R − I| ≤ θ is all that remains if the squares underflow.
-            let off = UNIT * angle;
-            return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| delta(i, j) + off)));
+            let off = SINE_RANGE * angle;
+            return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| kronecker_delta(i, j) + off)));
         }
         let (sine, cosine) = sin_cos(angle);
         let (half_sine, _) = sin_cos(angle / TWO);
         let across = omega.scaled(sine / rate).cross_matrix();
         let along = TWO * half_sine.sqr() / square;
         Matrix([0, 1, 2].map(|i| {
-            [0, 1, 2]
-                .map(|j| delta(i, j) * cosine + across.0[i][j] + along * omega.0[i] * omega.0[j])
+            [0, 1, 2].map(|j| {
+                kronecker_delta(i, j) * cosine + across.0[i][j] + along * omega.0[i] * omega.0[j]
+            })
         }))
     }
 }
@@ -96,7 +97,7 @@ impl Matrix {
 /// The least squared angular speed, in radians per unit of time, well above the values at which squares lose digits.
 const FAINTEST_SPIN: f64 = 1e-250;
 
-fn delta(i: usize, j: usize) -> Interval {
+fn kronecker_delta(i: usize, j: usize) -> Interval {
     if i == j { ONE } else { ZERO }
 }
 
@@ -153,8 +154,8 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
     let rest = x - exact(quarters) * Interval::FRAC_PI_2;
     // The first comparison is false for an unbounded interval.
-    if !(rest.mag() <= WIDEST_REST && quarters.abs() <= MOST_QUARTERS) {
-        return (UNIT, UNIT);
+    if !(rest.mag() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MOST_QUARTERS) {
+        return (SINE_RANGE, SINE_RANGE);
     }
     let (sine, cosine) = taylor(rest);
     match quarters.rem_euclid(4.0) {
@@ -166,7 +167,7 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
 }
 
 /// The largest argument for the polynomial, in radians, a little over π/4.
-const WIDEST_REST: f64 = 1.6;
+const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
 /// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
 /// 21!, an odd number below 2⁵³ times 2¹⁸, hence exact.
@@ -191,7 +192,7 @@ fn taylor(r: Interval) -> (Interval, Interval) {
     let sine_rest = power / FACTORIAL_21;
     let cosine_rest = sine_rest * r.abs() / TWENTY_TWO;
     (
-        (r * sine + UNIT * sine_rest).intersection(UNIT),
-        (cosine + UNIT * cosine_rest).intersection(UNIT),
+        (r * sine + SINE_RANGE * sine_rest).intersection(SINE_RANGE),
+        (cosine + SINE_RANGE * cosine_rest).intersection(SINE_RANGE),
     )
 }

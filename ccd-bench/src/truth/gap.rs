@@ -1,7 +1,7 @@
 //! Computes the distance of two surfaces at one time.
 
 use super::Bracket;
-use super::rounding::ROUNDED;
+use super::rounding::FORTY_ROUNDINGS;
 use super::search::{Pair, Search};
 use super::snapshot::{Snapshot, Span};
 use super::triangle::{gap, nearest_or_common, normals};
@@ -75,7 +75,7 @@ fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket
         .filter(|n| n.is_finite())
         .map(|n| gap(n, &placed, b));
     Bracket {
-        lower: gaps.fold(0.0, greater) * (1.0 - ROUNDED) - snapshot.slack(),
+        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS) - snapshot.slack(),
         upper: (p - q).length() + snapshot.slack(),
     }
 }

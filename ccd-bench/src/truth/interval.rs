@@ -108,18 +108,22 @@ impl Interval {
     }
 
     /// Returns the products with the numbers in `factor`, none of which is negative.
-    fn times(self, factor: Self) -> Self {
-        self.with(product, [factor.inf, factor.sup])
+    fn times_nonnegative(self, factor: Self) -> Self {
+        self.scaled_between(product, [factor.inf, factor.sup])
     }
 
     /// Returns the quotients by the numbers in `divisor`, all of which are positive.
-    fn over(self, divisor: Self) -> Self {
-        self.with(quotient, [divisor.sup, divisor.inf])
+    fn divided_by_positive(self, divisor: Self) -> Self {
+        self.scaled_between(quotient, [divisor.sup, divisor.inf])
     }
 
     /// Returns the results of scaling by factors from `least` to `most`. The lower bound is scaled by `least`, or by
     /// `most` if it is negative; the upper bound by `most`, or by `least` if it is negative.
-    fn with(self, scaled: impl Fn(f64, f64) -> [f64; 2], [least, most]: [f64; 2]) -> Self {
+    fn scaled_between(
+        self,
+        scaled: impl Fn(f64, f64) -> [f64; 2],
+        [least, most]: [f64; 2],
+    ) -> Self {
         let [inf, _] = scaled(self.inf, if self.inf >= 0.0 { least } else { most });
         let [_, sup] = scaled(self.sup, if self.sup >= 0.0 { most } else { least });
         Interval::new(inf, sup)
@@ -161,16 +165,16 @@ impl Mul for Interval {
     /// them, unless both operands have numbers on both sides of 0.
     fn mul(self, other: Interval) -> Interval {
         if other.inf >= 0.0 {
-            return self.times(other);
+            return self.times_nonnegative(other);
         }
         if other.sup <= 0.0 {
-            return -self.times(-other);
+            return -self.times_nonnegative(-other);
         }
         if self.inf >= 0.0 {
-            return other.times(self);
+            return other.times_nonnegative(self);
         }
         if self.sup <= 0.0 {
-            return -other.times(-self);
+            return -other.times_nonnegative(-self);
         }
         let ([x, _], [_, y]) = (product(self.inf, other.sup), product(self.inf, other.inf));
         let ([u, _], [_, v]) = (product(self.sup, other.inf), product(self.sup, other.sup));
@@ -184,9 +188,9 @@ impl Div for Interval {
     /// Divides intervals: a quotient is monotone in each operand while the divisor keeps its sign.
     fn div(self, other: Interval) -> Interval {
         if other.inf > 0.0 {
-            self.over(other)
+            self.divided_by_positive(other)
         } else if other.sup < 0.0 {
-            -self.over(-other)
+            -self.divided_by_positive(-other)
         } else {
             Interval::ENTIRE
         }
@@ -195,7 +199,7 @@ impl Div for Interval {
 
 /// Returns bounds of an exact result: the rounded result, moved towards the side of `rest`, which has the sign of the
 /// exact result minus the rounded one. Moved to both sides if `rest` is NaN.
-fn outward(rounded: f64, rest: f64) -> [f64; 2] {
+fn rounded_outward(rounded: f64, rest: f64) -> [f64; 2] {
     [
         if rest >= 0.0 {
             rounded
@@ -218,7 +222,7 @@ fn sum(x: f64, y: f64) -> [f64; 2] {
     let sum = x + y;
     let back = sum - x;
     let rest = (x - (sum - back)) + (y - back);
-    outward(sum, if rest.is_finite() { rest } else { f64::NAN })
+    rounded_outward(sum, if rest.is_finite() { rest } else { f64::NAN })
 }
 
 /// Returns bounds of the exact product of two floats; NaN for 0 times infinity.
@@ -227,7 +231,7 @@ fn product(x: f64, y: f64) -> [f64; 2] {
     if x == 0.0 || y == 0.0 {
         return [product; 2];
     }
-    outward(product, -remainder(product, x, y))
+    rounded_outward(product, -remainder(product, x, y))
 }
 
 /// Returns bounds of the exact quotient of two floats, of which the second is not 0. A number over infinity stands for
@@ -237,7 +241,7 @@ fn quotient(x: f64, y: f64) -> [f64; 2] {
     if x == 0.0 {
         return [quotient; 2];
     }
-    outward(quotient, remainder(x, quotient, y) * y.signum())
+    rounded_outward(quotient, remainder(x, quotient, y) * y.signum())
 }
 
 /// Returns bounds of an exact square root, which `f64::sqrt` rounds to nearest; NaN for negative numbers.
@@ -246,7 +250,7 @@ fn root(x: f64) -> [f64; 2] {
     if x == 0.0 {
         return [root; 2];
     }
-    outward(root, remainder(x, root, root))
+    rounded_outward(root, remainder(x, root, root))
 }
 
 /// Returns w − xy with the right sign, for a w within a factor of 2 of xy; NaN if the sign might be wrong.
@@ -254,7 +258,7 @@ fn root(x: f64) -> [f64; 2] {
 /// Dekker's product is exact: xy is the rounded product and an error, without a fused operation. The
 /// halves have 26 bits, so their products are exact. w less the rounded product is exact by Sterbenz.
 fn remainder(w: f64, x: f64, y: f64) -> f64 {
-    if !(UNSCALED.contains(&x.abs()) && UNSCALED.contains(&y.abs())) {
+    if !(SAFE_FACTORS.contains(&x.abs()) && SAFE_FACTORS.contains(&y.abs())) {
         return f64::NAN;
     }
     let ([x_high, x_low], [y_high, y_low]) = (halves(x), halves(y));
@@ -265,7 +269,7 @@ fn remainder(w: f64, x: f64, y: f64) -> f64 {
 
 /// The range of factors for which no part of Dekker's product overflows or underflows: the lowest bit of the least
 /// product is at 1e-280 2⁻¹⁰⁴, above the least float.
-const UNSCALED: RangeInclusive<f64> = 1e-140..=1e140;
+const SAFE_FACTORS: RangeInclusive<f64> = 1e-140..=1e140;
 
 /// Splits a float into a sum of two floats of at most 26 bits each, as Veltkamp does.
 fn halves(x: f64) -> [f64; 2] {

@@ -2,7 +2,7 @@
 
 use super::enclosure::{Matrix, Vector};
 use super::interval::Interval;
-use super::snapshot::Enclosed;
+use super::snapshot::IntervalMaps;
 use super::surface::Triangle;
 use super::track::Track;
 
@@ -14,7 +14,7 @@ pub(super) struct Instant {
 
 impl Instant {
     pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
-        let (rotation, offset) = Enclosed::new(a, b, time).placement;
+        let (rotation, offset) = IntervalMaps::new(a, b, time).placement;
         Instant { rotation, offset }
     }
 

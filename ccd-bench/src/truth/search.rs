@@ -28,25 +28,25 @@ pub(super) struct Search<'a> {
 /// a hard query takes a second.
 const BUDGET: u64 = 30_000_000;
 /// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
-const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
+const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
 /// The number of doublings of the step in the search for a proof of contact after a time that cannot be excluded: it
 /// extends to about a thousandth of the duration.
-const DOUBLINGS: u32 = 36;
+const MOST_DOUBLINGS: u32 = 36;
 /// The number of doublings after which all triangles are tested, not only those that came near first.
 const WIDER_EVERY: u32 = 6;
 /// The size of nodes, as a multiple of their displacement in the interval, up to which they are not split.
-const COARSE: f64 = 1.0;
+const LARGEST_UNSPLIT_SIZE: f64 = 1.0;
 /// The size, as a fraction of the displacement, below which triangles are separated as well by their boxes.
-const SMALL: f64 = 0.25;
+const BOXES_SUFFICE_BELOW: f64 = 0.25;
 
 /// The number of normals of two triangles' faces.
-const FACES: usize = 2;
+const FACE_NORMALS: usize = 2;
 /// The distance, as a fraction of the edges, below which triangles are also tested along the normals of pairs of edges.
-const CLOSE: f64 = 1e-3;
+const EDGE_NORMALS_BELOW: f64 = 1e-3;
 
 /// The pairs of nodes that may meet within an interval of time.
 #[derive(Debug, PartialEq)]
-enum Sifted {
+enum RemainingPairs {
     /// The pairs of nodes that are not excluded.
     Left(Vec<Pair>),
     /// The budget of tests is used up.
@@ -94,18 +94,18 @@ impl<'a> Search<'a> {
             start: 0.0,
             end: self.duration,
         };
-        let shortest = SHORTEST * self.duration;
+        let shortest = SHORTEST_SPAN * self.duration;
         let mut pending = vec![(whole, Rc::new(vec![roots]))];
         let mut undecided = UndecidedTimes::default();
         while let Some((span, pairs)) = pending.pop() {
-            let Some(span) = span.from(undecided.over) else {
+            let Some(span) = span.from(undecided.skipped_until) else {
                 continue;
             };
             let snapshot = self.snapshot(span);
-            let left = match self.sift(&snapshot, &pairs) {
-                Sifted::Left(left) if left.is_empty() => continue,
-                Sifted::Left(left) => left,
-                Sifted::Spent => {
+            let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
+                RemainingPairs::Left(left) if left.is_empty() => continue,
+                RemainingPairs::Left(left) => left,
+                RemainingPairs::Spent => {
                     return Truth::Undecided {
                         lo: undecided.first.unwrap_or(span.start),
                     };
@@ -120,10 +120,10 @@ impl<'a> Search<'a> {
                 continue;
             }
             let lo = *undecided.first.get_or_insert(span.start);
-            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.met) {
+            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.times_met) {
                 return Truth::Hit { lo, hi };
             }
-            undecided.pass(span, shortest);
+            undecided.skip_after(span, shortest);
         }
         match undecided.first {
             None => Truth::Free,
@@ -137,15 +137,15 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the pairs that may meet within the interval, of nodes no larger than their displacement.
-    fn sift(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> Sifted {
+    fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
         let mut left = Vec::new();
         if snapshot.is_far() {
-            return Sifted::Left(left);
+            return RemainingPairs::Left(left);
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {
-                return Sifted::Spent;
+                return RemainingPairs::Spent;
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
@@ -153,14 +153,16 @@ impl<'a> Search<'a> {
                 continue;
             };
             match self.split(pair) {
-                Some(Split { size, parts }) if size > COARSE * travel => stack.extend(parts),
+                Some(Split { size, parts }) if size > LARGEST_UNSPLIT_SIZE * travel => {
+                    stack.extend(parts)
+                }
                 Some(_) => left.push(pair),
-                None if greater(a.size, b.size) < SMALL * travel => left.push(pair),
+                None if greater(a.size, b.size) < BOXES_SUFFICE_BELOW * travel => left.push(pair),
                 None if self.triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
         }
-        Sifted::Left(left)
+        RemainingPairs::Left(left)
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
@@ -176,26 +178,34 @@ impl<'a> Search<'a> {
         };
         let placed = snapshot.placed(a);
         let mut normals = normals(&placed, b);
-        if normals.by_ref().take(FACES).any(apart) {
+        if normals.by_ref().take(FACE_NORMALS).any(apart) {
             return true;
         }
         let (p, q) = nearest(&placed, b);
         let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
         // The direction between two points is only useful if their distance is larger than rounding.
-        apart(between.normalize()) || (between.length() < CLOSE * size && normals.any(apart))
+        apart(between.normalize())
+            || (between.length() < EDGE_NORMALS_BELOW * size && normals.any(apart))
     }
 
     /// Searches for a time soon after `from` at which the surfaces certainly share a point.
-    fn proof_after(&mut self, from: f64, roots: Pair, near: &[Pair], met: u32) -> Option<f64> {
-        let mut step = SHORTEST * self.duration;
-        for doubling in 0..=DOUBLINGS {
+    fn proof_after(
+        &mut self,
+        from: f64,
+        roots: Pair,
+        near: &[Pair],
+        times_met: u32,
+    ) -> Option<f64> {
+        let mut step = SHORTEST_SPAN * self.duration;
+        for doubling in 0..=MOST_DOUBLINGS {
             let time = lesser(from + step, self.duration);
             if self.certain_at(near, time) {
                 return Some(time);
             }
             // All triangles are tested for the first undecided time, and then only periodically, because that
             // is slow.
-            let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1 && (met == 0 || doubling == met);
+            let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1
+                && (times_met == 0 || doubling == times_met);
             if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
                 return Some(time);
             }
@@ -312,18 +322,18 @@ struct UndecidedTimes {
     /// The first undecided time; `None` without any.
     first: Option<f64>,
     /// The time up to which the search skips.
-    over: f64,
+    skipped_until: f64,
     /// The number of undecided times so far.
-    met: u32,
+    times_met: u32,
 }
 
 impl UndecidedTimes {
     /// Skips time after an undecided one; the skipped length doubles each time. Surfaces that slide on each other all
     /// the time are left after about as many steps as the duration has halvings.
-    fn pass(&mut self, span: Span, shortest: f64) {
-        let ahead = shortest * 2.0_f64.powi(self.met.min(1000) as i32);
-        self.over = span.end + ahead;
-        self.met = self.met.saturating_add(1);
+    fn skip_after(&mut self, span: Span, shortest: f64) {
+        let ahead = shortest * 2.0_f64.powi(self.times_met.min(1000) as i32);
+        self.skipped_until = span.end + ahead;
+        self.times_met = self.times_met.saturating_add(1);
     }
 }
 

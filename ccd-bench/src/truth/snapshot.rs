@@ -13,7 +13,7 @@
 
 use super::enclosure::{Matrix, Vector};
 use super::interval::{Interval, exact};
-use super::rounding::{ROUNDED, ROUNDED_UP, UNIT_ROUNDOFF, larger};
+use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, UNIT_ROUNDOFF, larger};
 use super::surface::{Node, Triangle};
 use super::track::Track;
 use ccd_core::glam::{DMat3, DVec3};
@@ -41,7 +41,7 @@ pub(super) struct Snapshot {
     /// straight one.
     slack: f64,
     /// The part of `slack` that is due to the motion's deviation from a straight one.
-    bend: f64,
+    motion_slack: f64,
     /// The bounds on the extents of boxes, along the axes of B and of A.
     along_b: Extents,
     along_a: Extents,
@@ -72,11 +72,11 @@ impl Snapshot {
     pub(super) fn new([a, b]: [&Track; 2], [size_a, size_b]: [f64; 2], span: Span) -> Self {
         let time = span.start.midpoint(span.end);
         let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
-        let exactly = Enclosed::new(a, b, time);
+        let exactly = IntervalMaps::new(a, b, time);
         let placement = Affine::new(&exactly.placement, size_a);
         let rate_a = Affine::new(&exactly.rate_a, size_a);
         let rate_b = Affine::new(&exactly.rate_b, size_b);
-        let bend = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
+        let motion_slack = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
         let errors = placement.error + half * (rate_a.error + rate_b.error);
         let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
         let centre = |v: &Vector| DVec3::from_array(v.0.map(Interval::mid));
@@ -84,15 +84,17 @@ impl Snapshot {
         let back = r.transpose();
         Snapshot {
             half,
-            bend,
-            slack: bend * ROUNDED_UP + errors * ROUNDED_UP + ROUNDINGS * UNIT_ROUNDOFF * sizes,
+            motion_slack,
+            slack: motion_slack * ROUNDED_UP
+                + errors * ROUNDED_UP
+                + GAP_ROUNDINGS * UNIT_ROUNDOFF * sizes,
             along_b: Extents {
-                a: largest(r, w_a),
-                b: largest(DMat3::IDENTITY, w_b),
+                a: larger_of_sum_and_difference(r, w_a),
+                b: larger_of_sum_and_difference(DMat3::IDENTITY, w_b),
             },
             along_a: Extents {
-                a: largest(back * r, back * w_a),
-                b: largest(back, back * w_b),
+                a: larger_of_sum_and_difference(back * r, back * w_a),
+                b: larger_of_sum_and_difference(back, back * w_b),
             },
             placement,
             rate_a,
@@ -109,25 +111,27 @@ impl Snapshot {
         // The point of the segment from d − w to d + w that is nearest to 0.
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
         let nearest = if s.is_nan() { d } else { d + s * w };
-        nearest.length() * (1.0 - ROUNDED)
-            > (self.reaches + self.slack - self.bend) * ROUNDED_UP
-                + ROUNDED * (d.length() + w.length())
+        nearest.length() * (1.0 - FORTY_ROUNDINGS)
+            > (self.reaches + self.slack - self.motion_slack) * ROUNDED_UP
+                + FORTY_ROUNDINGS * (d.length() + w.length())
     }
 
     /// Tests whether two boxes stay apart along the six directions of their faces.
     pub(super) fn boxes(&self, a: &Node, b: &Node) -> Boxes {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
-        let gaps_b = self.along_b.gaps(apart, moved, a, b);
+        let gaps_b = self.along_b.axis_gaps(apart, moved, a, b);
         if gaps_b.max_element() > self.slack {
             return Boxes::Apart;
         }
-        let gaps_a = self.along_a.gaps(self.back(apart), self.back(moved), a, b);
+        let gaps_a = self
+            .along_a
+            .axis_gaps(self.back(apart), self.back(moved), a, b);
         if gaps_a.max_element() > self.slack {
             return Boxes::Apart;
         }
         Boxes::Near {
-            travel: moved.length() + self.bend,
+            travel: moved.length() + self.motion_slack,
         }
     }
 
@@ -135,10 +139,13 @@ impl Snapshot {
     pub(super) fn boxes_distance(&self, a: &Node, b: &Node) -> f64 {
         let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
-        let gaps_b = self.along_b.gaps(apart, none, a, b).max(none);
-        let gaps_a = self.along_a.gaps(self.back(apart), none, a, b).max(none);
+        let gaps_b = self.along_b.axis_gaps(apart, none, a, b).max(none);
+        let gaps_a = self
+            .along_a
+            .axis_gaps(self.back(apart), none, a, b)
+            .max(none);
         let distance = greater(gaps_b.length(), gaps_a.length());
-        distance * (1.0 - ROUNDED) - 2.0 * self.slack
+        distance * (1.0 - FORTY_ROUNDINGS) - 2.0 * self.slack
     }
 
     /// Returns the corners of two triangles in the common frame, at both ends of the interval.
@@ -169,13 +176,13 @@ impl Snapshot {
 
 impl Extents {
     /// Returns the gap of two boxes along each axis, at the end of the interval with the smaller gap.
-    fn gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
+    fn axis_gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
     }
 }
 
 /// Returns, entry by entry, the larger of |m + w| and |m − w|, which bounds the absolute values in between.
-fn largest(m: DMat3, w: DMat3) -> DMat3 {
+fn larger_of_sum_and_difference(m: DMat3, w: DMat3) -> DMat3 {
     let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
     DMat3::from_cols(
         entry(m.x_axis, w.x_axis),
@@ -225,7 +232,7 @@ impl Affine {
 }
 
 /// The affine maps of a snapshot, whose entries are intervals.
-pub(super) struct Enclosed {
+pub(super) struct IntervalMaps {
     pub(super) placement: (Matrix, Vector),
     rate_a: (Matrix, Vector),
     rate_b: (Matrix, Vector),
@@ -233,7 +240,7 @@ pub(super) struct Enclosed {
     velocity: Vector,
 }
 
-impl Enclosed {
+impl IntervalMaps {
     pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
         let (at_a, at_b) = (a.at(time), b.at(time));
         let back = at_b.rotation.transpose();
@@ -246,7 +253,7 @@ impl Enclosed {
         let swirl_a = &(&back * &a.spin).cross_matrix() * &rotation;
         let swirl_b = (&back * &b.spin).cross_matrix();
         let drift = velocity - &swirl_a * &a.centre + &swirl_b * &b.centre;
-        Enclosed {
+        IntervalMaps {
             placement: (rotation, offset),
             rate_a: (swirl_a, drift),
             rate_b: (swirl_b, Vector([exact(0.0); 3])),
@@ -260,6 +267,6 @@ impl Enclosed {
 /// are the sum of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its difference
 /// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
 /// as many along A's axes, which are rounded themselves. The total is doubled.
-const ROUNDINGS: f64 = 96.0;
+const GAP_ROUNDINGS: f64 = 96.0;
 /// √3, rounded up.
 const SQRT_3: f64 = 1.732_050_807_568_878;

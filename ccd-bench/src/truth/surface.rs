@@ -52,7 +52,7 @@ impl Surface {
         };
         let mut order: Vec<u32> = (0..).take(surface.triangles.len()).collect();
         if !order.is_empty() {
-            surface.grow(&mut order);
+            surface.add_subtree(&mut order);
         }
         surface
     }
@@ -89,9 +89,9 @@ impl Surface {
 
     /// Adds the node of some triangles with all nodes below it, and returns its index. They are halved at the median
     /// along their longest extent, so the depth is the logarithm of their number.
-    fn grow(&mut self, order: &mut [u32]) -> u32 {
+    fn add_subtree(&mut self, order: &mut [u32]) -> u32 {
         let index = self.nodes.len();
-        let node = self.about(order);
+        let node = self.bounding_node(order);
         self.nodes.push(node);
         if let [triangle] = order {
             self.nodes[index].content = Content::Triangle(*triangle);
@@ -101,13 +101,13 @@ impl Surface {
             let key = |&i: &u32| self.triangle(i).iter().map(|p| p[axis]).sum::<f64>();
             order.select_nth_unstable_by(middle, |i, j| key(i).total_cmp(&key(j)));
             let (left, right) = order.split_at_mut(middle);
-            let children = [self.grow(left), self.grow(right)];
+            let children = [self.add_subtree(left), self.add_subtree(right)];
             self.nodes[index].content = Content::Children(children);
         }
         index as u32
     }
 
-    fn about(&self, order: &[u32]) -> Node {
+    fn bounding_node(&self, order: &[u32]) -> Node {
         let corners = order.iter().flat_map(|&i| self.triangle(i));
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &corner in corners {

@@ -64,7 +64,10 @@ fn assert_answered(outcome: QueryOutcome) {
 
 #[test]
 fn every_method_answers_behind_a_guard() {
-    for method in Method::all().into_iter().chain([Method::published()]) {
+    for method in Method::all()
+        .into_iter()
+        .chain([Method::fast_as_published()])
+    {
         let mut guarded = guarded_with(Setting::new(method, 1e-3));
         assert_answered(guarded.ask(&drop(), PATIENCE).unwrap());
     }

@@ -97,7 +97,7 @@ impl Scene<'_> {
         self.settings = with_half_tolerance_kept(&given);
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        let events = self.pair_queue(&pairs, &clock, &Goal::All);
+        let events = self.run_pair_queue(&pairs, &clock, &Goal::All);
         let stops = StopSearch::new(self, &pairs, clock).run(events);
         self.settings = given;
         stops

@@ -35,7 +35,7 @@ pub struct Simulated {
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
 const ERRORS_AT_HIT: f64 = 1.25;
 /// The fraction of its motion at which a step counts as complete, because poses are rounded.
-const WHOLE: f64 = 1.0 - 1e-9;
+const COMPLETE_SHARE: f64 = 1.0 - 1e-9;
 
 impl Simulated {
     /// Creates a rapier world with two meshes.
@@ -88,8 +88,8 @@ impl Solver for Simulated {
         self.pose(query, tolerance);
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
-            Some(a) => match share(query, a.position()) {
-                share if share >= WHOLE => Claim::Free,
+            Some(a) => match share_of_motion(query, a.position()) {
+                share if share >= COMPLETE_SHARE => Claim::Free,
                 share => contact_at(share * query.duration, query.duration),
             },
             None => Claim::Unresolved { safe_until: 0.0 },
@@ -99,7 +99,7 @@ impl Solver for Simulated {
 }
 
 /// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
-fn share(query: &Motions, end: &Pose) -> f64 {
+fn share_of_motion(query: &Motions, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
     if way == DVec3::ZERO {

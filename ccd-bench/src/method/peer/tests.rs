@@ -291,7 +291,7 @@ fn tighter_tolerances_tighten_sweeps_alone() {
 
 #[test]
 fn every_method_is_found_by_its_name() {
-    let more = Method::of_scripts().chain([Method::published()]);
+    let more = Method::script_methods().chain([Method::fast_as_published()]);
     for method in Method::all().into_iter().chain(more) {
         assert_eq!(Method::named(&method.to_string()), Some(method));
     }

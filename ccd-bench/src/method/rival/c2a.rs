@@ -1,7 +1,7 @@
 //! Implements C2A, which advances both bodies by the least safe step over pairs of swept spheres.
 
 use super::patience::Patience;
-use super::swept_spheres::{Gap, Leaves, Pair, Trees, Under};
+use super::swept_spheres::{Gap, Leaves, Pair, PairChildren, Trees};
 use super::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::order::lesser;
@@ -107,7 +107,7 @@ impl Solver for C2a {
                 excess: excess(steps, last.as_ref(), query.duration, tolerance),
                 tolerance,
             };
-            self.closing.look_from(&frame);
+            self.closing.set_frame(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 Descent::Done(found) => found,
                 Descent::Within => return Reply::new(Claim::Contact { time }, steps),
@@ -166,11 +166,11 @@ impl C2a {
                 return Descent::GaveUp;
             }
             *pairs_left -= 1;
-            match self.trees.under(&candidate.pair) {
-                Under::Triangles(leaves) => {
+            match self.trees.children(&candidate.pair) {
+                PairChildren::Triangles(leaves) => {
                     self.measure(&mut found, setup, leaves, candidate.pair);
                 }
-                Under::Pairs([first, second]) => {
+                PairChildren::Pairs([first, second]) => {
                     let (first, second) = (self.candidate(first), self.candidate(second));
                     let ordered = if first.distance < second.distance {
                         [second, first]
@@ -187,7 +187,7 @@ impl C2a {
     fn candidate(&mut self, pair: Pair) -> Candidate {
         let gap = self.trees.gap(&pair);
         Candidate {
-            step: self.closing.step(&self.trees, &pair, &gap),
+            step: self.closing.safe_step(&self.trees, &pair, &gap),
             pair,
             distance: gap.distance,
         }
@@ -207,7 +207,7 @@ impl C2a {
             distance,
             direction: between / distance,
         };
-        let step = self.closing.step(&self.trees, &pair, &gap);
+        let step = self.closing.safe_step(&self.trees, &pair, &gap);
         // NaN counts as nearer.
         if !(step >= found.step) {
             found.step = step;
@@ -238,20 +238,22 @@ impl Candidate {
 /// contact.
 fn excess(step: u64, last: Option<&DescentResult>, duration: f64, tolerance: f64) -> f64 {
     /// The number of coarse steps at the start, and the excess that they are allowed.
-    const FIRST: (u64, f64) = (3, 3.0);
+    const COARSE_STEPS: (u64, f64) = (3, 3.0);
     /// The number of steps after the coarse ones, and the excess that they are allowed.
-    const THEN: (u64, f64) = (6, 0.5);
+    const FINER_STEPS: (u64, f64) = (6, 0.5);
     /// The step length below which all later steps are exact, as a fraction of the duration.
-    const SHORT: f64 = 0.005;
+    const EXACT_BELOW_STEP: f64 = 0.005;
     /// The distance below which all steps are exact, as a multiple of the tolerance.
-    const NEAR: f64 = 16.0;
+    const EXACT_BELOW_DISTANCE: f64 = 16.0;
 
-    let exact = last
-        .is_some_and(|last| !(last.step > SHORT * duration && last.distance > NEAR * tolerance));
+    let exact = last.is_some_and(|last| {
+        !(last.step > EXACT_BELOW_STEP * duration
+            && last.distance > EXACT_BELOW_DISTANCE * tolerance)
+    });
     match step {
         _ if exact => 0.0,
-        _ if step <= FIRST.0 => FIRST.1,
-        _ if step <= THEN.0 => THEN.1,
+        _ if step <= COARSE_STEPS.0 => COARSE_STEPS.1,
+        _ if step <= FINER_STEPS.0 => FINER_STEPS.1,
         _ => 0.0,
     }
 }

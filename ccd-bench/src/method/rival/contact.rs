@@ -16,7 +16,7 @@ use crate::method::solver::{Claim, Reply, Solver};
 use boxes::{Boxes, boxes};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use clock::{Clock, Slice};
+use clock::{Clock, HalvedInterval};
 use elementary::{Facet, Triangles};
 use leaf::{Touch, first_touch};
 use relative::Relative;
@@ -71,7 +71,7 @@ const LIMITS: Limits = Limits {
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     nodes: [u32; 2],
-    slice: Slice,
+    interval: HalvedInterval,
 }
 
 impl Contact {
@@ -138,20 +138,20 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(&mut self) -> Claim {
         let mut found = None;
-        let slice = Slice::whole(self.end);
+        let interval = HalvedInterval::whole(self.end);
         let nodes = [0, 0];
         self.stack.clear();
-        self.stack.push(Pair { nodes, slice });
+        self.stack.push(Pair { nodes, interval });
         for _ in 0..self.most_pairs {
             let Some(mut pair) = self.stack.pop() else {
                 return found.map_or(Claim::Free, |time| Claim::Contact { time });
             };
-            let ahead = pair.slice.span.start < self.end;
+            let ahead = pair.interval.span.start < self.end;
             if !ahead && found.is_some() {
                 continue;
             }
-            pair.slice.span.end = lesser(pair.slice.span.end, self.end);
-            if self.clock.is_spent() {
+            pair.interval.span.end = lesser(pair.interval.span.end, self.end);
+            if self.clock.is_at_limit() {
                 self.stack.push(pair);
                 break;
             }
@@ -167,7 +167,7 @@ impl Search<'_> {
                 }
             }
         }
-        let starts = self.stack.iter().map(|pair| pair.slice.span.start);
+        let starts = self.stack.iter().map(|pair| pair.interval.span.start);
         Claim::Unresolved {
             safe_until: starts.fold(self.end, lesser),
         }
@@ -176,24 +176,24 @@ impl Search<'_> {
     /// Examines a pair: drops it, pushes its halves or children onto the stack, or finds when it
     /// touches.
     fn visit(&mut self, pair: Pair) -> Touch {
-        let Pair { nodes, slice } = pair;
+        let Pair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(slice)) {
+        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(interval)) {
             Boxes::Apart => return Touch::Never,
             Boxes::Near { spread } => spread,
         };
         let size = [a, b].map(|node| node.bounds.half.max_element());
         let wide = spread > SPREAD_TO_HALVE * greater(size[0], size[1]);
-        if wide && !self.clock.is_short(slice) {
+        if wide && !self.clock.is_shortest(interval) {
             self.clock.halvings += 1;
-            let [early, late] = slice.halves();
+            let [early, late] = interval.halves();
             self.stack
-                .extend([late, early].map(|slice| Pair { nodes, slice }));
+                .extend([late, early].map(|interval| Pair { nodes, interval }));
             return Touch::Never;
         }
         let open = match (a.content, b.content) {
-            (Content::Triangle(p), Content::Triangle(q)) => return self.leaf([p, q], slice),
+            (Content::Triangle(p), Content::Triangle(q)) => return self.leaf([p, q], interval),
             (Content::Nodes(children), Content::Triangle(_)) => {
                 children.map(|child| [child, nodes[1]])
             }
@@ -202,15 +202,16 @@ impl Search<'_> {
             }
             (_, Content::Nodes(children)) => children.map(|child| [nodes[0], child]),
         };
-        self.stack.extend(open.map(|nodes| Pair { nodes, slice }));
+        self.stack
+            .extend(open.map(|nodes| Pair { nodes, interval }));
         Touch::Never
     }
 
-    fn leaf(&mut self, [p, q]: [u32; 2], slice: Slice) -> Touch {
+    fn leaf(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> Touch {
         let triangles = Triangles {
             a: Facet::new(self.trees[0].triangle(p)),
             b: Facet::new(self.trees[1].triangle(q)),
         };
-        first_touch(&triangles, slice, &mut self.clock)
+        first_touch(&triangles, interval, &mut self.clock)
     }
 }

@@ -89,7 +89,7 @@ impl Vectors {
 impl Shortest {
     /// Returns the state before any vectors are added.
     #[inline(always)]
-    pub(super) fn of_none() -> Self {
+    pub(super) fn empty() -> Self {
         Shortest {
             squared: f64x4::splat(f64::INFINITY),
             vectors: Vectors::splat(DVec3::ZERO),
@@ -98,7 +98,7 @@ impl Shortest {
 
     /// Adds four more vectors, one to each lane; NaN is never shorter.
     #[inline(always)]
-    pub(super) fn and(self, more: Vectors) -> Self {
+    pub(super) fn with_four(self, more: Vectors) -> Self {
         let squared = more.dot_each(more);
         let shorter = squared.simd_lt(self.squared);
         let keep = |k: usize| shorter.select(more.0[k], self.vectors.0[k]);
@@ -110,7 +110,7 @@ impl Shortest {
 
     /// Returns the squared length of the shortest vector in any lane, and the vector.
     #[inline(always)]
-    pub(super) fn of_all(self) -> (f64, DVec3) {
+    pub(super) fn overall(self) -> (f64, DVec3) {
         let (lane, squared) = least(self.squared);
         (squared, self.vectors.lane(lane))
     }

@@ -57,7 +57,7 @@ impl ObbTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
         let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
-        let origin = Obb::around(&triangles).1.centre;
+        let origin = Obb::fit(&triangles).1.centre;
         for corner in triangles.iter_mut().flatten() {
             *corner -= origin;
         }
@@ -95,7 +95,7 @@ impl ObbTree {
         self.nodes.push(Node::placeholder());
         while let Some((index, range)) = open.pop() {
             let triangles = &mut self.triangles[range.clone()];
-            let (mean, bounds) = Obb::around(triangles);
+            let (mean, bounds) = Obb::fit(triangles);
             let content = if range.len() == 1 {
                 Content::Triangle(range.start as u32)
             } else {
@@ -126,7 +126,7 @@ impl Node {
 
 impl Obb {
     /// Returns the mean of the triangles' corners, and the box around them along their principal axes.
-    fn around(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
+    fn fit(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
         let points = triangles.iter().flatten().copied();
         let (mean, axes) = principal_axes(points.clone());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

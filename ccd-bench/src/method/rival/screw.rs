@@ -12,7 +12,7 @@ use rigid_ccd::table::motions::Motions;
 const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
 
 /// The largest distance of a point's positions on two equal motions due to rounding, as a share of its displacement.
-const SAME: f64 = 1e-9;
+const ROUNDING_SHARE: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose
 /// \[CONTACT02\].
@@ -47,7 +47,7 @@ pub fn is_screw(query: &Motions) -> bool {
         };
         [0.25, 0.5, 0.75]
             .into_iter()
-            .all(|share| apart(share) <= SAME * travel)
+            .all(|share| apart(share) <= ROUNDING_SHARE * travel)
     };
     same(&query.a) && same(&query.b)
 }

@@ -32,11 +32,11 @@ struct Node {
     /// The side lengths of the rectangle along its x and y axes.
     lengths: DVec2,
     radius: f64,
-    below: Below,
+    below: NodeContent,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Below {
+enum NodeContent {
     /// The index of the first child; the second one is next.
     Children(u32),
     Triangle(u32),
@@ -59,7 +59,7 @@ pub(super) struct Pair {
 }
 
 /// What is below a pair of nodes.
-pub(super) enum Under {
+pub(super) enum PairChildren {
     /// The children of one node, each paired with the other node.
     Pairs([Pair; 2]),
     /// The triangles of two leaves.
@@ -92,7 +92,7 @@ impl SphereTree {
     /// Returns an upper bound of the distance of a node's points from an axis that is fixed in the body.
     ///
     /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
-    pub(super) fn lever(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
+    pub(super) fn axis_distance(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
         let (node, frame) = (&self.nodes[node as usize], &self.frames[node as usize]);
         let corner = (frame.translation - centre).cross(axis);
         let x = node.lengths.x * frame.rotation.x_axis.cross(axis);
@@ -136,7 +136,7 @@ impl Trees {
         Some(Pair {
             a: 0,
             b: 0,
-            placement: after(placement, b).seen_from(a),
+            placement: compose(placement, b).seen_from(a),
         })
     }
 
@@ -188,16 +188,18 @@ impl Trees {
 
     /// Returns the children of the larger node \[PQP99 §5\], or the triangles of two leaves.
     #[inline]
-    pub(super) fn under(&self, pair: &Pair) -> Under {
+    pub(super) fn children(&self, pair: &Pair) -> PairChildren {
         let (a, b) = (
             &self.a.nodes[pair.a as usize],
             &self.b.nodes[pair.b as usize],
         );
         match (a.below, b.below) {
-            (Below::Triangle(a), Below::Triangle(b)) => Under::Triangles(Leaves { a, b }),
-            (Below::Children(first), Below::Triangle(_)) => self.split_a(pair, first),
-            (Below::Triangle(_), Below::Children(first)) => self.split_b(pair, first),
-            (Below::Children(first_a), Below::Children(first_b)) => {
+            (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
+                PairChildren::Triangles(Leaves { a, b })
+            }
+            (NodeContent::Children(first), NodeContent::Triangle(_)) => self.split_a(pair, first),
+            (NodeContent::Triangle(_), NodeContent::Children(first)) => self.split_b(pair, first),
+            (NodeContent::Children(first_a), NodeContent::Children(first_b)) => {
                 if a.size() > b.size() {
                     self.split_a(pair, first_a)
                 } else {
@@ -208,8 +210,8 @@ impl Trees {
     }
 
     #[inline]
-    fn split_a(&self, pair: &Pair, first: u32) -> Under {
-        Under::Pairs([first, first + 1].map(|a| {
+    fn split_a(&self, pair: &Pair, first: u32) -> PairChildren {
+        PairChildren::Pairs([first, first + 1].map(|a| {
             Pair {
                 a,
                 b: pair.b,
@@ -221,18 +223,18 @@ impl Trees {
     }
 
     #[inline]
-    fn split_b(&self, pair: &Pair, first: u32) -> Under {
-        Under::Pairs([first, first + 1].map(|b| Pair {
+    fn split_b(&self, pair: &Pair, first: u32) -> PairChildren {
+        PairChildren::Pairs([first, first + 1].map(|b| Pair {
             a: pair.a,
             b,
-            placement: after(&pair.placement, &self.b.nodes[b as usize].placement),
+            placement: compose(&pair.placement, &self.b.nodes[b as usize].placement),
         }))
     }
 }
 
 /// Returns the composition `outer ∘ inner` of two placements.
 #[inline]
-fn after(outer: &Placement, inner: &Placement) -> Placement {
+fn compose(outer: &Placement, inner: &Placement) -> Placement {
     Placement {
         rotation: outer.rotation * inner.rotation,
         translation: outer.apply(inner.translation),

@@ -129,7 +129,7 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     assert_eq!(cell.max_error, errors[hits - 1]);
     assert!(cell.mean_error <= cell.max_error);
     assert!(cell.median_us > 0.0 && cell.mean_steps >= 1.0);
-    assert_eq!(sum_up(&trials), cell);
+    assert_eq!(summarise(&trials), cell);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     };
     let add = |journal: &mut Journal, method: &str| {
         let trials = vec![trial(method, "0"), trial(method, "1")];
-        journal.add(sum_up(&trials), trials).unwrap();
+        journal.add(summarise(&trials), trials).unwrap();
     };
     let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     add(&mut journal, "C2A");

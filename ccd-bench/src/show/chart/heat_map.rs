@@ -2,7 +2,9 @@
 //! cost grows.
 
 use super::Drawing;
-use super::sheet::{INK, MARGIN, Sheet, Spot, TextFormat, WIDTH, rect, svg, text, text_width};
+use super::sheet::{
+    MARGIN, PixelPosition, Sheet, TEXT_COLOUR, TextFormat, WIDTH, rect, svg, text, text_width,
+};
 use super::style::COLOURS;
 use crate::run::contest::Verdict;
 use anyhow::Result;
@@ -50,11 +52,11 @@ pub const REACH: &HeatKind = &HeatKind {
         "the steps, from the easy ones, before the first that is not right.",
     ],
     legend: &[
-        ("right", RIGHT),
-        ("unresolved or refused", GREY),
-        ("early", EARLY),
-        ("false contact", FALSE),
-        ("late or missed", WARNING),
+        ("right", RIGHT_COLOUR),
+        ("unresolved or refused", GREY_COLOUR),
+        ("early", EARLY_COLOUR),
+        ("false contact", FALSE_COLOUR),
+        ("late or missed", MISSED_COLOUR),
         ("died or cut off", BLACK),
     ],
 };
@@ -68,15 +70,15 @@ pub const GROWTH: &HeatKind = &HeatKind {
         "easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     ],
     legend: &[
-        ("up to 3 times", GROWN[0]),
-        ("30", GROWN[1]),
-        ("1,000", GROWN[2]),
-        ("more", GROWN[3]),
+        ("up to 3 times", GROWTH_COLOURS[0]),
+        ("30", GROWTH_COLOURS[1]),
+        ("1,000", GROWTH_COLOURS[2]),
+        ("more", GROWTH_COLOURS[3]),
     ],
 };
 
 /// The colours of growing costs, from light to dark: up to 3, 30 and 1000 times, and more.
-const GROWN: [RGBColor; 4] = [
+const GROWTH_COLOURS: [RGBColor; 4] = [
     RGBColor(0xea, 0xf2, 0xf8),
     RGBColor(0x9e, 0xc4, 0xe0),
     RGBColor(0x3b, 0x7d, 0xb3),
@@ -84,26 +86,26 @@ const GROWN: [RGBColor; 4] = [
 ];
 
 /// The width of the column of family names, in pixels.
-const NAMES: f64 = 196.0;
+const NAMES_WIDTH: f64 = 196.0;
 /// The height of a row, in pixels.
-const ROW: f64 = 24.0;
+const ROW_HEIGHT: f64 = 24.0;
 /// The height of the bar in a cell, in pixels.
-const BAR: f64 = 5.0;
+const BAR_HEIGHT: f64 = 5.0;
 /// The distance of the first row from the top of the sheet, in pixels.
-const TOP: f64 = 250.0;
+const FIRST_ROW_TOP: f64 = 250.0;
 /// The font sizes of small and of the smallest text, in pixels.
-const SMALL: f64 = 10.5;
-const SMALLEST: f64 = 7.5;
+const SMALL_FONT: f64 = 10.5;
+const SMALLEST_FONT: f64 = 7.5;
 
 /// The colour of families in which all answers are right.
-const RIGHT: RGBColor = COLOURS[0];
+const RIGHT_COLOUR: RGBColor = COLOURS[0];
 /// The colour of missing answers.
-const GREY: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
+const GREY_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
 /// The colours of early contacts and of false contacts.
-const EARLY: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
-const FALSE: RGBColor = COLOURS[4];
+const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
+const FALSE_COLOUR: RGBColor = COLOURS[4];
 /// The colour of late and missed contacts.
-const WARNING: RGBColor = COLOURS[1];
+const MISSED_COLOUR: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
 /// A cell of a heat map: a colour, two lines of text, and a bar.
@@ -120,7 +122,7 @@ impl HeatCell {
     /// Returns the cell that shows how far a method is right: its worst verdict, the share of the values before the
     /// first wrong answer, and the first value with the worst verdict, empty if all are right.
     pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
-        let (fill, word, ink) = look_of(worst);
+        let (fill, word, ink) = verdict_style(worst);
         HeatCell {
             fill,
             ink,
@@ -139,8 +141,8 @@ impl HeatCell {
             _ => format!("{factor:.0e}"),
         };
         HeatCell {
-            fill: GROWN[darkness],
-            ink: if darkness < 2 { INK } else { WHITE },
+            fill: GROWTH_COLOURS[darkness],
+            ink: if darkness < 2 { TEXT_COLOUR } else { WHITE },
             lines: [String::new(), number],
             bar: 0.0,
         }
@@ -153,19 +155,19 @@ impl HeatMap {
     /// # Errors
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<Drawing> {
-        let height = TOP + ROW * self.rows.len() as f64 + MARGIN;
+        let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + MARGIN;
         let svg = svg(self.kind.title, (WIDTH, height), |sheet| {
-            head(sheet, self.kind)?;
+            draw_header(sheet, self.kind)?;
             let format = TextFormat {
                 turn: FontTransform::Rotate270,
                 ..small()
             };
             for (column, method) in self.methods.iter().enumerate() {
                 let middle = self.left(column) + 0.5 * self.column();
-                text(sheet, method, (middle, TOP - 6.0), &format)?;
+                text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
-                self.row(sheet, TOP + ROW * number as f64, row)?;
+                self.row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
             }
             Ok(())
         })?;
@@ -175,20 +177,30 @@ impl HeatMap {
 
     /// Returns the width of a method's column, in pixels.
     fn column(&self) -> f64 {
-        (WIDTH - 2.0 * MARGIN - NAMES) / self.methods.len() as f64
+        (WIDTH - 2.0 * MARGIN - NAMES_WIDTH) / self.methods.len() as f64
     }
 
     fn left(&self, column: usize) -> f64 {
-        MARGIN + NAMES + self.column() * column as f64
+        MARGIN + NAMES_WIDTH + self.column() * column as f64
     }
 
     fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         let smallest = TextFormat {
-            size: SMALLEST,
+            size: SMALLEST_FONT,
             ..small()
         };
-        text(sheet, &row.name, (MARGIN, top + 0.34 * ROW), &small())?;
-        text(sheet, &row.parameter, (MARGIN, top + 0.76 * ROW), &smallest)?;
+        text(
+            sheet,
+            &row.name,
+            (MARGIN, top + 0.34 * ROW_HEIGHT),
+            &small(),
+        )?;
+        text(
+            sheet,
+            &row.parameter,
+            (MARGIN, top + 0.76 * ROW_HEIGHT),
+            &smallest,
+        )?;
         for (column, cell) in row.cells.iter().enumerate() {
             if let Some(cell) = cell {
                 let corner = (self.left(column) + 0.5, top + 0.5);
@@ -201,13 +213,13 @@ impl HeatMap {
 
 fn small() -> TextFormat {
     TextFormat {
-        size: SMALL,
+        size: SMALL_FONT,
         ..TextFormat::default()
     }
 }
 
 /// Draws the title, the remark and the legend of a kind of map.
-fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
+fn draw_header(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
         ..small()
@@ -220,19 +232,19 @@ fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     for &(name, colour) in kind.legend {
         rect(sheet, (left, top), (12.0, 12.0), colour)?;
         text(sheet, name, (left + 17.0, top + 6.0), &small())?;
-        left += 34.0 + text_width(name, SMALL);
+        left += 34.0 + text_width(name, SMALL_FONT);
     }
     Ok(())
 }
 
 /// Draws a cell at its upper left corner, with a given width.
-fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Result<()> {
-    let height = ROW - 1.0;
+fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
+    let height = ROW_HEIGHT - 1.0;
     rect(sheet, (x, y), (width, height), cell.fill)?;
-    let bar = (width * cell.bar, BAR);
-    rect(sheet, (x, y + height - BAR), bar, RIGHT)?;
+    let bar = (width * cell.bar, BAR_HEIGHT);
+    rect(sheet, (x, y + height - BAR_HEIGHT), bar, RIGHT_COLOUR)?;
     let format = TextFormat {
-        size: SMALLEST,
+        size: SMALLEST_FONT,
         colour: cell.ink,
         across: HPos::Center,
         ..TextFormat::default()
@@ -244,16 +256,16 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Re
 }
 
 /// Returns how a verdict is shown: its colour, a word for it, and the colour of the word.
-fn look_of(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
+fn verdict_style(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
-        Verdict::Right => (RIGHT, "", WHITE),
-        Verdict::Undecided | Verdict::NotJudged => (GREY, "?", INK),
-        Verdict::Refused => (GREY, "refused", INK),
-        Verdict::Unresolved => (GREY, "unres.", INK),
-        Verdict::Early => (EARLY, "early", INK),
-        Verdict::False => (FALSE, "false", INK),
-        Verdict::Late => (WARNING, "late", WHITE),
-        Verdict::Missed => (WARNING, "missed", WHITE),
+        Verdict::Right => (RIGHT_COLOUR, "", WHITE),
+        Verdict::Undecided | Verdict::NotJudged => (GREY_COLOUR, "?", TEXT_COLOUR),
+        Verdict::Refused => (GREY_COLOUR, "refused", TEXT_COLOUR),
+        Verdict::Unresolved => (GREY_COLOUR, "unres.", TEXT_COLOUR),
+        Verdict::Early => (EARLY_COLOUR, "early", TEXT_COLOUR),
+        Verdict::False => (FALSE_COLOUR, "false", TEXT_COLOUR),
+        Verdict::Late => (MISSED_COLOUR, "late", WHITE),
+        Verdict::Missed => (MISSED_COLOUR, "missed", WHITE),
         Verdict::Died => (BLACK, "died", WHITE),
         Verdict::CutOff => (BLACK, "cut off", WHITE),
     }

@@ -16,9 +16,9 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x00, 0x00),
 ];
 /// The colour of methods that are late or miss a contact.
-pub(super) const WARNING: RGBColor = COLOURS[1];
+pub(super) const WARNING_COLOUR: RGBColor = COLOURS[1];
 /// The distance of a marker's corners from its centre, in pixels.
-pub(super) const MARKER: f64 = 4.5;
+pub(super) const MARKER_RADIUS: f64 = 4.5;
 
 /// The colour, the marker and the dash pattern of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,10 @@ impl MethodStyle {
         let (count, first) = self.marker;
         let corner = |corner: u32| {
             let angle = first + TAU * f64::from(corner) / f64::from(count);
-            (units(MARKER * angle.cos()), units(MARKER * angle.sin()))
+            (
+                units(MARKER_RADIUS * angle.cos()),
+                units(MARKER_RADIUS * angle.sin()),
+            )
         };
         (0..count).map(corner).collect()
     }

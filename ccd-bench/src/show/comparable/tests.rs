@@ -1,5 +1,5 @@
 use super::*;
-use crate::run::contest::{Verdict, sum_up};
+use crate::run::contest::{Verdict, summarise};
 use crate::show::tables::tests::trial;
 
 const OURS: &str = "best-first direct";
@@ -17,7 +17,7 @@ fn trials() -> Vec<Trial> {
 
 fn cell_of(trials: &[Trial], method: &str) -> Cell {
     let own = trials.iter().filter(|trial| trial.method == method);
-    sum_up(&own.cloned().collect::<Vec<_>>())
+    summarise(&own.cloned().collect::<Vec<_>>())
 }
 
 #[test]

@@ -70,7 +70,7 @@ impl SweptPairs {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
-            turn / turn_within(body.reach(motion), tolerance)
+            turn / largest_turn(body.reach(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
         let travel =
@@ -87,13 +87,13 @@ impl SweptPairs {
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];
-        let slack = a.bulge + b.bulge + tolerance as Real;
-        let swept_a = |aabb: Aabb| boxed(&aabb, &in_frame_a).loosened(slack);
+        let slack = a.path_deviation + b.path_deviation + tolerance as Real;
+        let swept_a = |aabb: Aabb| swept_box(&aabb, &in_frame_a).loosened(slack);
         let swept_b = |aabb: Aabb| {
             if still {
                 aabb
             } else {
-                boxed(&aabb, &in_frame_b)
+                swept_box(&aabb, &in_frame_b)
             }
         };
         let pairs = self
@@ -150,7 +150,7 @@ struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
     /// The largest distance of the body's points from the straight line between start and end.
-    bulge: Real,
+    path_deviation: Real,
 }
 
 impl Swept {
@@ -177,7 +177,7 @@ impl Swept {
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
             // adds less than that.
-            bulge: (0.25 * self.reach(motion) * turn * turn) as Real,
+            path_deviation: (0.25 * self.reach(motion) * turn * turn) as Real,
         }
     }
 
@@ -188,7 +188,7 @@ impl Swept {
 }
 
 /// Returns the largest rotation, in radians, that a body may make in a segment.
-fn turn_within(reach: f64, tolerance: f64) -> f64 {
+fn largest_turn(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
     let off = SHARE_OF_TURN * tolerance / (0.2567 * 1.1 * reach);
@@ -196,7 +196,7 @@ fn turn_within(reach: f64, tolerance: f64) -> f64 {
 }
 
 /// Returns the box that contains a body's box at the start and at the end of a segment.
-fn boxed(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
+fn swept_box(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))
 }

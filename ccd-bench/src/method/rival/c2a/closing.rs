@@ -28,7 +28,7 @@ struct Spin {
     rate: f64,
     /// For each node, the greatest distance of its points from the axis, with the number of the motion for which it was
     /// computed.
-    levers: Vec<(u64, f64)>,
+    axis_distances: Vec<(u64, f64)>,
     motion: u64,
 }
 
@@ -53,7 +53,7 @@ impl Closing {
     }
 
     /// Sets the placement of body A, in whose frame directions are given.
-    pub(super) fn look_from(&mut self, frame_a: &Placement) {
+    pub(super) fn set_frame(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
         self.velocity = to_a * self.velocity_w;
         self.axis_b = to_a * self.axis_b_w;
@@ -67,7 +67,7 @@ impl Closing {
     /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds for turns of
     /// any size, since the distance of a point from the axis does not change.
     #[inline]
-    pub(super) fn step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
+    pub(super) fn safe_step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
         if !(gap.distance > 0.0) {
             return 0.0;
         }
@@ -89,7 +89,7 @@ impl Spin {
             centre: DVec3::ZERO,
             axis: DVec3::Z,
             rate: 0.0,
-            levers: vec![(0, 0.0); tree.len()],
+            axis_distances: vec![(0, 0.0); tree.len()],
             motion: 0,
         }
     }
@@ -111,9 +111,12 @@ impl Spin {
         if self.rate == 0.0 {
             return 0.0;
         }
-        let lever = &mut self.levers[node as usize];
+        let lever = &mut self.axis_distances[node as usize];
         if lever.0 != self.motion {
-            *lever = (self.motion, tree.lever(node, self.centre, self.axis));
+            *lever = (
+                self.motion,
+                tree.axis_distance(node, self.centre, self.axis),
+            );
         }
         self.rate * across.length() * lever.1
     }

@@ -7,7 +7,7 @@ pub(super) const MAX_LEVEL: usize = 52;
 
 /// An interval of time from repeated halving, perhaps cut short at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slice {
+pub(super) struct HalvedInterval {
     pub(super) span: Span,
     /// The number of halvings that led to this interval.
     pub(super) level: usize,
@@ -31,20 +31,20 @@ struct CachedEnclosure {
     enclosure: Enclosure,
 }
 
-impl Slice {
+impl HalvedInterval {
     /// Returns the interval from 0 to `end`.
     pub(super) fn whole(end: f64) -> Self {
-        Slice {
+        HalvedInterval {
             span: Span { start: 0.0, end },
             level: 0,
         }
     }
 
     /// Returns the first and the second half of the interval.
-    pub(super) fn halves(self) -> [Slice; 2] {
+    pub(super) fn halves(self) -> [HalvedInterval; 2] {
         let Span { start, end } = self.span;
         let middle = self.span.middle();
-        [(start, middle), (middle, end)].map(|(start, end)| Slice {
+        [(start, middle), (middle, end)].map(|(start, end)| HalvedInterval {
             span: Span { start, end },
             level: self.level + 1,
         })
@@ -85,23 +85,23 @@ impl Clock {
     }
 
     /// Returns true if an interval must not be halved.
-    pub(super) fn is_short(&self, slice: Slice) -> bool {
-        !(slice.span.width() > self.resolution) || slice.level >= MAX_LEVEL
+    pub(super) fn is_shortest(&self, interval: HalvedInterval) -> bool {
+        !(interval.span.width() > self.resolution) || interval.level >= MAX_LEVEL
     }
 
     /// Returns true if the limit on the number of halvings is reached.
-    pub(super) fn is_spent(&self) -> bool {
+    pub(super) fn is_at_limit(&self) -> bool {
         self.halvings >= self.most_halvings
     }
 
     /// Returns the enclosure of all placements over an interval.
-    pub(super) fn placements(&mut self, slice: Slice) -> &Enclosure {
-        self.placements[slice.level].of(slice.span, |span| self.relative.over(span))
+    pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
+        self.placements[interval.level].of(interval.span, |span| self.relative.over(span))
     }
 
     /// Returns the enclosure of all rates of change over an interval.
-    pub(super) fn rates(&mut self, slice: Slice) -> &Enclosure {
-        self.rates[slice.level].of(slice.span, |span| self.relative.rates_over(span))
+    pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
+        self.rates[interval.level].of(interval.span, |span| self.relative.rates_over(span))
     }
 }
 

@@ -43,7 +43,7 @@ fn corners(lengths: DVec2, placement: &Placement) -> [DVec3; 4] {
         .map(|(x, y)| placement.apply(DVec3::new(x * lengths.x, y * lengths.y, 0.0)))
 }
 
-const HERE: Placement = Placement {
+const IDENTITY: Placement = Placement {
     rotation: DMat3::IDENTITY,
     translation: DVec3::ZERO,
 };
@@ -52,7 +52,7 @@ const HERE: Placement = Placement {
 fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
-    for half_a in halves(corners(a, &HERE)) {
+    for half_a in halves(corners(a, &IDENTITY)) {
         for half_b in halves(corners(b, placement)) {
             least = lesser(least, nearest(&half_a, &half_b).between().length());
         }
@@ -119,7 +119,7 @@ fn the_vector_is_the_shortest() {
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::INFINITY, lesser);
-            let high = corners(a, &HERE)
+            let high = corners(a, &IDENTITY)
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::NEG_INFINITY, greater);

@@ -3,7 +3,7 @@ use crate::method::rival::tests::samples::{Samples, query, still};
 use ccd_core::Pose;
 use ccd_core::order::lesser;
 
-fn off(a: Pose, b: Pose, point: DVec3) -> f64 {
+fn difference(a: Pose, b: Pose, point: DVec3) -> f64 {
     a.transform_point(point).distance(b.transform_point(point))
 }
 
@@ -20,10 +20,10 @@ fn screws_start_and_end_where_the_motion_does() {
             let point = samples.vector(1.0);
             let sine = (0.5 * motion.spin().length()).sin().abs();
             let slack = 1e-12 / lesser(1.0, 10.0 * sine);
-            assert!(off(screw.pose(0.0), motion.pose(0.0), point) <= slack);
-            assert!(off(screw.pose(1.0), motion.pose(1.0), point) <= slack);
+            assert!(difference(screw.pose(0.0), motion.pose(0.0), point) <= slack);
+            assert!(difference(screw.pose(1.0), motion.pose(1.0), point) <= slack);
             assert!(screw.velocity().cross(screw.spin()).length() <= 1e-12 * screw.spin().length());
-            between += usize::from(off(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
+            between += usize::from(difference(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
         }
     }
     assert!(between > 2000, "in between they differ: {between}");
@@ -71,7 +71,7 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
     let screw = screw(&query(motion, still(DVec3::ZERO))).unwrap();
     assert!((screw.a.centre().length() - 1e3).abs() < 1.0);
-    assert!(off(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
+    assert!(difference(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
 }
 
 #[test]

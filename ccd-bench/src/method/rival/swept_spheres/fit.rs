@@ -1,6 +1,6 @@
 //! Builds a tree of swept spheres: fits them to triangles, and splits sets of triangles.
 
-use super::{Below, Node, SphereTree, principal_axes};
+use super::{Node, NodeContent, SphereTree, principal_axes};
 use crate::method::rival::Placement;
 use crate::method::rival::triangles_apart::Triangle;
 use ccd_core::glam::{DMat3, DVec2, DVec3};
@@ -24,12 +24,12 @@ pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
     }
     while let Some((node, range, frame)) = waiting.pop() {
         if range.len() == 1 {
-            tree.nodes[node].below = Below::Triangle(range.start as u32);
+            tree.nodes[node].below = NodeContent::Triangle(range.start as u32);
             continue;
         }
-        let middle = part(&mut triangles, range.clone(), frame.rotation.x_axis);
+        let middle = partition(&mut triangles, range.clone(), frame.rotation.x_axis);
         let first = tree.nodes.len();
-        tree.nodes[node].below = Below::Children(first as u32);
+        tree.nodes[node].below = NodeContent::Children(first as u32);
         for (k, range) in [range.start..middle, middle..range.end]
             .into_iter()
             .enumerate()
@@ -54,7 +54,7 @@ impl SphereTree {
             placement: frame.seen_from(parent),
             lengths,
             radius,
-            below: Below::Triangle(0),
+            below: NodeContent::Triangle(0),
         });
         self.frames.push(frame);
         frame
@@ -62,9 +62,9 @@ impl SphereTree {
 }
 
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
-fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
+fn partition(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     /// The smallest share of the triangles that a side may get.
-    const LOPSIDED: f64 = 1.0 / 16.0;
+    const LEAST_SHARE: f64 = 1.0 / 16.0;
 
     let part = &mut triangles[range.clone()];
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);
@@ -72,7 +72,7 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     let mean = part.iter().map(along).sum::<f64>() / count as f64;
     part.sort_unstable_by(|s, t| along(s).total_cmp(&along(t)));
     let below = part.partition_point(|t| along(t) < mean);
-    let few = greater(1.0, LOPSIDED * count as f64) as usize;
+    let few = greater(1.0, LEAST_SHARE * count as f64) as usize;
     let below = if (few..=count - few).contains(&below) {
         below
     } else {
@@ -99,7 +99,7 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
         radius,
     };
     points().for_each(|p| shape.reach_sides(p));
-    shape.straighten();
+    shape.repair_crossed_sides();
     points().for_each(|p| shape.reach_corner(p));
     let farthest = points().map(|p| shape.distance(p)).fold(radius, greater);
     let extent = triangles
@@ -123,20 +123,20 @@ struct Stadium {
 
 impl Stadium {
     /// Returns how far from a point's foot in the plane the rectangle may end with the point still within the radius.
-    fn reach(&self, point: DVec3) -> f64 {
+    fn foot_radius(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
     /// Moves each side outwards until a point is within the radius of the line along that side.
     fn reach_sides(&mut self, point: DVec3) {
-        let reach = self.reach(point);
+        let reach = self.foot_radius(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
     }
 
     /// Repairs sides that have passed each other, for which every position between them is valid.
-    fn straighten(&mut self) {
+    fn repair_crossed_sides(&mut self) {
         let middle = 0.5 * (self.low + self.high);
         self.low = self.low.min(middle);
         self.high = self.high.max(middle);
@@ -155,7 +155,7 @@ impl Stadium {
         if out.min_element() > 0.0 {
             let along = 0.5 * (out.x + out.y);
             let aside = out - along;
-            let reach = self.reach(point);
+            let reach = self.foot_radius(point);
             let spare = greater(0.0, reach * reach - aside.length_squared());
             // The diagonal's direction is (1, 1) / √2.
             let push = along - (0.5 * spare).sqrt();

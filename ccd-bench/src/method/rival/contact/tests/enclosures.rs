@@ -1,7 +1,7 @@
 //! Compares enclosures, boxes and triangles with samples of the motion.
 
 use crate::method::rival::contact::boxes::{Boxes, boxes};
-use crate::method::rival::contact::clock::{Clock, Slice};
+use crate::method::rival::contact::clock::{Clock, HalvedInterval};
 use crate::method::rival::contact::elementary::{Facet, Triangles};
 use crate::method::rival::contact::leaf::{Touch, first_touch};
 use crate::method::rival::contact::relative::{Enclosure, Relative, Span};
@@ -222,7 +222,7 @@ fn triangles_touch_when_samples_first_cross() {
             b: Facet::new(&b),
         };
         let mut clock = Clock::new(relative, tolerance / MAX_SPEED, 1 << 20);
-        let touch = first_touch(&triangles, Slice::whole(1.0), &mut clock);
+        let touch = first_touch(&triangles, HalvedInterval::whole(1.0), &mut clock);
         let span = Span {
             start: 0.0,
             end: 1.0,

@@ -92,8 +92,8 @@ fn both_bodies_may_move_and_turn_far() {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
             Motions {
                 // A displacement along the axis makes the screw another motion.
-                a: turned(&query.a, query.a.velocity() + 0.1 * spin, spin),
-                b: turned(&query.b, DVec3::ZERO, far),
+                a: another_motion(&query.a, query.a.velocity() + 0.1 * spin, spin),
+                b: another_motion(&query.b, DVec3::ZERO, far),
                 ..query
             }
         })
@@ -103,6 +103,6 @@ fn both_bodies_may_move_and_turn_far() {
 }
 
 /// Returns another motion from the same start pose.
-fn turned(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
+fn another_motion(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(motion.start(), velocity, spin).unwrap()
 }
