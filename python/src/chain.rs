@@ -1,7 +1,7 @@
 //! The Python classes of serial chains, such as robot arms.
 
 use crate::arrays::{any_numbers, finite, index, numbers};
-use crate::errors::{input, warn};
+use crate::errors::{input_error, warn};
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -127,10 +127,10 @@ impl PyJoint {
         let joint = match limits {
             // Written so that NaN is refused.
             Some([low, high]) if !(low <= high) => {
-                return Err(input(format!("limits: {low} is not at most {high}")));
+                return Err(input_error(format!("limits: {low} is not at most {high}")));
             }
-            Some([low, high]) => joint.map_err(input)?.within(low..=high),
-            None => joint.map_err(input)?,
+            Some([low, high]) => joint.map_err(input_error)?.within(low..=high),
+            None => joint.map_err(input_error)?,
         };
         Ok(PyJoint {
             joint,
@@ -216,7 +216,7 @@ impl PyChain {
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let positions = any_numbers(positions, "positions")?;
         let pose = self.chain.pose(index(link, "link")?, &positions);
-        Ok(matrix_of(py, &pose.map_err(input)?))
+        Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
     /// A link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
@@ -297,7 +297,7 @@ impl PyLink {
     /// The pose at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let pose = Trajectory::pose(&self.link()?, time);
-        Ok(matrix_of(py, &pose.map_err(input)?))
+        Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
     /// The time at which the joints are at `end`.
@@ -356,7 +356,7 @@ impl PyLink {
             if positions.len() != joints {
                 let positions = positions.len();
                 let error = InputError::JointCount { positions, joints };
-                return Err(input(format!("{what}: {error}")));
+                return Err(input_error(format!("{what}: {error}")));
             }
         }
         self.link()?;
@@ -368,9 +368,9 @@ impl PyLink {
         let chain = &self.chain.get().chain;
         let link = chain
             .link(self.link, &self.start, &self.end, self.duration)
-            .map_err(input)?;
+            .map_err(input_error)?;
         match self.seen_from {
-            Some(from) => link.seen_from(from).map_err(input),
+            Some(from) => link.seen_from(from).map_err(input_error),
             None => Ok(link),
         }
     }

@@ -1,7 +1,7 @@
 //! The Python class `Motion`, and the accepted forms of poses and rotations.
 
 use crate::arrays::{finite, shape};
-use crate::errors::{input, warn};
+use crate::errors::{input_error, warn};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
@@ -26,11 +26,11 @@ const ORTHONORMAL: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
-    made: Made,
+    made: PickleData,
 }
 
 /// The data from which pickle makes the motion again, to the same bits.
-enum Made {
+enum PickleData {
     Moving {
         start: GivenPose,
         velocity: [f64; 3],
@@ -61,7 +61,7 @@ impl PyMotion {
             None => Ok([0.0; 3]),
         };
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
-        PyMotion::from_parts(Made::Moving {
+        PyMotion::from_parts(PickleData::Moving {
             start: GivenPose(given(position, "position")?, turned),
             velocity: given(velocity, "velocity")?,
             spin: given(spin, "spin")?,
@@ -72,7 +72,7 @@ impl PyMotion {
     /// Makes the motion of a body at rest; the pose has the forms of `Motion.between`.
     #[classmethod]
     fn still(_class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyMotion::from_parts(Made::Moving {
+        PyMotion::from_parts(PickleData::Moving {
             start: given_pose(pose, "pose")?,
             velocity: [0.0; 3],
             spin: [0.0; 3],
@@ -93,7 +93,7 @@ impl PyMotion {
         duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyMotion::from_parts(Made::Between {
+        PyMotion::from_parts(PickleData::Between {
             start: given_pose(start, "start")?,
             end: given_pose(end, "end")?,
             duration,
@@ -111,7 +111,7 @@ impl PyMotion {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, class) = (slf.py(), slf.get_type().into_any());
         Ok(match slf.get().made {
-            Made::Moving {
+            PickleData::Moving {
                 start: GivenPose(place, turned),
                 velocity,
                 spin,
@@ -120,7 +120,7 @@ impl PyMotion {
                 let parts = (place, wxyz(turned), velocity, spin, center);
                 (class, parts.into_pyobject(py)?)
             }
-            Made::Between {
+            PickleData::Between {
                 start,
                 end,
                 duration,
@@ -146,22 +146,22 @@ impl PyMotion {
 }
 
 impl PyMotion {
-    fn from_parts(made: Made) -> PyResult<Self> {
+    fn from_parts(made: PickleData) -> PyResult<Self> {
         let motion = match &made {
-            Made::Moving {
+            PickleData::Moving {
                 start,
                 velocity,
                 spin,
                 center,
             } => Motion::about(start.pose("pose")?, *velocity, *spin, *center),
-            Made::Between {
+            PickleData::Between {
                 start,
                 end,
                 duration,
                 center,
             } => Motion::between(start.pose("start")?, end.pose("end")?, *center, *duration),
         };
-        let motion = motion.map_err(input)?;
+        let motion = motion.map_err(input_error)?;
         Ok(PyMotion { motion, made })
     }
 }
@@ -175,7 +175,7 @@ impl GivenPose {
 
     /// Returns the normalised pose; `what` names it in errors.
     pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
-        Pose::new(self.0, self.1).map_err(|error| input(format!("{what}: {error}")))
+        Pose::new(self.0, self.1).map_err(|error| input_error(format!("{what}: {error}")))
     }
 }
 
@@ -224,7 +224,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
             Ok(DQuat::from_xyzw(x, y, z, w))
         }
         [3, 3] => matrix(value, "rotation"),
-        _ => Err(input(
+        _ => Err(input_error(
             "rotation: a matrix of shape (3, 3), four numbers (w, x, y, z) or a scipy Rotation is needed",
         )),
     }
@@ -243,7 +243,7 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     if is_rotation {
         Ok(DQuat::from_mat3(&matrix))
     } else {
-        Err(input(format!(
+        Err(input_error(format!(
             "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
          is {:.1}",
             error.max_by(f64::total_cmp).unwrap_or_default(),
@@ -263,13 +263,13 @@ pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Given
         return Ok(GivenPose(finite(&place, what)?, rotation_of(&turned)?));
     }
     if shape(value, what)?[..] != [4, 4] {
-        return Err(input(format!(
+        return Err(input_error(format!(
             "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));
     }
     let m: [f64; 16] = finite(value, what)?;
     if m[12..] != [0.0, 0.0, 0.0, 1.0] {
-        return Err(input(format!(
+        return Err(input_error(format!(
             "{what}: the last row of the matrix is not 0, 0, 0, 1"
         )));
     }

@@ -1,7 +1,7 @@
 //! The movement of a body in a query: a motion, a link of an arm, or a path.
 
 use crate::chain::PyLink;
-use crate::errors::{input, wrong_type};
+use crate::errors::{input_error, wrong_type};
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
@@ -78,7 +78,7 @@ impl Pair<'_> {
                 if ends.all(|end| end == first) {
                     first
                 } else {
-                    return Err(input(
+                    return Err(input_error(
                         "duration: the two bodies' motions end at different times; give one",
                     ));
                 }
@@ -88,7 +88,7 @@ impl Pair<'_> {
             if let GivenMovement::Link(_, end) = course
                 && duration > *end
             {
-                return Err(input(format!(
+                return Err(input_error(format!(
                     "duration: {duration} is later than {end}, the end of the link's motion: its joints would go on"
                 )));
             }

@@ -10,8 +10,8 @@ mod results;
 mod stored;
 
 use crate::arrays::row_numbers;
-use crate::errors::{guarded, input as refuse, of_table};
-use crate::polled::polled;
+use crate::errors::{catching_panics, error_of_table, input_error as refuse};
+use crate::interruptible::run_interruptibly;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
 use arrow_schema::Field;
@@ -43,9 +43,9 @@ impl PyTable {
         if reader.schema().fields().is_empty() {
             return Err(refuse("table: there is no column"));
         }
-        let (found, seen) = polled(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
+        let (found, seen) = run_interruptibly(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
         seen?;
-        let batch = found.map_err(|error| of_table(format!("table: {error}")))?;
+        let batch = found.map_err(|error| error_of_table(format!("table: {error}")))?;
         Ok(PyTable { batch })
     }
 
@@ -68,7 +68,7 @@ impl PyTable {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }
         let rows = arrow_array::Int64Array::from(rows);
-        let batch = guarded("rows", || {
+        let batch = catching_panics("rows", || {
             arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)
         })?;
         Ok(PyTable { batch })
@@ -82,13 +82,13 @@ impl PyTable {
         checksum: u32,
     ) -> PyResult<Self> {
         let (py, stored) = (class.py(), stored.as_bytes());
-        let batch = guarded("table", || py.detach(|| stored::read(stored, checksum)))?;
+        let batch = catching_panics("table", || py.detach(|| stored::read(stored, checksum)))?;
         Ok(PyTable { batch })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
         let (py, batch) = (slf.py(), &slf.get().batch);
-        let stored = guarded("table", || py.detach(|| stored::write(batch)))?;
+        let stored = catching_panics("table", || py.detach(|| stored::write(batch)))?;
         let make = slf.get_type().getattr("_from_bytes")?;
         Ok((make, (PyBytes::new(py, &stored), stored::checksum(&stored))))
     }
@@ -107,7 +107,7 @@ impl PyTable {
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.batch.column_by_name(name) {
-            Some(column) => guarded(&format!("column {name}"), || {
+            Some(column) => catching_panics(&format!("column {name}"), || {
                 numpy_column::to_numpy(py, column)
             }),
             None => {

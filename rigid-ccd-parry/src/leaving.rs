@@ -20,7 +20,7 @@ use rigid_ccd::Solver;
 const MOST_PAIRS: usize = 256;
 
 /// Two sets of pieces, one of each body, all pairs of which are to be examined.
-struct Task {
+struct PiecePairs {
     pieces: [Vec<u32>; 2],
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn first_contact_unless_parting(
     overlap: CastHit,
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
-    let mut tasks = vec![Task {
+    let mut tasks = vec![PiecePairs {
         pieces: [0, 1].map(|k| pieces_near_other(scene, k)),
     }];
     let (mut first, mut left_out) = (None, 0);
@@ -39,7 +39,7 @@ pub(crate) fn first_contact_unless_parting(
             continue;
         }
         match examine(scene, &task, solver)? {
-            TaskOutcome::Overlap([a, b]) => {
+            PairsOutcome::Overlap([a, b]) => {
                 left_out += 1;
                 if left_out > MOST_PAIRS || !begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
@@ -52,16 +52,16 @@ pub(crate) fn first_contact_unless_parting(
                         .filter(|piece| *piece != left)
                         .collect()
                 };
-                tasks.push(Task {
+                tasks.push(PiecePairs {
                     pieces: [vec![a], without(&of_b, b)],
                 });
-                tasks.push(Task {
+                tasks.push(PiecePairs {
                     pieces: [without(&of_a, a), of_b],
                 });
             }
-            TaskOutcome::Inside => return Ok(Some(overlap)),
-            TaskOutcome::Hit(None) => {}
-            TaskOutcome::Hit(Some(found)) => {
+            PairsOutcome::Inside => return Ok(Some(overlap)),
+            PairsOutcome::Hit(None) => {}
+            PairsOutcome::Hit(Some(found)) => {
                 let earlier = first.is_none_or(|first: CastHit| found.time < first.time);
                 first = if earlier { Some(found) } else { first };
             }
@@ -71,7 +71,7 @@ pub(crate) fn first_contact_unless_parting(
 }
 
 /// The result of examining two sets of pieces.
-enum TaskOutcome {
+enum PairsOutcome {
     /// The two pieces with these indices overlap at the start.
     Overlap([u32; 2]),
     /// One body is inside the other at the start.
@@ -80,7 +80,11 @@ enum TaskOutcome {
 }
 
 /// Finds the first contact of all pairs of two sets of pieces.
-fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOutcome, CastError> {
+fn examine(
+    scene: &Scene<'_>,
+    task: &PiecePairs,
+    solver: &mut Solver,
+) -> Result<PairsOutcome, CastError> {
     let some = |k: usize| {
         let which = k as u8 + 1;
         let named = |error| CastError::Shape { which, error };
@@ -92,13 +96,13 @@ fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOu
         ..scene.clone()
     };
     let Some(found) = part.first_contact(solver)? else {
-        return Ok(TaskOutcome::Hit(None));
+        return Ok(PairsOutcome::Hit(None));
     };
     let numbers = found.numbers;
     Ok(match found.ending {
-        Ending::Overlap => TaskOutcome::Overlap(numbers),
-        Ending::Inside => TaskOutcome::Inside,
-        Ending::Near | Ending::Contact | Ending::Limit => TaskOutcome::Hit(Some(CastHit {
+        Ending::Overlap => PairsOutcome::Overlap(numbers),
+        Ending::Inside => PairsOutcome::Inside,
+        Ending::Near | Ending::Contact | Ending::Limit => PairsOutcome::Hit(Some(CastHit {
             numbers: [0, 1].map(|k| scene.bodies[k].sub_shape(numbers[k])),
             ..found
         })),

@@ -15,7 +15,7 @@ pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{Timed, Timing, time};
+pub(crate) use timed::{TimedAnswer, Timing, time};
 
 use crate::ParallelSolver;
 use crate::table::courses::Course;

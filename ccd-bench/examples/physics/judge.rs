@@ -22,11 +22,16 @@ pub(crate) struct Tally {
 }
 
 /// The motion of a body in a step, and the time at which the body stops.
-pub(crate) type Moved = (Motion, f64);
+pub(crate) type StoppedMotion = (Motion, f64);
 
 impl Tally {
     /// Measures one step of all bodies in a world.
-    pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
+    pub(crate) fn step(
+        &mut self,
+        world: &World,
+        moved: &[StoppedMotion],
+        duration: f64,
+    ) -> Result<()> {
         let mut deepest = 0.0;
         for (body, &(_, stop)) in world.bodies.iter().zip(moved) {
             self.moves += usize::from(!body.is_fixed);
@@ -51,8 +56,12 @@ impl Tally {
 }
 
 /// Returns the pairs whose swept boxes meet, except joined pairs and pairs at rest.
-fn pairs_that_may_meet(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
-    let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &Moved)| {
+fn pairs_that_may_meet(
+    world: &World,
+    moved: &[StoppedMotion],
+    duration: f64,
+) -> Result<Vec<[usize; 2]>> {
+    let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &StoppedMotion)| {
         let moving = Moving::from((&body.body, motion));
         moving.swept_box(duration, &rigid_ccd::Settings::DEFAULT)
     };
@@ -67,7 +76,12 @@ fn pairs_that_may_meet(world: &World, moved: &[Moved], duration: f64) -> Result<
 }
 
 /// Returns the poses and the shapes of two bodies at a time.
-fn placed<'w>(world: &'w World, moved: &[Moved], pair: [usize; 2], time: f64) -> [Placed<'w>; 2] {
+fn pose_and_shape_at<'w>(
+    world: &'w World,
+    moved: &[StoppedMotion],
+    pair: [usize; 2],
+    time: f64,
+) -> [Placed<'w>; 2] {
     pair.map(|k| {
         let (motion, stop) = &moved[k];
         (
@@ -79,20 +93,20 @@ fn placed<'w>(world: &'w World, moved: &[Moved], pair: [usize; 2], time: f64) ->
 
 type Placed<'w> = (At, &'w dyn Shape);
 
-fn depth(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> f64 {
-    let [a, b] = placed(world, moved, pair, time);
+fn depth(world: &World, moved: &[StoppedMotion], pair: [usize; 2], time: f64) -> f64 {
+    let [a, b] = pose_and_shape_at(world, moved, pair, time);
     let found = contact(&a.0, a.1, &b.0, b.1, 0.0).ok().flatten();
     found.map_or(0.0, |contact| greater(0.0, -contact.dist))
 }
 
-fn overlap(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> bool {
-    let [a, b] = placed(world, moved, pair, time);
+fn overlap(world: &World, moved: &[StoppedMotion], pair: [usize; 2], time: f64) -> bool {
+    let [a, b] = pose_and_shape_at(world, moved, pair, time);
     intersection_test(&a.0, a.1, &b.0, b.1).is_ok_and(|found| found.intersecting)
 }
 
 /// Returns whether bodies that are apart at both ends overlap between them, at samples dense enough for the thinnest
 /// part.
-fn passes(world: &World, moved: &[Moved], pair: [usize; 2], duration: f64) -> bool {
+fn passes(world: &World, moved: &[StoppedMotion], pair: [usize; 2], duration: f64) -> bool {
     if overlap(world, moved, pair, 0.0) || overlap(world, moved, pair, duration) {
         return false;
     }

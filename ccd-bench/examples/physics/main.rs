@@ -14,7 +14,7 @@ mod worlds;
 use anyhow::Result;
 use chart::{Depths, draw};
 use glue::pose;
-use judge::{Moved, Tally};
+use judge::{StoppedMotion, Tally};
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
@@ -141,7 +141,11 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
 }
 
 /// Returns the motion that each body has in a step without stops.
-fn motions_without_stops(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
+fn motions_without_stops(
+    world: &World,
+    starts: &[Pose],
+    duration: f64,
+) -> Result<Vec<StoppedMotion>> {
     let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];
         let centre = rigid.mass_properties().local_mprops.local_com.to_array();

@@ -34,18 +34,18 @@ const FAMILIES: [(Family, &str); 4] = [
 impl Measurements<'_> {
     /// Returns sentences on the queries, on the answers of each family, and on their times.
     pub fn sentences(&self) -> Vec<String> {
-        let mut told = vec![self.queries()];
+        let mut told = vec![self.describe_queries()];
         told.extend(
             FAMILIES
                 .iter()
-                .filter_map(|&(family, name)| self.answers(family, name)),
+                .filter_map(|&(family, name)| self.describe_errors(family, name)),
         );
-        told.extend(self.own_time());
-        told.extend(self.other_times());
+        told.extend(self.describe_own_time());
+        told.extend(self.describe_time_ratios());
         told
     }
 
-    fn queries(&self) -> String {
+    fn describe_queries(&self) -> String {
         let sizes = self.scenes.iter().map(|scene| scene.triangles);
         let rows: usize = self.cells.iter().map(|cell| cell.rows).sum();
         format!(
@@ -59,7 +59,7 @@ impl Measurements<'_> {
     }
 
     /// Describes the errors in the answers of a family; `None` if it has no methods.
-    fn answers(&self, family: Family, name: &str) -> Option<String> {
+    fn describe_errors(&self, family: Family, name: &str) -> Option<String> {
         let methods = self.methods.iter().filter(|method| method.family == family);
         let (mut count, mut rows, mut open, mut wrong) = (0, 0, 0, Vec::new());
         for MethodFacts { name: method, .. } in methods {
@@ -92,7 +92,7 @@ impl Measurements<'_> {
     }
 
     /// Describes the time of a query with the reference method.
-    fn own_time(&self) -> Option<String> {
+    fn describe_own_time(&self) -> Option<String> {
         let name = self.reference.name();
         let medians = || {
             self.cells_of(name)
@@ -108,7 +108,7 @@ impl Measurements<'_> {
     }
 
     /// Describes the ratios of the other methods' times to the reference's, from scene to scene.
-    fn other_times(&self) -> Option<String> {
+    fn describe_time_ratios(&self) -> Option<String> {
         let others = self
             .methods
             .iter()

@@ -32,14 +32,14 @@ impl Views {
         for scene in scenes {
             let group = Group {
                 name: scene.name.clone(),
-                views: views.of(scene)?,
+                views: views.views_of_scene(scene)?,
             };
             views.groups.push(group);
         }
         Ok(views)
     }
 
-    fn of(&mut self, scene: &Scene) -> Result<Vec<View>> {
+    fn views_of_scene(&mut self, scene: &Scene) -> Result<Vec<View>> {
         let bodies = scene.bodies();
         let asked = Asked {
             claim: Claim::First,

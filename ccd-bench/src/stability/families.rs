@@ -1,4 +1,4 @@
-//! The families of scenes, by the kind of difficulty.
+//! The families of scenes, by the kind of difficulty. Case numbers such as T8 are those of `tests/it/scenes.rs`.
 
 mod accuracy;
 mod gaps;

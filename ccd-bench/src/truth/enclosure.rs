@@ -170,7 +170,7 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
 const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
 /// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
-/// 21!, an odd number below 2⁵³ times 2¹⁸, hence exact.
+/// The factorial of 21, which is exact in f64: an odd number below 2⁵³ times 2¹⁸.
 const FACTORIAL_21: Interval = exact(51_090_942_171_709_440_000.0);
 const TWENTY_TWO: Interval = exact(22.0);
 

@@ -109,7 +109,7 @@ fn rows(
 }
 
 /// Answers the rows with the given indices, one after another, until the flag is set.
-pub(crate) fn each(
+pub(crate) fn answer_rows(
     asked: TableQuestion<'_>,
     reader: Reader,
     wanted: &HashSet<usize>,
@@ -154,10 +154,10 @@ fn unreadable(error: ArrowError) -> TableError {
 }
 
 /// The answer of a valid row, or the error of an invalid one.
-type RowAnswer<'r> = Result<Timed<'r>, &'r RowError>;
+type RowAnswer<'r> = Result<TimedRow<'r>, &'r RowError>;
 
 /// An answer and the time that it took.
-struct Timed<'r> {
+struct TimedRow<'r> {
     course: &'r Course,
     answer: Result<Answer, InputError>,
     micros: f64,
@@ -179,7 +179,7 @@ fn answer_row<'r>(
     let micros = start.elapsed().as_secs_f64() * 1e6;
     match &answer {
         Ok(answer) if answer.outcome.limit() == Some(Limit::Stopped) => None,
-        _ => Some(Ok(Timed {
+        _ => Some(Ok(TimedRow {
             course,
             answer,
             micros,

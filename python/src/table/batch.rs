@@ -64,7 +64,7 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME).is_ok();
     for field in schema.fields() {
-        let kind = unpacked(field.data_type());
+        let kind = decoded_type(field.data_type());
         let (fits, needed) = match field.name() == ID {
             true if has_paths => (is_name(kind), "text, numbers or times"),
             true => (true, ""),
@@ -83,7 +83,7 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
     match schema.field_with_name(ID) {
         Ok(field) => field
             .clone()
-            .with_data_type(unpacked(field.data_type()).clone())
+            .with_data_type(decoded_type(field.data_type()).clone())
             .with_nullable(true),
         Err(_) => Field::new(ID, DataType::Int64, true),
     }
@@ -91,17 +91,17 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
 
 /// Returns the type of a column's values without dictionary or run encoding, which NumPy cannot read; the dictionaries
 /// of parts may not fit into one.
-fn unpacked(kind: &DataType) -> &DataType {
+fn decoded_type(kind: &DataType) -> &DataType {
     match kind {
-        DataType::Dictionary(_, values) => unpacked(values),
-        DataType::RunEndEncoded(_, values) => unpacked(values.data_type()),
+        DataType::Dictionary(_, values) => decoded_type(values),
+        DataType::RunEndEncoded(_, values) => decoded_type(values.data_type()),
         other => other,
     }
 }
 
 /// Converts a column to the type `kind`, without dictionary or run encoding. A column of nulls or of runs takes a few
 /// bytes whatever its length, so that the result may be much larger.
-fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
+fn decoded_column(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
     if column.data_type() == kind {
         return Ok(Arc::clone(column));
     }
@@ -140,7 +140,8 @@ impl Batch {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
-            let column = flat(column, unpacked(field.data_type())).map_err(unreadable)?;
+            let column =
+                decoded_column(column, decoded_type(field.data_type())).map_err(unreadable)?;
             columns.push(if field.name() == ID {
                 id = Some(column);
                 None
@@ -187,7 +188,7 @@ impl Numbers {
                 &DataType::Float64,
             )
         } else {
-            flat(column, &DataType::Float64)
+            decoded_column(column, &DataType::Float64)
         };
         let values = values.map_err(unreadable)?;
         Ok(Numbers {
@@ -283,21 +284,21 @@ impl Batches {
 pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, ArrowError> {
     let fields = reader.schema().fields().clone();
     let fields = fields.iter().map(|field| {
-        let kind = unpacked(field.data_type()).clone();
+        let kind = decoded_type(field.data_type()).clone();
         Arc::new(field.as_ref().clone().with_data_type(kind))
     });
     let schema = Arc::new(Schema::new(fields.collect::<Fields>()));
     let mut batches = Vec::new();
     for batch in reader.take_while(|_| !stop.load(Ordering::Relaxed)) {
-        batches.push(unpacked_batch(&batch?, &schema)?);
+        batches.push(decoded_batch(&batch?, &schema)?);
     }
     concat_batches(&schema, &batches)
 }
 
 /// Decodes dictionaries, which may not fit into one after concatenation.
-fn unpacked_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
+fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let columns = schema.fields().iter().zip(batch.columns());
-    let columns = columns.map(|(field, column)| flat(column, field.data_type()));
+    let columns = columns.map(|(field, column)| decoded_column(column, field.data_type()));
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 

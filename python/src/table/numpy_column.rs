@@ -1,6 +1,6 @@
 //! Converts a column to a NumPy array.
 
-use crate::errors::{caused, input as refuse};
+use crate::errors::{input_error as refuse, input_error_from};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, Float64Array};
 use arrow_cast::cast;
@@ -89,7 +89,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     let array = Bound::new(py, PyArray::from_array_ref(ArrayRef::clone(column)))?;
     let values = array
         .call_method0("to_pylist")
-        .map_err(|error| caused(py, "a value", error))?;
+        .map_err(|error| input_error_from(py, "a value", error))?;
     // NumPy would convert lists of lists to an array of more dimensions.
     let objects = py
         .import("numpy")?

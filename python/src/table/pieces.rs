@@ -49,7 +49,7 @@ pub(crate) struct PieceSize {
 }
 
 /// The target duration of answering a piece.
-const PIECE: Duration = Duration::from_millis(20);
+const PIECE_DURATION: Duration = Duration::from_millis(20);
 
 /// The maximum number of rows in a piece.
 const MOST_ROWS: usize = 512;
@@ -70,10 +70,10 @@ impl PieceSize {
     /// Adapts the size of later pieces: `rows` rows took the time `taken`.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch is no reason for smaller pieces.
-        if taken < PIECE / 2 {
+        if taken < PIECE_DURATION / 2 {
             self.rows
                 .fetch_max(MOST_ROWS.min(2 * rows), Ordering::Relaxed);
-        } else if taken > 2 * PIECE {
+        } else if taken > 2 * PIECE_DURATION {
             self.rows.store((rows / 2).max(1), Ordering::Relaxed);
         }
     }

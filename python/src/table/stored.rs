@@ -1,6 +1,6 @@
 //! The pickled form of a table: an Arrow stream of one batch.
 
-use crate::errors::input as refuse;
+use crate::errors::input_error as refuse;
 use arrow_array::RecordBatch;
 use arrow_buffer::Buffer;
 use arrow_ipc::reader::StreamDecoder;

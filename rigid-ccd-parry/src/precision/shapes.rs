@@ -102,13 +102,13 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
         TypedShape::Compound(compound) => push_parts(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
         TypedShape::Custom(_) => return Err(ShapeError::Custom),
-        typed => return push_round(&typed, options),
+        typed => return round_form(&typed, options),
     }
     Ok(form)
 }
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
-fn push_round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
+fn round_form(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
     type MakeRound = fn(f64, f64) -> Result<Round, InputError>;
     let (made, half_height, radius, grown): (MakeRound, _, _, _) = match shape {
         TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),

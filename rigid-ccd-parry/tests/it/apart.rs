@@ -60,22 +60,22 @@ impl Scene {
     /// Returns parry's distance of the shapes at a time; it is 0 if they intersect.
     fn distance(&self, time: Real) -> Real {
         let [a, b] = &self.parts;
-        self.distances(time, [a, b]).0
+        self.least_of_pairs(time, [a, b]).0
     }
 
     /// Returns the least distance at a time over all pairs of convex parts. parry's distance of many parts may be far
     /// off, as may that of two in one of their orders. It is between these two.
-    fn bracket(&self, time: Real) -> (Real, Real) {
+    fn least_distance(&self, time: Real) -> (Real, Real) {
         let [a, b] = self.parts.each_ref().map(|parts| {
             let of_part = |(at, shape): &Part| triangles(*at, shape);
             parts.iter().flat_map(of_part).collect::<Vec<Part>>()
         });
-        let (there, least) = self.distances(time, [&a, &b]);
+        let (there, least) = self.least_of_pairs(time, [&a, &b]);
         (lesser(there, least), greater(there, least))
     }
 
     /// Returns the least distance over all pairs, in both orders of the shapes.
-    fn distances(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
+    fn least_of_pairs(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
         let [p, q] = self.motions.map(|motion| motion.position_at_time(time));
         let mut least = (Real::INFINITY, Real::INFINITY);
         for (at, a) in a {
@@ -94,7 +94,7 @@ impl Scene {
         let at = |k: i32| start + (end - start) * Real::from(k) / 60.0;
         (0..60)
             .map(at)
-            .all(|time| self.distance(time) > by || self.bracket(time).1 > by)
+            .all(|time| self.distance(time) > by || self.least_distance(time).1 > by)
     }
 
     /// Bounds the sum of both bodies' excess over their shapes.
@@ -186,8 +186,8 @@ impl Count {
             Some(time) => {
                 self.hits += u64::from(time > start);
                 let most = target + tolerance + scene.excess() + distance_error;
-                let near = scene.distance(time) <= most || scene.bracket(time).0 <= most;
-                assert!(near, "{name}: {:e} at {time}", scene.bracket(time).0);
+                let near = scene.distance(time) <= most || scene.least_distance(time).0 <= most;
+                assert!(near, "{name}: {:e} at {time}", scene.least_distance(time).0);
             }
             None => self.misses += 1,
         }

@@ -9,7 +9,7 @@ use crate::scenes::{number, random};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-/// Returns an odd number with probability `share`, otherwise a usual one.
+/// Returns one of the numbers in `ODD` with probability `share`, otherwise a usual one.
 fn odd(rng: &mut Pcg64Mcg, share: f32) -> Real {
     if rng.random::<f32>() < share {
         ODD[rng.random_range(0..ODD.len())]

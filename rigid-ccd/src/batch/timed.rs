@@ -34,14 +34,14 @@ impl Default for Timing {
 
 /// An answer, and the time that it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Timed {
+pub(crate) struct TimedAnswer {
     /// The answer to the question about one row.
     pub(crate) answer: Answer,
     /// The time to pose and solve the query, in microseconds.
     pub(crate) micros: f64,
 }
 
-impl Timed {
+impl TimedAnswer {
     /// Returns the row of the table of results for this answer.
     pub(crate) fn row(&self, bodies: Bodies<'_>, course: &Course, timing: &Timing) -> ResultRow {
         let asked = (timing.question, &self.answer);
@@ -62,7 +62,7 @@ pub(crate) fn time(
     course: &Course,
     timing: &Timing,
     solver: &mut dyn Solve,
-) -> Result<Timed, RowProblem> {
+) -> Result<TimedAnswer, RowProblem> {
     let mut micros = Vec::with_capacity(timing.repeat.get());
     loop {
         let start = Instant::now();
@@ -72,7 +72,7 @@ pub(crate) fn time(
         micros.push(start.elapsed().as_secs_f64() * 1e6);
         if micros.len() == timing.repeat.get() {
             let micros = median(&mut micros);
-            return Ok(Timed { answer, micros });
+            return Ok(TimedAnswer { answer, micros });
         }
     }
 }

@@ -4,7 +4,7 @@ use super::bad_rows::BadRows;
 use super::files::{Rows, input_name};
 use super::progress::Progress;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, Timed, Timing, on_threads, time};
+use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, Timing, on_threads, time};
 use crate::table::courses::{Course, CourseRow};
 use crate::table::motions::{RowError, RowPosition, RowProblem, TableError};
 use crate::table::results::ResultRow;
@@ -23,7 +23,7 @@ pub(super) struct BatchRun<'a> {
 
 /// Consecutive rows with their answers, and the error that ended the table after them, if any.
 pub(super) struct Batch {
-    pub(super) rows: Vec<(CourseRow, Result<Timed, RowProblem>)>,
+    pub(super) rows: Vec<(CourseRow, Result<TimedAnswer, RowProblem>)>,
     pub(super) broken: Option<TableError>,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct AnsweredRow<'b> {
     pub(super) course: Option<&'b Course>,
     pub(super) row: ResultRow,
     /// The answer with its duration; `None` for a row with an error.
-    pub(super) timed: Option<&'b Timed>,
+    pub(super) timed: Option<&'b TimedAnswer>,
 }
 
 impl<'a> BatchRun<'a> {
@@ -84,7 +84,7 @@ impl<'a> BatchRun<'a> {
     /// Returns the row of results for a row of motions, and reports the row if it is bad.
     pub(super) fn answered_row<'b>(
         &mut self,
-        (asked, answer): &'b (CourseRow, Result<Timed, RowProblem>),
+        (asked, answer): &'b (CourseRow, Result<TimedAnswer, RowProblem>),
     ) -> AnsweredRow<'b> {
         let (position, id, course) = match asked {
             Ok((position, course)) => (*position, course.id(), Some(course)),

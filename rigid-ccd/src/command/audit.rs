@@ -202,7 +202,7 @@ impl Audit<'_> {
         self.answering.bad_rows.close();
         let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
-            let others = self.counts.some();
+            let others = self.counts.nonzero();
             let others: String = others
                 .filter(|(status, _)| *status != Status::Free)
                 .map(|(status, count)| format!(", {count} {}", status.name()))

@@ -24,7 +24,7 @@ impl Counts {
     }
 
     /// Returns the statuses with at least one row, each with its number of rows.
-    pub(super) fn some(&self) -> impl Iterator<Item = (Status, usize)> {
+    pub(super) fn nonzero(&self) -> impl Iterator<Item = (Status, usize)> {
         let all = Status::ALL.into_iter().zip(self.0);
         all.filter(|&(_, count)| count > 0)
     }

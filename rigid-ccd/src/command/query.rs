@@ -14,7 +14,7 @@ pub(super) use args::QueryArgs;
 use super::answering::BatchRun;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
-use super::view::{Chosen, RowsPage, title, write_rows};
+use super::view::{ChosenRows, RowsPage, title, write_rows};
 use super::{Exit, complain, print_remarks};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
 use crate::command::pair::Pair;
@@ -63,7 +63,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
         shown: args
             .html
             .as_ref()
-            .map(|_| Chosen::new(args.html_ids.clone())),
+            .map(|_| ChosenRows::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
     };
     let end = run.answer_all(&mut rows, start)?;
@@ -89,7 +89,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
 }
 
 /// Writes the page of the chosen rows, if a page was requested.
-fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> Result<Exit> {
+fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(ChosenRows, Output)>) -> Result<Exit> {
     let Some((chosen, html)) = page else {
         return Ok(Exit::AllAnswered);
     };
@@ -287,7 +287,10 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 
 /// Returns the exit status of a run, and prints how many rows failed `--check`.
 fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
-    let failed = end.counts.some().filter(|(status, _)| !status.is_proof());
+    let failed = end
+        .counts
+        .nonzero()
+        .filter(|(status, _)| !status.is_proof());
     let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
         let rows = end.counts.rows();

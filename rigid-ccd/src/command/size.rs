@@ -41,7 +41,7 @@ impl Size {
         if ratio > WARNING_RATIO && ratio.is_finite() {
             complain(&format!(
                 "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
-                FourDigits(ratio)
+                WithFourDigits(ratio)
             ));
         }
     }
@@ -49,15 +49,15 @@ impl Size {
 
 impl fmt::Display for Size {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array().map(FourDigits);
+        let [x, y, z] = self.0.to_array().map(WithFourDigits);
         write!(f, "{x} × {y} × {z}")
     }
 }
 
 /// Displays a number rounded to four digits.
-struct FourDigits(f64);
+struct WithFourDigits(f64);
 
-impl fmt::Display for FourDigits {
+impl fmt::Display for WithFourDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
         write!(f, "{}", Number(rounded))

@@ -19,7 +19,7 @@ pub struct Table {
 
 /// The length in bytes and the checksum of the part of a table that has been written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Written {
+pub(super) struct WrittenSize {
     pub(super) bytes: u64,
     pub(super) checksum: u32,
 }
@@ -69,7 +69,10 @@ impl Table {
 
     /// Continues a table after its first `written` bytes, and truncates the rest. Returns none if that is not there any
     /// more as it was written.
-    pub(super) fn resume(mut claim: Claim, written: Written) -> Result<Option<Self>, CannotWrite> {
+    pub(super) fn resume(
+        mut claim: Claim,
+        written: WrittenSize,
+    ) -> Result<Option<Self>, CannotWrite> {
         let name = claim.target().display().to_string();
         let opened = (|| {
             claim.file().rewind()?;
@@ -123,7 +126,7 @@ impl Table {
     }
 
     /// Flushes all rows to the file, and returns the length and checksum of the table.
-    pub(super) fn written(&mut self) -> Result<Written, CannotWrite> {
+    pub(super) fn written(&mut self) -> Result<WrittenSize, CannotWrite> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.failed(source))?;
         if let Some(claim) = &mut self.claim {
@@ -132,7 +135,7 @@ impl Table {
         let Measured {
             bytes, checksum, ..
         } = self.writer.get_ref();
-        Ok(Written {
+        Ok(WrittenSize {
             bytes: *bytes,
             checksum: checksum.clone().finalize(),
         })
@@ -173,7 +176,10 @@ fn file_of(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
 }
 
 /// Returns the length and checksum of the first `bytes` bytes of a table.
-pub(super) fn measure(table: impl Read, bytes: u64) -> io::Result<(Written, crc32fast::Hasher)> {
+pub(super) fn measure(
+    table: impl Read,
+    bytes: u64,
+) -> io::Result<(WrittenSize, crc32fast::Hasher)> {
     let mut measured = Measured {
         to: Box::new(io::sink()),
         bytes: 0,
@@ -181,7 +187,7 @@ pub(super) fn measure(table: impl Read, bytes: u64) -> io::Result<(Written, crc3
     };
     io::copy(&mut table.take(bytes), &mut measured)?;
     let checksum = measured.checksum;
-    let written = Written {
+    let written = WrittenSize {
         bytes: measured.bytes,
         checksum: checksum.clone().finalize(),
     };

@@ -5,7 +5,7 @@ mod chosen;
 
 use args::Subject;
 pub(super) use args::ViewArgs;
-pub(super) use chosen::Chosen;
+pub(super) use chosen::ChosenRows;
 
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::Output;
@@ -49,7 +49,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
-    let mut chosen = Chosen::new(args.ids.clone());
+    let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
     let asked = Asked {
         claim: match known {
@@ -144,7 +144,7 @@ fn answer_row(
 /// Writes the page of the chosen rows. Without any there is none, which is told.
 pub(super) fn write_rows(
     RowsPage { title, pair, asked }: RowsPage<'_>,
-    mut chosen: Chosen,
+    mut chosen: ChosenRows,
     out: Output,
     quiet: bool,
 ) -> Result<Exit> {

@@ -43,7 +43,7 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
     };
     match row.status {
         Status::Contact => later_contact(row, asked, &time),
-        Status::Free => free(asked, end, proven),
+        Status::Free => describe_free(asked, end, proven),
         Status::Touching if asked.margin > 0.0 => {
             format!(
                 "Within the margin at the start: {}.{}",
@@ -63,21 +63,35 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
                 after_start_contact(row)
             )
         }
-        Status::Measured if asked.claim == Claim::Then => format!("At {time}: {}.", apart(row)),
-        Status::Measured if asked.claim == Claim::Farthest => {
-            format!("Farthest at {time}: {}. Proven: never farther.", apart(row))
+        Status::Measured if asked.claim == Claim::Then => {
+            format!("At {time}: {}.", describe_distance(row))
         }
-        Status::Measured => format!("Nearest at {time}: {}.", apart(row)),
+        Status::Measured if asked.claim == Claim::Farthest => {
+            format!(
+                "Farthest at {time}: {}. Proven: never farther.",
+                describe_distance(row)
+            )
+        }
+        Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
         Status::Kept => match row.distance_upper {
-            Some(_) => format!("{clearance} is kept: nearest at {time}, {}.", apart(row)),
-            None => format!("{clearance} is kept, to the end at {time}: {}.", apart(row)),
+            Some(_) => format!(
+                "{clearance} is kept: nearest at {time}, {}.",
+                describe_distance(row)
+            ),
+            None => format!(
+                "{clearance} is kept, to the end at {time}: {}.",
+                describe_distance(row)
+            ),
         },
         Status::Violated => match row.distance_upper {
             Some(upper) if !is_overlap(row) => {
                 let upper = number_up(upper);
                 format!("{clearance} is violated: at {time} at most {upper} apart.")
             }
-            _ => format!("{clearance} is violated at {time}: {}.", apart(row)),
+            _ => format!(
+                "{clearance} is violated at {time}: {}.",
+                describe_distance(row)
+            ),
         },
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
         Status::Unresolved => match asked.claim {
@@ -138,7 +152,7 @@ fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
     }
 }
 
-fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
+fn describe_free(asked: Asked, end: f64, proven: Option<f64>) -> String {
     let end = number(end);
     match (asked.claim, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
@@ -161,11 +175,15 @@ fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
 /// Describes in words which features touch or are nearest.
 pub(super) fn contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
-        (Some(a), Some(b)) => format!("{} of A at {} of B", feature(a), feature(b)),
+        (Some(a), Some(b)) => format!(
+            "{} of A at {} of B",
+            feature_in_words(a),
+            feature_in_words(b)
+        ),
         _ => "one body is inside the other".to_owned(),
     };
     match row.distance_upper {
-        Some(_) => format!("{features}, {}", apart(row)),
+        Some(_) => format!("{features}, {}", describe_distance(row)),
         None => features,
     }
 }
@@ -174,7 +192,7 @@ fn is_overlap(row: &ResultRow) -> bool {
     row.distance_lower.is_some_and(|lower| lower < 0.0)
 }
 
-fn apart(row: &ResultRow) -> String {
+fn describe_distance(row: &ResultRow) -> String {
     match (row.distance_lower, row.distance_upper) {
         (Some(lower), Some(_)) if lower < 0.0 => format!(
             "two pieces that a shift by {} would part; the bodies may overlap by more",
@@ -192,7 +210,7 @@ fn apart(row: &ResultRow) -> String {
 }
 
 /// Returns the name of a feature in words: `vertex 7` for `v7`.
-fn feature(name: &str) -> String {
+fn feature_in_words(name: &str) -> String {
     let kinds = [
         ('v', "vertex"),
         ('e', "edge"),
@@ -208,24 +226,24 @@ fn feature(name: &str) -> String {
 
 /// Formats a number with at most seven digits, rounded down, so that the text is a lower bound.
 pub(super) fn number(value: f64) -> String {
-    let text = short(value);
+    let text = with_few_digits(value);
     match text.parse::<f64>() {
-        Ok(read) if value < read => short(value - last_digit(value)),
+        Ok(read) if value < read => with_few_digits(value - last_digit(value)),
         _ => text,
     }
 }
 
 /// Formats a number with at most seven digits, rounded up.
 fn number_up(value: f64) -> String {
-    let text = short(value);
+    let text = with_few_digits(value);
     match text.parse::<f64>() {
-        Ok(read) if read < value => short(value + last_digit(value)),
+        Ok(read) if read < value => with_few_digits(value + last_digit(value)),
         _ => text,
     }
 }
 
-fn short(value: f64) -> String {
-    if is_plain(value) {
+fn with_few_digits(value: f64) -> String {
+    if needs_no_exponent(value) {
         let text = format!("{value:.6}");
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -235,13 +253,13 @@ fn short(value: f64) -> String {
 
 /// Returns the value of one unit in the last digit that [`number`] writes.
 fn last_digit(value: f64) -> f64 {
-    if is_plain(value) {
+    if needs_no_exponent(value) {
         1e-6
     } else {
         10f64.powf(value.abs().log10().floor() - 3.0)
     }
 }
 
-fn is_plain(value: f64) -> bool {
+fn needs_no_exponent(value: f64) -> bool {
     value == 0.0 || (1e-3..1e12).contains(&value.abs())
 }

@@ -37,7 +37,7 @@ impl<'r, 'a> PairQueue<'r, 'a> {
         duration: f64,
         goal: &'r Goal,
     ) -> Self {
-        let runner = |&pair| QueueEntry {
+        let entry = |&pair| QueueEntry {
             time: 0.0,
             pair,
             what: None,
@@ -46,21 +46,21 @@ impl<'r, 'a> PairQueue<'r, 'a> {
             query,
             duration,
             goal,
-            waiting: Mutex::new(pairs.iter().map(runner).collect()),
+            waiting: Mutex::new(pairs.iter().map(entry).collect()),
         }
     }
 
     /// Removes the pair with the earliest proven time from the queue, and returns it with the next pair's proven time.
     fn next(&self) -> Option<(QueuedPair<'a>, f64)> {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        let runner = waiting.pop()?;
+        let entry = waiting.pop()?;
         let others = waiting.peek().map_or(f64::INFINITY, |other| other.time);
-        Some((runner, others))
+        Some((entry, others))
     }
 
-    fn put_back(&self, runner: QueuedPair<'a>) {
+    fn put_back(&self, entry: QueuedPair<'a>) {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        waiting.push(runner);
+        waiting.push(entry);
     }
 
     /// Returns the time to which a pair at `time` is advanced next, which is at most `limit`.
@@ -86,16 +86,16 @@ impl Worker {
     /// Advances one pair after another until the queue is empty, and returns their contacts and errors.
     pub(super) fn run(&mut self, pair_queue: &PairQueue<'_, '_>) -> Vec<Event> {
         let mut events = Vec::new();
-        while let Some((runner, others)) = pair_queue.next() {
+        while let Some((entry, others)) = pair_queue.next() {
             let QueueEntry {
                 time,
                 pair,
                 what: search,
-            } = runner;
+            } = entry;
             let limit = pair_queue.goal.last_useful_time(pair);
             // A later event does not matter to the goal.
             if time > limit {
-                self.keep(search);
+                self.keep_for_reuse(search);
                 continue;
             }
             let mut search = match search {
@@ -117,7 +117,7 @@ impl Worker {
                 pair_queue.next_target(time, others, limit),
             ) {
                 Err(error) => {
-                    self.keep(Some(search));
+                    self.keep_for_reuse(Some(search));
                     pair_queue.goal.record(pair, 0.0);
                     events.push(Event::from_error(pair, error));
                 }
@@ -127,7 +127,7 @@ impl Worker {
                     what: Some(search),
                 }),
                 Ok(Progress::Answered(answer)) => {
-                    self.keep(Some(search));
+                    self.keep_for_reuse(Some(search));
                     if let Some(event) = Event::from_answer(pair, &answer) {
                         pair_queue.goal.record(pair, event.time);
                         events.push(event);
@@ -138,7 +138,7 @@ impl Worker {
         events
     }
 
-    fn keep(&mut self, search: Option<Search<'_>>) {
+    fn keep_for_reuse(&mut self, search: Option<Search<'_>>) {
         if let Some(search) = search
             && self.spare.len() < MOST_SPARE_SEARCHES
         {

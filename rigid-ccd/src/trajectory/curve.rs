@@ -36,7 +36,7 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points or a duration that is not
     /// positive.
     pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        let points = checked(points, 1, duration)?;
+        let points = control_points(points, 1, duration)?;
         Ok(Curve {
             segments: Segments(vec![Segment {
                 from: 0.0,
@@ -53,7 +53,7 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for less than four points or a duration that
     /// is not positive.
     pub fn b_spline(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        let points = checked(points, 4, duration)?;
+        let points = control_points(points, 4, duration)?;
         let count = points.len() - 3;
         let at = |k: usize| duration * (k as f64 / count as f64);
         let segment = |k: usize| {
@@ -185,7 +185,11 @@ impl Segment {
     }
 }
 
-fn checked(points: &[[f64; 3]], least: usize, duration: f64) -> Result<Vec<DVec3>, InputError> {
+fn control_points(
+    points: &[[f64; 3]],
+    least: usize,
+    duration: f64,
+) -> Result<Vec<DVec3>, InputError> {
     if points.len() < least {
         let allowed = match least {
             1 => "at least 1",

@@ -55,7 +55,7 @@ impl Turns {
     /// [`InputError::ZeroQuaternion`], [`InputError::NotFinite`], and [`InputError::OutOfRange`] for times that
     /// do not increase.
     pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
-        let keys = checked(keys)?;
+        let keys = aligned_quaternions(keys)?;
         Ok(Turns::from_keys(&keys, |k| {
             let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
             Turn::Slerp {
@@ -72,9 +72,10 @@ impl Turns {
     /// Those of [`Turns::slerp`], and [`InputError::OutOfRange`] if orientations are so far apart, about a quarter
     /// of a turn, that the quadrangle between them is too large.
     pub fn squad(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
-        let keys = checked(keys)?;
+        let keys = aligned_quaternions(keys)?;
         let at = |k: usize| keys[k.min(keys.len() - 1)].1;
-        let inner = |k: usize| squad::inner(at(k.saturating_sub(1)), at(k), at(k + 1));
+        let inner =
+            |k: usize| squad::control_orientation(at(k.saturating_sub(1)), at(k), at(k + 1));
         let mut squads = Vec::new();
         for k in 0..keys.len().saturating_sub(1) {
             let squad = Squad::new(
@@ -161,7 +162,7 @@ impl Segment<Turn> {
 }
 
 /// Returns the orientations as unit quaternions, each with the sign that is nearer to the one before.
-fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
+fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {
         let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();

@@ -77,7 +77,7 @@ impl Run {
 /// Checks that a text contains the given words.
 #[track_caller]
 #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
-pub(crate) fn has(text: &str, words: &str) {
+pub(crate) fn assert_contains(text: &str, words: &str) {
     assert!(text.contains(words), "{words:?} is not in:\n{text}");
 }
 

@@ -1,6 +1,6 @@
 //! Tests files of several parts: glTF and 3MF, parts by name, and units.
 
-use crate::command::{Run, Scene, has, stderr};
+use crate::command::{Run, Scene, assert_contains, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -166,12 +166,12 @@ fn an_unknown_part_lists_those_there_are() {
             let output = run.ends(2);
             let expected =
                 format!("scene.glb: has no part {missing:?}; its parts are 0 \"base\", 1 \"lid\"");
-            has(&stderr(&output), &expected);
+            assert_contains(&stderr(&output), &expected);
         }
     }
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     let output = Run::bare(&["decompose", &part(&plain, "lid")]).output();
-    has(&stderr(&output), "it has one, without a name: 0");
+    assert_contains(&stderr(&output), "it has one, without a name: 0");
 }
 
 /// Tests that a `#` in the name of a file does not separate a part's name.
@@ -263,7 +263,7 @@ fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
         let run = Run::query(&["--a", BALL, "--b", body, "--tolerance", "1e-7"]);
         let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").ends(0);
-        has(&stderr(&output), "sticking out by up to");
+        assert_contains(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
         // The cone's radius equals its height, so that the slant is at 45 degrees.
         let reach = if side == 0.5 {
@@ -301,7 +301,7 @@ fn units_are_converted() {
             (-1e-9..=1.001e-4 / 0.03).contains(&early),
             "{unit}: {early}"
         );
-        has(&message, &format!(" {unit}\n"));
+        assert_contains(&message, &format!(" {unit}\n"));
         assert!(!message.contains("give --unit"), "{message}");
     }
 }
@@ -317,11 +317,11 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
             .output()
     };
     let message = stderr(&query(&cube, name(&die)));
-    has(&message, "size 1 × 1 × 1 m\n");
-    has(&message, "size 20 × 20 × 20 mm\n");
+    assert_contains(&message, "size 1 × 1 × 1 m\n");
+    assert_contains(&message, "size 20 × 20 × 20 mm\n");
     let expected =
         "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
-    has(&message, expected);
+    assert_contains(&message, expected);
     // A primitive is in the user's unit; a file is in an unknown one.
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     for (other, is_told) in [(BALL, false), (name(&plain), true)] {
@@ -332,7 +332,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
         .stdin(FALL)
         .output();
     let message = stderr(&output);
-    has(&message, "um, mm, cm, m, in, ft");
+    assert_contains(&message, "um, mm, cm, m, in, ft");
 }
 
 #[test]
@@ -355,7 +355,7 @@ fn a_part_is_prepared_and_stored() {
     assert!((0.0..=1.001e-6).contains(&early), "{early}");
     let text = Run::bare(&["decompose", &part(&file, "lid")]).output();
     let text = String::from_utf8(text.stdout).unwrap();
-    has(&text, "\nunit          m\n");
+    assert_contains(&text, "\nunit          m\n");
 }
 
 /// Tests that a run with another unit, or with another buffer beside the mesh, is not resumed.
@@ -384,16 +384,16 @@ fn runs_know_their_unit_and_all_their_files() {
     assert!(run("m").status.success());
     let other = run("mm");
     assert_eq!(other.status.code(), Some(2));
-    has(&stderr(&other), "--unit");
+    assert_contains(&stderr(&other), "--unit");
     let mut changed = binary;
     changed[0] ^= 1;
     std::fs::write(&data, changed).unwrap();
     let other = run("m");
     assert_eq!(other.status.code(), Some(2));
-    has(&stderr(&other), "--a");
+    assert_contains(&stderr(&other), "--a");
     // Results must not replace a buffer either.
     let output = Run::bare(&["query", "--a", name(&file), "--b", BALL])
         .args(&["--motions", name(&motions), "--out", name(&data)])
         .output();
-    has(&stderr(&output), "--out would overwrite the file of --a");
+    assert_contains(&stderr(&output), "--out would overwrite the file of --a");
 }

@@ -14,7 +14,7 @@ mod resume;
 mod scene;
 mod view;
 
-use command::{Row, Run, Scene, has, parse, stderr};
+use command::{Row, Run, Scene, assert_contains, parse, stderr};
 
 /// The path of the command under test.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
@@ -232,7 +232,7 @@ fn raised_tolerances_are_reported() {
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
         .ends(0);
-    has(&stderr(&output), "--tolerance 1e-12 cannot be certified");
+    assert_contains(&stderr(&output), "--tolerance 1e-12 cannot be certified");
 }
 
 #[test]
@@ -258,7 +258,7 @@ fn results_never_overwrite_their_motions() {
                 .unwrap();
             assert_eq!(output.status.code(), Some(2), "{motions} {target}");
             let message = stderr(&output);
-            has(&message, "another file");
+            assert_contains(&message, "another file");
             assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
         }
     }
@@ -293,7 +293,7 @@ fn tables_do_not_overwrite_each_other_by_any_spelling() {
             .unwrap();
         assert_eq!(output.status.code(), Some(2), "{results} {contacts}");
         let message = stderr(&output);
-        has(&message, "another file");
+        assert_contains(&message, "another file");
     }
 }
 
@@ -305,14 +305,14 @@ fn tolerances_that_no_row_accepts_are_refused_at_once() {
             .stdin(DROP)
             .output();
         let message = stderr(&output);
-        has(&message, "give a number from 1e-100 to 1e12");
+        assert_contains(&message, "give a number from 1e-100 to 1e12");
     }
 }
 
 #[test]
 fn the_summary_counts_rows_and_quiet_omits_it() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
-    has(&stderr(&loud), "1 row: 1 contact; median");
+    assert_contains(&stderr(&loud), "1 row: 1 contact; median");
     let quiet = Run::query(&FALLING_CUBE)
         .args(&["--quiet"])
         .stdin(DROP)
@@ -329,7 +329,7 @@ fn a_table_without_rows_gives_a_header() {
         header.starts_with("id,status,time,distance_lower,"),
         "{header}"
     );
-    has(
+    assert_contains(
         &stderr(&output),
         "standard input: has a header, but no rows",
     );

@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-3;
 
 /// Two meshes, a query, and the exact time of the first contact.
 #[derive(Debug)]
-struct Exact {
+struct ExactCase {
     a: TriangleMesh,
     b: TriangleMesh,
     query: Motions,
@@ -27,7 +27,7 @@ struct Exact {
     speed: f64,
 }
 
-impl Exact {
+impl ExactCase {
     fn ask(&self, kind: PeerKind) -> Reply {
         let mut peer = kind.solver(&self.a, &self.b).unwrap();
         peer.answer(&self.query, TOLERANCE)
@@ -40,7 +40,7 @@ impl Exact {
             panic!("{}: {reply:?}", name_of(&kind));
         };
         let late = time - self.time;
-        let (early_by, late_by) = allowed(kind);
+        let (early_by, late_by) = allowed_error(kind);
         assert!(
             (-early_by / self.speed..=late_by).contains(&late),
             "{}: {late} late",
@@ -50,7 +50,7 @@ impl Exact {
 }
 
 /// Returns the allowed error of a right answer: how early as a length, and how late as a time.
-fn allowed(kind: PeerKind) -> (f64, f64) {
+fn allowed_error(kind: PeerKind) -> (f64, f64) {
     match kind {
         PeerKind::ParryF64 => (1e-9, 1e-9),
         // Sixteen roundings of coordinates between 8 and 16; the largest are 9.
@@ -76,7 +76,7 @@ fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {
 }
 
 /// Returns case T1: a cube falls flat onto a slab.
-fn face_on_face() -> Exact {
+fn face_on_face() -> ExactCase {
     let falling = motion(
         3.0 * DVec3::Z,
         DQuat::IDENTITY,
@@ -84,7 +84,7 @@ fn face_on_face() -> Exact {
         DVec3::ZERO,
     );
     let slab = motion(-DVec3::Z, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
-    Exact {
+    ExactCase {
         a: cuboid(0.5, 0.5, 0.5),
         b: cuboid(9.0, 9.0, 1.0),
         query: query(falling, slab),
@@ -94,7 +94,7 @@ fn face_on_face() -> Exact {
 }
 
 /// Returns case T8: two cubes meet with crossed edges.
-fn edge_on_edge() -> Exact {
+fn edge_on_edge() -> ExactCase {
     let about = DQuat::from_axis_angle;
     let upper = motion(
         3.0 * DVec3::Z,
@@ -108,7 +108,7 @@ fn edge_on_edge() -> Exact {
         DVec3::ZERO,
         DVec3::ZERO,
     );
-    Exact {
+    ExactCase {
         a: cuboid(0.5, 0.5, 0.5),
         b: cuboid(0.5, 0.5, 0.5),
         query: query(upper, lower),
@@ -118,7 +118,7 @@ fn edge_on_edge() -> Exact {
 }
 
 /// Returns a case of two moving balls that meet vertex on vertex.
-fn ball_on_ball() -> Exact {
+fn ball_on_ball() -> ExactCase {
     let left = motion(
         -2.5 * DVec3::X,
         DQuat::IDENTITY,
@@ -126,7 +126,7 @@ fn ball_on_ball() -> Exact {
         DVec3::ZERO,
     );
     let right = motion(2.5 * DVec3::X, DQuat::IDENTITY, -DVec3::X, DVec3::ZERO);
-    Exact {
+    ExactCase {
         a: ball(),
         b: ball(),
         query: query(left, right),
@@ -136,7 +136,7 @@ fn ball_on_ball() -> Exact {
 }
 
 /// Returns case T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
-fn rod_on_wall(turns: f64) -> Exact {
+fn rod_on_wall(turns: f64) -> ExactCase {
     let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
     let spin = turns * PI;
     let time = ((wall / length.hypot(width)).asin() - width.atan2(length)) / spin;
@@ -147,7 +147,7 @@ fn rod_on_wall(turns: f64) -> Exact {
         DVec3::ZERO,
         DVec3::ZERO,
     );
-    Exact {
+    ExactCase {
         a: cuboid(width, 0.3, length),
         b: cuboid(1.0, 9.0, 9.0),
         query: query(rod, far),
@@ -184,7 +184,7 @@ fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
 
 #[rstest]
 fn straight_motions_are_right_with_every_peer(
-    #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: Exact,
+    #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: ExactCase,
 ) {
     for kind in PeerKind::value_variants().iter().copied() {
         exact.assert_right(kind);

@@ -13,7 +13,7 @@ use rigid_ccd::table::motions::Motions;
 #[cfg(test)]
 mod tests;
 
-/// Adaptive dynamic collision checking \[DCC02\] of two rigid bodies at a time.
+/// The method of adaptive dynamic collision checking \[DCC02\], for two rigid bodies.
 ///
 /// A segment of time is free if no point of one body, as seen from the other, travels as far as the
 /// sum of the distances at both ends. Otherwise it is halved, the earlier half first, until nothing

@@ -92,7 +92,7 @@ impl ObbTree {
     /// Builds the nodes from the root down, and sorts the triangles into the order of the leaves.
     fn build(&mut self) {
         let mut open = vec![(0, 0..self.triangles.len())];
-        self.nodes.push(Node::placeholder());
+        self.nodes.push(Node::placeholder_node());
         while let Some((index, range)) = open.pop() {
             let triangles = &mut self.triangles[range.clone()];
             let (mean, bounds) = Obb::fit(triangles);
@@ -101,7 +101,7 @@ impl ObbTree {
             } else {
                 let middle = range.start + split(triangles, mean, bounds.axes);
                 let left = self.nodes.len();
-                self.nodes.extend([Node::placeholder(); 2]);
+                self.nodes.extend([Node::placeholder_node(); 2]);
                 open.push((left + 1, middle..range.end));
                 open.push((left, range.start..middle));
                 Content::Nodes([left as u32, left as u32 + 1])
@@ -112,7 +112,7 @@ impl ObbTree {
 }
 
 impl Node {
-    fn placeholder() -> Self {
+    fn placeholder_node() -> Self {
         Node {
             bounds: Obb {
                 axes: DMat3::IDENTITY,

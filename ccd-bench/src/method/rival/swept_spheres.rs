@@ -86,7 +86,7 @@ impl SphereTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corner = |&v: &u32| mesh.vertices()[v as usize];
         let triangle = |[a, b, c]: &[u32; 3]| [corner(a), corner(b), corner(c)];
-        fit::tree(mesh.faces().iter().map(triangle).collect())
+        fit::build_tree(mesh.faces().iter().map(triangle).collect())
     }
 
     /// Returns an upper bound of the distance of a node's points from an axis that is fixed in the body.

@@ -51,7 +51,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
             };
         }
     }
-    let (mut squared, mut best) = edges_apart(a, b);
+    let (mut squared, mut best) = nearest_on_edges(a, b);
     if let Some((less, foot, k)) = face_a.least_height(over_a, b).filter(|f| f.0 < squared) {
         squared = less;
         best = Nearest {
@@ -70,8 +70,8 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
 
 /// Returns the nearest points of the triangles' edges, and their squared distance.
 #[inline(always)]
-fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
-    let (from_b, along_b) = (lanes(b), lanes(&edges(b)));
+fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
+    let (from_b, along_b) = (packed(b), packed(&edges(b)));
     let long_b = along_b.dot_each(along_b);
     let scale_b = reciprocal(long_b);
     let edges_a = edges(a);
@@ -155,14 +155,14 @@ impl Face {
     /// Returns the heights of points above the triangle's plane, times |normal|; all zero for a needle.
     #[inline(always)]
     fn heights(&self, points: &Triangle) -> f64x4 {
-        lanes(points)
+        packed(points)
             .minus(Vectors::splat(self.corners[0]))
             .dot(self.normal)
     }
 
     /// Returns a mask of the points whose perpendicular feet lie in the triangle.
     #[inline(always)]
-    fn covers(&self, points: Vectors) -> f64x4 {
+    fn is_above(&self, points: Vectors) -> f64x4 {
         let [u, v, w] = edges(&self.corners).map(|edge| self.normal.cross(edge));
         let [a, b, c] = self.corners;
         let zero = f64x4::splat(0.0);
@@ -183,7 +183,7 @@ impl Face {
         }
         let squared = heights * heights * f64x4::splat(self.scale);
         let far = f64x4::splat(f64::INFINITY);
-        let (k, squared) = least(self.covers(lanes(points)).select(squared, far));
+        let (k, squared) = least(self.is_above(packed(points)).select(squared, far));
         let height = heights.to_array()[k];
         let k = k % 3;
         let foot = points[k] - height * self.scale * self.normal;
@@ -196,9 +196,9 @@ fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
     let share = heights / (heights - next);
-    let points = lanes(corners).plus_each(share, lanes(&edges(corners)));
+    let points = packed(corners).plus_each(share, packed(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
-    let hits = (crosses & face.covers(points)).to_bitmask();
+    let hits = (crosses & face.is_above(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
 }
 
@@ -216,7 +216,7 @@ fn edges([a, b, c]: &Triangle) -> Triangle {
 
 /// Packs three vectors into four lanes, the first one twice.
 #[inline(always)]
-fn lanes([a, b, c]: &Triangle) -> Vectors {
+fn packed([a, b, c]: &Triangle) -> Vectors {
     Vectors::new([*a, *b, *c, *a])
 }
 

@@ -16,16 +16,16 @@ pub(super) fn families() -> Vec<Family> {
             .over("angle to parallel", negative_powers_of_ten(1..=15)),
         family("flat approach", flat_approach)
             .over("angle to the face", negative_powers_of_ten(1..=12)),
-        family("cubes that hardly meet", hardly_meeting)
+        family("cubes that hardly meet", barely_overlapping)
             .over("overlap", negative_powers_of_ten(1..=15)),
-        family("rod that hardly reaches", hardly_reaching)
+        family("rod that hardly reaches", barely_reaching_wall)
             .over("share of its reach", negative_powers_of_ten(1..=12)),
         family("linked rings", linked_rings).over("way to contact", negative_powers_of_ten(1..=12)),
         family("corner onto face", corner_onto_face)
             .over("angle to its diagonal", negative_powers_of_ten(1..=15)),
         family("peg turning in a hole", peg_in_a_hole)
             .over("clearance", negative_powers_of_ten(1..=12)),
-        family("hardly turning", hardly_turning).over("radians", negative_powers_of_ten(1..=15)),
+        family("hardly turning", slight_rotation).over("radians", negative_powers_of_ten(1..=15)),
     ]
 }
 
@@ -76,7 +76,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step> {
 }
 
 /// Makes case T25: a cube falls flat onto a slab, and rotates very little.
-fn hardly_turning(turn: f64) -> Result<Step> {
+fn slight_rotation(turn: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
@@ -100,7 +100,7 @@ fn flat_approach(angle: f64) -> Result<Step> {
     step.with_rotated_queries(flying, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn hardly_meeting(overlap: f64) -> Result<Step> {
+fn barely_overlapping(overlap: f64) -> Result<Step> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = Expected::at(1.0 / 3.0, TIME_ERROR);
     let step = Step::new(cube()?, cube()?);
@@ -108,7 +108,7 @@ fn hardly_meeting(overlap: f64) -> Result<Step> {
 }
 
 /// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
-fn hardly_reaching(share: f64) -> Result<Step> {
+fn barely_reaching_wall(share: f64) -> Result<Step> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
     let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);

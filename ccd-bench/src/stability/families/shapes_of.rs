@@ -18,8 +18,9 @@ pub(super) fn families() -> Vec<Family> {
         family("ball onto a slab", ball_onto_slab).over("triangles", powers_of_ten(2..=6)),
         family("tip of many triangles", tip_onto_slab)
             .over("triangles at the tip", powers_of_ten(1..=4)),
-        family("repeated and collapsed faces", bad_faces).over("bad faces", powers_of_ten(0..=3)),
-        family("layers close behind each other", layered).over("layers", powers_of_ten(0..=4)),
+        family("repeated and collapsed faces", cube_with_bad_faces)
+            .over("bad faces", powers_of_ten(0..=3)),
+        family("layers close behind each other", onto_layers).over("layers", powers_of_ten(0..=4)),
         family("slab with a sliver", sliver)
             .over("width of the sliver", negative_powers_of_ten(0..=12)),
         family("field of solids", field_of_solids).over("solids", doubled(2..=12)),
@@ -56,14 +57,14 @@ fn tip_onto_slab(sides: f64) -> Result<Step> {
 }
 
 /// Makes a cube that falls onto the first of many open sheets.
-fn layered(count: f64) -> Result<Step> {
+fn onto_layers(count: f64) -> Result<Step> {
     let step = Step::new(cube()?, layers(count as u32)?);
     let falling = BodyMotion::FALLING;
     step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.625, 1e-14))
 }
 
 /// Makes case T21: a cube with repeated and collapsed faces.
-fn bad_faces(count: f64) -> Result<Step> {
+fn cube_with_bad_faces(count: f64) -> Result<Step> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
     let step = Step::new(cube, slab()?);
     let falling = BodyMotion::FALLING;

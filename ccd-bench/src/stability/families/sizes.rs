@@ -18,7 +18,8 @@ pub(super) fn families() -> Vec<Family> {
         family("unit of length", unit_of_length).over("size of the scene", sizes(2..=9)),
         family("far from the origin", far_from_the_origin)
             .over("distance in sizes", powers_of_ten(0..=12)),
-        family("slender triangles", slender).over("length against width", powers_of_ten(0..=12)),
+        family("slender triangles", slender_needle)
+            .over("length against width", powers_of_ten(0..=12)),
         family("bullet and paper", bullet_and_paper)
             .over("way against thickness", powers_of_ten(0..=9)),
         family("margin", margin).over("margin against size", margins()),
@@ -112,7 +113,7 @@ fn far_from_the_origin(distance: f64) -> Result<Step> {
 }
 
 /// Makes a needle that falls onto a slab; its sides are long and thin triangles.
-fn slender(ratio: f64) -> Result<Step> {
+fn slender_needle(ratio: f64) -> Result<Step> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_x(0.3));

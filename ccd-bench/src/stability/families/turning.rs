@@ -10,15 +10,15 @@ use std::f64::consts::{PI, TAU};
 pub(super) fn families() -> Vec<Family> {
     let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
-        family("mace", mace).over("radians", spins),
-        family("drilling cube", drilling).over("turns", powers_of_ten(-2..=4)),
+        family("mace", swinging_arm).over("radians", spins),
+        family("drilling cube", falling_while_spinning).over("turns", powers_of_ten(-2..=4)),
         family("rod turning into a wall", rod_into_a_wall).over("turns", powers_of_ten(0..=4)),
         family("rods turning against each other", rods).over("turns", powers_of_ten(0..=4)),
     ]
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
-fn drilling(turns: f64) -> Result<Step> {
+fn falling_while_spinning(turns: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(0.625, 1e-14);
@@ -47,7 +47,7 @@ fn rod_into_a_wall(turns: f64) -> Result<Step> {
 
 /// Makes case T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip
 /// moves along the wall, so that a bound on the speeds of that moment finds no approach.
-fn mace(spin: f64) -> Result<Step> {
+fn swinging_arm(spin: f64) -> Result<Step> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_WIDTH, 0.5 * arm, ROD_HALF_WIDTH)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;

@@ -5,7 +5,7 @@
 
 use crate::command::counts::Counts;
 use crate::command::output::CannotWrite;
-use crate::command::table::Written;
+use crate::command::table::WrittenSize;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -25,9 +25,9 @@ pub(super) struct Checkpoint {
     /// The number of finished rows with each status.
     pub(super) counts: Counts,
     /// The length and checksum of the table of results, set when it is flushed.
-    pub(super) results: Written,
+    pub(super) results: WrittenSize,
     /// The length and checksum of the table of contacts, set when it is flushed.
-    pub(super) contacts: Written,
+    pub(super) contacts: WrittenSize,
     /// Whether the run has answered all selected rows.
     #[serde(rename = "whole")]
     pub(super) finished: bool,

@@ -6,7 +6,7 @@
 use super::args::QueryArgs;
 use super::journal::{Checkpoint, EarlierRun, Journal, JournalLost, RecordedOptions};
 use crate::command::output::{CannotWrite, JOURNAL_EXTENSION, Output};
-use crate::command::table::{Table, Written, measure};
+use crate::command::table::{Table, WrittenSize, measure};
 use crate::table::contacts;
 use crate::table::results::names;
 use anyhow::{Context, Result, bail};
@@ -85,13 +85,13 @@ impl OpenedTables {
             }
             places = ClaimedFiles::claim(args)?;
         }
-        places.begin(args, recorded, (earlier, journal))
+        places.begin_or_resume(args, recorded, (earlier, journal))
     }
 }
 
 impl ClaimedFiles {
     /// Continues the tables of an interrupted run, or starts new ones if there are none.
-    fn begin(
+    fn begin_or_resume(
         self,
         args: &QueryArgs,
         recorded: &RecordedOptions,
@@ -142,7 +142,7 @@ impl ClaimedFiles {
 
 /// Renames a complete table from its temporary to its final name, unless it already has it. Returns whether the table
 /// is there.
-fn rename_complete(table: Output, written: Written) -> Result<bool> {
+fn rename_complete(table: Output, written: WrittenSize) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);
     };
@@ -244,7 +244,7 @@ impl Outputs {
 }
 
 /// Opens a table of an interrupted run, to append to it.
-fn resume_table(table: Output, written: Written) -> Result<Table> {
+fn resume_table(table: Output, written: WrittenSize) -> Result<Table> {
     let Output::File(claim, _) = table else {
         bail!("--resume needs files");
     };

@@ -4,11 +4,11 @@ use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
-use crate::batch::{Timed, Timing};
+use crate::batch::{TimedAnswer, Timing};
 use crate::command::answering::{AnsweredRow, Batch, BatchRun};
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
-use crate::command::view::Chosen;
+use crate::command::view::ChosenRows;
 use crate::table::contacts;
 use crate::table::courses::Course;
 use crate::table::motions::RowPosition;
@@ -21,7 +21,7 @@ pub(super) struct Run<'a> {
     pub(super) answering: BatchRun<'a>,
     pub(super) outputs: Outputs,
     /// The rows chosen for the page of `--html`; `None` without this option.
-    pub(super) shown: Option<Chosen>,
+    pub(super) shown: Option<ChosenRows>,
     pub(super) summary: Summary,
 }
 
@@ -82,7 +82,7 @@ impl Run<'_> {
     /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
     fn write_contacts(
         &mut self,
-        answered: &[(RowPosition, &Course, &Timed)],
+        answered: &[(RowPosition, &Course, &TimedAnswer)],
     ) -> Result<(), CannotWrite> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());

@@ -4,7 +4,7 @@
 mod tests;
 
 use super::limits::LimitCounts;
-use crate::batch::Timed;
+use crate::batch::TimedAnswer;
 use crate::command::counts::Counts;
 use crate::table::results::Status;
 use ccd_core::order::greater;
@@ -64,7 +64,7 @@ impl Summary {
     }
 
     /// Adds an answer with the given status.
-    pub(super) fn add(&mut self, status: Status, timed: &Timed) {
+    pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
         let answer = &timed.answer;
         self.counts.add(status);
         if let Some(limit) = answer.outcome.limit() {
@@ -154,7 +154,7 @@ impl Times {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (rows, counts) = (self.counts.rows(), self.counts.some());
+        let (rows, counts) = (self.counts.rows(), self.counts.nonzero());
         let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
         let counts: Vec<String> = counts.collect();
         let plural = if rows == 1 { "" } else { "s" };

@@ -10,7 +10,7 @@ const MOST_ROWS: usize = 100;
 
 /// The rows chosen for a page so far, and the rule by which they are chosen.
 #[derive(Debug)]
-pub(in crate::command) struct Chosen {
+pub(in crate::command) struct ChosenRows {
     /// The ids to show; if empty, some rows of each status.
     ids: Vec<String>,
     rows: Vec<(Course, ResultRow)>,
@@ -19,10 +19,10 @@ pub(in crate::command) struct Chosen {
     first_fault: Option<String>,
 }
 
-impl Chosen {
+impl ChosenRows {
     /// Creates a choice of rows with these ids, or of some of each status.
     pub(in crate::command) fn new(ids: Vec<String>) -> Self {
-        Chosen {
+        ChosenRows {
             ids,
             rows: Vec::new(),
             left_out: 0,

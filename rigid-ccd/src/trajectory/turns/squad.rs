@@ -29,7 +29,7 @@ use ccd_core::vector::length;
 use std::f64::consts::PI;
 
 /// Returns the inner control orientation of squad at the middle one of three orientations.
-pub(super) fn inner(before: DQuat, at: DQuat, after: DQuat) -> DQuat {
+pub(super) fn control_orientation(before: DQuat, at: DQuat, after: DQuat) -> DQuat {
     let log = |other: DQuat| logarithm(at.conjugate() * other);
     (at * exponential(-0.25 * (log(before) + log(after)))).normalize()
 }

@@ -96,17 +96,23 @@ impl Clock {
 
     /// Returns the enclosure of all placements over an interval.
     pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
-        self.placements[interval.level].of(interval.span, |span| self.relative.over(span))
+        self.placements[interval.level]
+            .enclosure_over(interval.span, |span| self.relative.over(span))
     }
 
     /// Returns the enclosure of all rates of change over an interval.
     pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
-        self.rates[interval.level].of(interval.span, |span| self.relative.rates_over(span))
+        self.rates[interval.level]
+            .enclosure_over(interval.span, |span| self.relative.rates_over(span))
     }
 }
 
 impl CachedEnclosure {
-    fn of(&mut self, span: Span, enclosure: impl FnOnce(Span) -> Enclosure) -> &Enclosure {
+    fn enclosure_over(
+        &mut self,
+        span: Span,
+        enclosure: impl FnOnce(Span) -> Enclosure,
+    ) -> &Enclosure {
         if self.span != span {
             self.span = span;
             self.enclosure = enclosure(span);

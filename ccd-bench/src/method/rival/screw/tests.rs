@@ -1,5 +1,5 @@
 use super::*;
-use crate::method::rival::tests::samples::{Samples, query, still};
+use crate::method::rival::tests::samples::{RandomSource, query, still};
 use ccd_core::Pose;
 use ccd_core::order::lesser;
 
@@ -9,7 +9,7 @@ fn difference(a: Pose, b: Pose, point: DVec3) -> f64 {
 
 #[test]
 fn screws_start_and_end_where_the_motion_does() {
-    let mut samples = Samples::new(1);
+    let mut samples = RandomSource::new(1);
     let mut between = 0;
     for _ in 0..2000 {
         // The turn is at most 2.7 circles.
@@ -31,7 +31,7 @@ fn screws_start_and_end_where_the_motion_does() {
 
 #[test]
 fn points_of_the_axis_slide_along_it() {
-    let mut samples = Samples::new(2);
+    let mut samples = RandomSource::new(2);
     for _ in 0..200 {
         let screw = screw(&samples.query(3.0, 3.0)).unwrap().a;
         let centre = |t: f64| screw.pose(t).transform_point(screw.centre());
@@ -42,7 +42,7 @@ fn points_of_the_axis_slide_along_it() {
 
 #[test]
 fn translations_and_turns_about_the_centre_stay_as_they_are() {
-    let mut samples = Samples::new(3);
+    let mut samples = RandomSource::new(3);
     for _ in 0..100 {
         let translation = samples.motion(3.0, 1e-300);
         let translation = Motion::about(
@@ -83,7 +83,7 @@ fn overflow_is_an_error() {
 
 #[test]
 fn screws_are_distinguished_from_other_motions() {
-    let mut samples = Samples::new(4);
+    let mut samples = RandomSource::new(4);
     for _ in 0..200 {
         let given = samples.query(3.0, 3.0);
         assert!(!is_screw(&given));

@@ -11,7 +11,7 @@ use std::ops::Range;
 const ROUNDING: f64 = 1e-14;
 
 /// Builds the tree over triangles, and sorts these into the order of the leaves.
-pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
+pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> SphereTree {
     let mut tree = SphereTree {
         nodes: Vec::with_capacity(2 * triangles.len()),
         frames: Vec::with_capacity(2 * triangles.len()),
@@ -92,7 +92,7 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     });
     let radius = 0.5 * (high.z - low.z);
     let middle = 0.5 * (high.z + low.z);
-    let mut shape = Stadium {
+    let mut shape = GrowingRectangle {
         low: DVec2::INFINITY,
         high: DVec2::NEG_INFINITY,
         middle,
@@ -114,14 +114,14 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
 }
 
 /// A rectangle in the plane z = `middle` that grows until all points are within the radius of it.
-struct Stadium {
+struct GrowingRectangle {
     low: DVec2,
     high: DVec2,
     middle: f64,
     radius: f64,
 }
 
-impl Stadium {
+impl GrowingRectangle {
     /// Returns how far from a point's foot in the plane the rectangle may end with the point still within the radius.
     fn foot_radius(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;

@@ -10,11 +10,11 @@ use rand_pcg::Pcg64;
 use rigid_ccd::table::motions::Motions;
 
 /// A source of random inputs.
-pub(in crate::method::rival) struct Samples(Pcg64);
+pub(in crate::method::rival) struct RandomSource(Pcg64);
 
-impl Samples {
+impl RandomSource {
     pub(in crate::method::rival) fn new(seed: u64) -> Self {
-        Samples(Pcg64::seed_from_u64(seed))
+        RandomSource(Pcg64::seed_from_u64(seed))
     }
 
     pub(in crate::method::rival) fn number(&mut self, low: f64, high: f64) -> f64 {

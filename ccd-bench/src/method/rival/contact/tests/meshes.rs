@@ -3,7 +3,7 @@
 use super::super::*;
 use crate::method::rival::Placement;
 use crate::method::rival::screw;
-use crate::method::rival::tests::samples::{Samples, distance};
+use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::scene::model::Model;
 use crate::scene::tests::shots::Shots;
 use ccd_core::Motion;
@@ -85,7 +85,7 @@ fn shots_are_answered_never_late_and_within_the_tolerance() {
 
 #[test]
 fn both_bodies_may_move_and_turn_far() {
-    let mut samples = Samples::new(8);
+    let mut samples = RandomSource::new(8);
     let queries: Vec<Motions> = shots(20)
         .into_iter()
         .map(|query| {
