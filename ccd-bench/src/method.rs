@@ -26,9 +26,9 @@ use std::fmt;
 pub enum Method {
     /// A solver of this project, on bodies made of the given kind of pieces.
     Ours(SolverKind, Pieces),
-    /// A published rival, built here.
+    /// A published method that is built here for comparison.
     Rival(RivalKind),
-    /// A peer library.
+    /// A peer library that is called in this program.
     Peer(PeerKind),
     /// A peer library that a script runs.
     Script(ScriptKind),

@@ -62,9 +62,9 @@ pub enum Truth {
 /// A lower and an upper bound of a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bracket {
-    /// The lower bound, which is not negative.
+    /// The lower bound of the distance, which is not negative.
     pub lower: f64,
-    /// The upper bound.
+    /// The upper bound of the distance.
     pub upper: f64,
 }
 

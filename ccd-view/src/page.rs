@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// The HTML element in which the scripts show the views.
 pub const HTML: &str = include_str!("page/view.html");
-/// The style sheet for this element.
+/// The style sheet for the element in [`HTML`].
 pub const STYLE: &str = include_str!("page/view.css");
 
 /// The content of a page.
@@ -41,7 +41,7 @@ pub enum PageError {
 }
 
 impl Page<'_> {
-    /// Writes the page into a file. An older file of that name stays until the page is complete.
+    /// Writes the page into an HTML file. An older file of that name stays until the page is complete.
     ///
     /// # Errors
     /// [`PageError`].

@@ -4,7 +4,7 @@ use crate::ShownMotion;
 use ccd_core::glam::DVec3;
 use serde::Serialize;
 
-/// A named group of views.
+/// A named group of views, which the page lists together.
 #[derive(Clone, Debug, Serialize)]
 pub struct Group {
     /// The name of the group in the page's list of groups.
@@ -47,7 +47,7 @@ pub struct ShownBody {
     pub mesh: usize,
     /// The colour of the body, in CSS.
     pub color: String,
-    /// How the body moves.
+    /// The motion by which the page moves the body.
     pub motion: ShownMotion,
     moves: bool,
 }

@@ -262,7 +262,7 @@ impl PyBody {
         self.body.excess()
     }
 
-    /// The number of convex pieces.
+    /// The number of convex pieces of the body.
     #[getter]
     fn pieces(&self) -> usize {
         self.body.pieces().len()

@@ -27,7 +27,7 @@ enum Kind {
 
 #[pymethods]
 impl PyJoint {
-    /// A joint that rotates about an axis; its position is an angle in radians.
+    /// Makes a joint that rotates about an axis; its position is an angle in radians.
     ///
     /// Args:
     ///     origin: the pose of the joint's frame in that of the link before it, as `Motion.between` takes poses.
@@ -44,7 +44,7 @@ impl PyJoint {
         PyJoint::new(Kind::Revolute(finite(axis, "axis")?), origin, limits)
     }
 
-    /// A joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
+    /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
     #[classmethod]
     #[pyo3(signature = (origin, axis, limits = None))]
     fn prismatic(
@@ -56,7 +56,7 @@ impl PyJoint {
         PyJoint::new(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
     }
 
-    /// A joint without a degree of freedom. It has a position all the same, which does not matter.
+    /// Makes a joint without a degree of freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
         PyJoint::new(Kind::Fixed, origin, None)
@@ -81,7 +81,7 @@ impl PyJoint {
         Ok((make, parts))
     }
 
-    /// The least and the greatest position.
+    /// The least and the greatest allowed position of the joint.
     #[getter]
     fn limits(&self) -> (f64, f64) {
         let limits = self.joint.limits();
@@ -183,7 +183,7 @@ impl PyChain {
         })
     }
 
-    /// The joints, in order from the base.
+    /// The joints of the chain, in order from the base.
     #[getter]
     fn joints(&self, py: Python<'_>) -> Vec<Py<PyJoint>> {
         self.joints
@@ -207,7 +207,7 @@ impl PyChain {
         self.chain.joints().len()
     }
 
-    /// The pose of a link for given positions of the joints, as a matrix of shape (4, 4).
+    /// Returns the pose of a link for given positions of the joints, as a matrix of shape (4, 4).
     fn pose<'py>(
         &self,
         py: Python<'py>,
@@ -219,7 +219,7 @@ impl PyChain {
         Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
-    /// A link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
+    /// Returns a link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
     /// planner.
     ///
     /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
@@ -279,7 +279,8 @@ pub(crate) struct PyLink {
 
 #[pymethods]
 impl PyLink {
-    /// The same link in the frame of another one, nearer to the base: query it against that link's body at rest.
+    /// Returns the same link in the frame of another one, nearer to the base: query it against that link's body at
+    /// rest.
     ///
     /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
     fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
@@ -294,7 +295,7 @@ impl PyLink {
         .checked()
     }
 
-    /// The pose at a time, as a matrix of shape (4, 4).
+    /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let pose = Trajectory::pose(&self.link()?, time);
         Ok(matrix_of(py, &pose.map_err(input_error)?))

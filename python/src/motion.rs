@@ -101,7 +101,7 @@ impl PyMotion {
         })
     }
 
-    /// The pose at a time, as a matrix of shape (4, 4).
+    /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, numpy::PyArray2<f64>> {
         matrix_of(py, &self.motion.pose(time))
     }

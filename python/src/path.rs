@@ -78,13 +78,13 @@ impl PyPath {
         (slf.get_type(), slf.get().made.clone())
     }
 
-    /// The time of the last pose.
+    /// The time of the last pose of the path.
     #[getter]
     fn end(&self) -> f64 {
         self.poses.end()
     }
 
-    /// The pose at a time, as a matrix of shape (4, 4).
+    /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         if time.is_nan() {
             return Err(input_error("time: NaN is no time"));

@@ -49,18 +49,18 @@ impl PyTable {
         Ok(PyTable { batch })
     }
 
-    /// The names of the columns, in order.
+    /// The names of the table's columns, in order.
     #[getter]
     fn column_names(&self) -> Vec<String> {
         batch::header(&self.batch.schema())
     }
 
-    /// The names of the columns, like the keys of a dict.
+    /// Returns the names of the columns, like the keys of a dict.
     fn keys(&self) -> Vec<String> {
         self.column_names()
     }
 
-    /// The rows with these indices, in that order, as a table; or those for which a boolean array is true.
+    /// Returns the rows with these indices, in that order, as a table; or those for which a boolean array is true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
         let rows = row_numbers(rows, all)?;
@@ -136,7 +136,7 @@ impl PyTable {
         format!("Table({rows} rows, {columns} columns{})", self.counts())
     }
 
-    /// The names and types of the columns, as an Arrow schema.
+    /// Returns the names and types of the columns, as an Arrow schema.
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         Ok(to_schema_pycapsule(py, self.batch.schema().as_ref())?)
     }

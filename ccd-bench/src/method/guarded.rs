@@ -147,7 +147,7 @@ impl Guarded {
         Ok(guarded)
     }
 
-    /// Prepares a method on two meshes. The first query starts it.
+    /// Prepares a method for queries about two meshes. The first query starts it.
     ///
     /// # Errors
     /// If the meshes cannot be written, or the method has no program.

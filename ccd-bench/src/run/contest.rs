@@ -43,7 +43,7 @@ pub struct Allowance {
     pub cell: Duration,
     /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
-    /// The largest number of queries.
+    /// The largest number of queries to ask.
     pub rows: usize,
     /// The least number of queries, regardless of time.
     pub least_rows: usize,

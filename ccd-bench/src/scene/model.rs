@@ -33,7 +33,7 @@ pub enum Model {
     Knot11520,
     /// A torus knot of 34,560 triangles.
     Knot34560,
-    /// A ring of 10,000 triangles.
+    /// A torus of 10,000 triangles.
     Ring,
     /// A thin board of 12 triangles.
     Board,

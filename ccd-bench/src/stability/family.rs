@@ -169,7 +169,7 @@ impl BodyMotion {
 }
 
 impl Step {
-    /// Returns a step without queries.
+    /// Creates a step for two meshes, without queries.
     pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
         Step {
             meshes: [a, b],

@@ -37,7 +37,7 @@ pub struct Findings<'j> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limit {
     pub(super) value: f64,
-    /// The worst verdict at that step.
+    /// The worst verdict on the method's answers at that step.
     pub(super) verdict: Verdict,
 }
 

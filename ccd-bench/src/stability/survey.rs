@@ -33,7 +33,7 @@ pub struct Survey {
     pub folder: PathBuf,
 }
 
-/// The time limit of one query.
+/// The time that a method may take for one query.
 const QUERY_TIME_LIMIT: Duration = Duration::from_secs(3);
 
 /// The time limit for preparing the bodies of a step.

@@ -161,8 +161,9 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Interval;
 
-    /// Multiplies intervals. A product is linear in each operand, so that it is least and greatest at bounds: at two of
-    /// them, unless both operands have numbers on both sides of 0.
+    /// Returns an interval that contains all products of the numbers in two intervals. A product is linear in each
+    /// operand, so that it is least and greatest at bounds: at two of them, unless both operands have numbers on both
+    /// sides of 0.
     fn mul(self, other: Interval) -> Interval {
         if other.inf >= 0.0 {
             return self.times_nonnegative(other);

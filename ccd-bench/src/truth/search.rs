@@ -49,7 +49,7 @@ const EDGE_NORMALS_BELOW: f64 = 1e-3;
 enum RemainingPairs {
     /// The pairs of nodes that are not excluded.
     Left(Vec<Pair>),
-    /// The budget of tests is used up.
+    /// The budget of tests was used up before all pairs were tested.
     Spent,
 }
 

@@ -268,5 +268,5 @@ impl IntervalMaps {
 /// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
 /// as many along A's axes, which are rounded themselves. The total is doubled.
 const GAP_ROUNDINGS: f64 = 96.0;
-/// √3, rounded up.
+/// The square root of 3, rounded up.
 const SQRT_3: f64 = 1.732_050_807_568_878;

@@ -29,9 +29,9 @@ pub(super) struct Node {
 /// What a box contains.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Content {
-    /// The two child nodes.
+    /// The box of an inner node contains the boxes of these two nodes.
     Children([u32; 2]),
-    /// The triangle of a leaf.
+    /// The box of a leaf contains the triangle with this index.
     Triangle(u32),
 }
 

@@ -59,7 +59,7 @@ struct DescentResult {
 
 /// The fixed inputs of a descent: the placement of the bodies and the limits.
 struct DescentSetup<'a> {
-    /// Body B as seen from body A.
+    /// The placement of body B in the frame of body A.
     placement: &'a Placement,
     /// The time from now to the end of the motions.
     remaining: f64,

@@ -37,9 +37,9 @@ pub(super) struct Node {
 /// What an oriented box contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// The two child nodes.
+    /// The box of an inner node contains the boxes of these two nodes.
     Nodes([u32; 2]),
-    /// The triangle of a leaf.
+    /// The box of a leaf contains the triangle with this index.
     Triangle(u32),
 }
 

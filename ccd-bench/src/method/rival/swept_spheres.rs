@@ -49,7 +49,7 @@ pub(super) struct Trees {
     pub(super) b: SphereTree,
 }
 
-/// A node of each tree.
+/// A node of A's tree and a node of B's tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) a: u32,
@@ -62,11 +62,11 @@ pub(super) struct Pair {
 pub(super) enum PairChildren {
     /// The children of one node, each paired with the other node.
     Pairs([Pair; 2]),
-    /// The triangles of two leaves.
+    /// The triangles of two leaves, which have no children.
     Triangles(Leaves),
 }
 
-/// A triangle of each tree.
+/// A triangle of A and a triangle of B, by their indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leaves {
     a: u32,

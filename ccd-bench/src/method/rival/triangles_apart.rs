@@ -10,7 +10,7 @@ use wide::f64x4;
 #[cfg(test)]
 mod tests;
 
-/// A triangle, by its corners.
+/// A triangle, given by its three corners.
 pub(super) type Triangle = [DVec3; 3];
 
 /// The nearest points of two triangles; the same point twice if the triangles meet.

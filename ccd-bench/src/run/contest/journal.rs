@@ -117,12 +117,12 @@ impl Journal {
         write(&self.folder.join(CHART), &self.cells)
     }
 
-    /// Returns all cells so far, in the order of measurement.
+    /// Returns all cells in the journal, in the order of measurement.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
-    /// Returns all trials so far.
+    /// Returns all trials in the journal.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
     }

@@ -30,7 +30,7 @@ impl Truths {
         Ok(truths)
     }
 
-    /// Writes all known truths.
+    /// Writes all known exact answers to a file.
     ///
     /// # Errors
     /// If the file cannot be written.

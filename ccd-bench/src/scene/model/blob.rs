@@ -21,7 +21,7 @@ pub struct Blob {
     pub seed: u64,
 }
 
-/// A smooth bump on a [`Blob`].
+/// A smooth bump on the sphere of a [`Blob`].
 #[derive(Clone, Copy, Debug)]
 pub struct Lobe {
     /// The direction of the bump; any length.

@@ -6,7 +6,7 @@ use ccd_decomp::{MeshError, TriangleMesh};
 /// A square in the plane z = 0 about the origin, cut into small squares of two triangles each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
-    /// Half the length of a side.
+    /// Half the length of a side of the whole square.
     pub half_side: f64,
     /// The number of small squares per side.
     pub squares: u32,

@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Random straight flights from one side of a resting body to the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Shots {
-    /// The number of flights.
+    /// The number of flights to make.
     pub(crate) count: usize,
     /// The number of flights, the first ones, that do not rotate.
     pub(crate) translations: usize,
@@ -19,7 +19,7 @@ pub(crate) struct Shots {
     pub(crate) distance: Range<f64>,
     /// The largest distance of a flight's path from the resting body's origin.
     pub(crate) aside: f64,
-    /// The random seed.
+    /// The seed of the random numbers.
     pub(crate) seed: u64,
 }
 

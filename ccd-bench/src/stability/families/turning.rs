@@ -27,7 +27,7 @@ fn falling_while_spinning(turns: f64) -> Result<Step> {
 
 /// The half length of a rod.
 const ROD_HALF_LENGTH: f64 = 2.0;
-/// The half thickness of a rod.
+/// The half width of a rod.
 const ROD_HALF_WIDTH: f64 = 0.05;
 
 /// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.

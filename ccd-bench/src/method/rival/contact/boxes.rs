@@ -12,7 +12,7 @@ const COSINE_SLACK: f64 = 1e-14;
 /// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
-    /// The boxes do not meet.
+    /// The boxes do not meet in the interval.
     Apart,
     /// No axis is found that separates the boxes over the whole interval.
     Near {

@@ -24,7 +24,7 @@ pub(super) enum Test {
     CornerFace(usize),
     /// The face of the first triangle against a corner of the second.
     FaceCorner(usize),
-    /// An edge of each triangle.
+    /// An edge of the first triangle against an edge of the second.
     EdgeEdge(usize, usize),
 }
 

@@ -10,9 +10,9 @@ use ccd_core::order::{greater, lesser};
 pub(super) enum Touch {
     /// The triangles first touch at this time.
     At(f64),
-    /// The triangles do not touch.
+    /// The triangles do not touch in the interval.
     Never,
-    /// The work limit was reached.
+    /// The work limit was reached before it was decided.
     Unknown,
 }
 

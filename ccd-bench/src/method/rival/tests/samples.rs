@@ -9,7 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::table::motions::Motions;
 
-/// A source of random inputs.
+/// A generator of random vectors, rotations and motions.
 pub(in crate::method::rival) struct RandomSource(Pcg64);
 
 impl RandomSource {
