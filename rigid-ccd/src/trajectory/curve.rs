@@ -2,7 +2,7 @@
 
 use super::U;
 use super::checks::{check_duration, finite, out_of_range};
-use super::segments::{self, Segments};
+use super::segments::{self, Segments, greatest};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
@@ -176,7 +176,7 @@ impl Segment {
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.differences(order).into_iter();
-            points.map(length).fold(0.0, greater)
+            points.map(length).fold(0.0, greatest)
         };
         let half = 0.5 * (to - from);
         let middle = length(self.derivative(order, self.share(from + half)));

@@ -16,6 +16,15 @@ pub(super) struct Segment<T> {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Segments<T>(pub(super) Vec<Segment<T>>);
 
+/// Returns the greater of two bounds; infinity if the second one is NaN, which bounds nothing.
+pub(super) fn greatest(most: f64, bound: f64) -> f64 {
+    if bound.is_nan() {
+        f64::INFINITY
+    } else {
+        greater(most, bound)
+    }
+}
+
 impl<T> Segments<T> {
     /// Returns the first segment that does not end before a time; `None` after the last one.
     pub(super) fn at(&self, time: f64) -> Option<&Segment<T>> {
@@ -43,7 +52,7 @@ impl<T> Segments<T> {
     /// Returns the greatest value of `bound` over the segments between two times.
     pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
         let segments = self.overlapping(from, to).iter();
-        segments.map(bound).fold(0.0, greater)
+        segments.map(bound).fold(0.0, greatest)
     }
 
     /// Bounds the effect of jumps of the velocity at knots strictly inside an interval, as an acceleration with the

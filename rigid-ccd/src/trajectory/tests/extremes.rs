@@ -103,3 +103,21 @@ fn axes_have_any_length_but_0() {
     assert!(Joint::prismatic(Pose::IDENTITY, [0.0; 3]).is_err());
     assert!(screw(Pose::IDENTITY, [0.0; 3], [f64::NAN, 0.0, 0.0], 1.0, 1.0).is_err());
 }
+
+/// Tests that the deviation of a curve whose second differences overflow is not bounded by less than the true one.
+#[test]
+fn differences_that_overflow_are_unbounded() {
+    let points = [[3.0, 0.0, 0.0], [2.0, 1.0, 0.0], [-3.0, 0.0, 0.0]];
+    for duration in [1e-155, 1e-160, 1e-300] {
+        let keys = [
+            (0.0, [0.0, 0.0, 0.0, 1.0]),
+            (duration, [0.0, 0.0, 0.6, 0.8]),
+        ];
+        let curve = Curve::bezier(&points, duration).unwrap();
+        let spline = Spline::new(curve, Turns::slerp(&keys).unwrap());
+        if let Ok(stretch) = spline.stretch(0.0, duration) {
+            let deviation = stretch.stray.shift;
+            assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
+        }
+    }
+}
