@@ -1,4 +1,4 @@
-//! Bodies that stop, checked at sampled times: none overlaps another one, and none stops early.
+//! Tests stopping bodies at sampled times: none overlaps another one, and none stops early.
 
 use super::super::tests::{bodies, parts};
 use super::*;
@@ -14,7 +14,7 @@ use rand_pcg::Pcg64;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
 
-/// The poses of all bodies at a time, with some of them stopped.
+/// Returns the poses of all bodies at a time, where some of the bodies have stopped.
 fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
     let pose = |(member, stop): (&super::super::Member<'_>, &Stop)| {
         member.movement.pose(lesser(time, stop.time)).unwrap()
@@ -22,7 +22,7 @@ fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
     scene.members.iter().zip(stops).map(pose).collect()
 }
 
-/// The pairs that overlap at these poses.
+/// Returns the pairs of bodies that overlap at the given poses.
 fn overlapping(scene: &Scene<'_>, poses: &[Pose], solver: &mut Solver) -> HashSet<[usize; 2]> {
     let mut pairs = HashSet::new();
     for b in 0..poses.len() {
@@ -113,7 +113,7 @@ fn bodies_that_stop_never_overlap() {
     );
 }
 
-/// Checks that the contact is with the body that stops this one, at the time of the stop, or later at rest. There the
+/// Checks that a stop's contact is with the body that it names, at the time of the stop, or later at rest. There the
 /// witnesses are near, and one behind the other along the normal.
 fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let by = stop.by.unwrap();
@@ -184,7 +184,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     assert_eq!((stop.by, stop.contact), (Some(1), None));
 }
 
-/// A stopped body stops the next one.
+/// Tests that a stopped body stops the next one.
 #[test]
 fn a_queue_of_balls_stops_one_behind_the_other() {
     let (ball, wall) = (
@@ -217,7 +217,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
     }
 }
 
-/// A ball that is pressed onto a floor keeps half of the tolerance over many steps.
+/// Tests that a ball that is pressed onto a floor keeps half of the tolerance over many steps.
 #[test]
 fn a_pressed_ball_stays_above_the_floor() {
     let (ball, floor) = (
@@ -280,7 +280,8 @@ fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
     assert!(matches!(first.hit.kind, HitKind::Touching(_)), "{first:?}");
 }
 
-/// Distances over a wide floor have larger rounding errors. What is pressed onto it would sink by that in each step.
+/// Tests a pressed ball on a wide floor, where distances have larger rounding errors. What is pressed onto it would
+/// sink by that in each step.
 #[test]
 fn a_pressed_ball_does_not_sink_by_rounding() {
     let mut rng = Pcg64::seed_from_u64(7);

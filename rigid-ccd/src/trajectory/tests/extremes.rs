@@ -1,8 +1,8 @@
-//! Large times and coordinates, ends of trajectories, and axes of any length.
+//! Tests large times and coordinates, ends of trajectories, and axes of any length.
 
 use super::*;
 
-/// Checks the bounds of segments between two times, far from 0 or with large coordinates.
+/// Checks the deviation bounds of segments between two times, far from 0 or with large coordinates.
 fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, rng: &mut Rng) {
     for _ in 0..1_000 {
         let [a, b] = [(); 2].map(|()| rng.random_range(from..to));
@@ -66,7 +66,7 @@ fn places_may_come_from_afar() {
     check_between("poses", &poses, 0.9, 1.0, &mut rng);
 }
 
-/// A trajectory at rest has a segment, of zero length or after the end.
+/// Tests that a trajectory at rest has a segment, of zero length or after the end.
 #[test]
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
