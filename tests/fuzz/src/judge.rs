@@ -173,10 +173,10 @@ impl<'a> Judge<'a> {
                 _ => {}
             },
             Outcome::Touching { contact } => {
-                faults.extend(self.check_contact(given, &contact, 0.0))
+                faults.extend(self.check_contact(given, &contact, 0.0));
             }
             Outcome::Overlapping { overlap, .. } => {
-                faults.extend(self.check_overlap(given, &overlap))
+                faults.extend(self.check_overlap(given, &overlap));
             }
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 if overlaps && safe_until > 0.0 {

@@ -48,7 +48,7 @@ fn containment(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
                 PointLocation::Inside => return PointLocation::Inside,
                 PointLocation::Outside => {}
                 PointLocation::Doubtful | PointLocation::Unknown => {
-                    doubtful = PointLocation::Doubtful
+                    doubtful = PointLocation::Doubtful;
                 }
             }
         }

@@ -22,7 +22,7 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
     let mut walk = Walk::new(root, accessors);
     match (root.scene, root.scenes.first()) {
         (Some(scene), _) => {
-            walk.visit_descendants(&element(&root.scenes, "scene", scene)?.nodes)?
+            walk.visit_descendants(&element(&root.scenes, "scene", scene)?.nodes)?;
         }
         (None, Some(first)) => walk.visit_descendants(&first.nodes)?,
         (None, None) if root.nodes.is_empty() => walk.visit_meshes()?,

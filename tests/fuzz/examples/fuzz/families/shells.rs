@@ -72,7 +72,7 @@ fn closed_parts(draw: &mut Draw) -> Shape {
                 at = add_arrays(
                     at,
                     scale_array(draw.direction(), draw.uniform(2.0..4.0) * size),
-                )
+                );
             }
             _ => at[draw.count(0..3)] += size,
         }
