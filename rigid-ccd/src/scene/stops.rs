@@ -66,7 +66,7 @@ impl Scene<'_> {
     /// continue. A simulation that sets these poses after each step lets nothing pass through anything.
     ///
     /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
-    /// slide and part, but not come nearer than half of their distance. Both have to move by a [`Motion`](crate::Motion)
+    /// slide and part, but not come nearer than half of their distance. Both have to move by a [`Motion`]
     /// or be at rest; if one is on another trajectory, both stop at once. Bodies that overlap at the start do not stop
     /// each other.
     ///
