@@ -29,7 +29,7 @@ impl Work {
     }
 
     /// Returns the number of steps spent from a budget without a limit.
-    pub(crate) fn taken(&self) -> u64 {
+    pub(crate) fn steps_spent(&self) -> u64 {
         u64::MAX - self.left.get()
     }
 

@@ -83,14 +83,14 @@ impl Choice {
 impl PieceTree {
     /// Creates one piece for each triangle of a mesh.
     pub(super) fn of_triangles(mesh: &TriangleMesh) -> Result<Self, PrepareError> {
-        PieceTree::over(triangles(mesh)?)
+        PieceTree::over_pieces(triangles(mesh)?)
     }
 
     fn of_polytopes(polytopes: &[Polytope]) -> Result<Self, PrepareError> {
-        PieceTree::over(Pieces::polytopes(polytopes)?)
+        PieceTree::over_pieces(Pieces::polytopes(polytopes)?)
     }
 
-    fn over(pieces: Pieces) -> Result<Self, PrepareError> {
+    fn over_pieces(pieces: Pieces) -> Result<Self, PrepareError> {
         let hierarchy = build_hierarchy(&pieces)?;
         Ok(PieceTree { pieces, hierarchy })
     }

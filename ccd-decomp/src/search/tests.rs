@@ -183,7 +183,7 @@ fn the_nearest_triangle_is_found() {
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
-            let all = search.all_in(&bounds, &Work::unbounded(), |face| {
+            let all = search.all_meeting_box(&bounds, &Work::unbounded(), |face| {
                 within.push(face);
                 true
             });

@@ -32,7 +32,7 @@ pub(crate) struct Flat {
 impl Flats {
     /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        RegionMerger::merged(manifold).into_flats()
+        RegionMerger::merge_all(manifold).into_flats()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -76,7 +76,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     ///
     /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
     /// covers a convex polygon once.
-    pub(crate) fn merged(manifold: &'a Manifold<'m>) -> Self {
+    pub(crate) fn merge_all(manifold: &'a Manifold<'m>) -> Self {
         let mut merger = RegionMerger::new(manifold);
         let mut edges = merger.flat_edges();
         for &edge in &edges {

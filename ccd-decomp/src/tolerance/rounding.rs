@@ -14,7 +14,7 @@ pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 /// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
 /// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
 /// each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed because they are between two
-/// others on an edge are off by twice [`on_edge`] more for each of three edges: 804u. 1024u are used. Voxels are
+/// others on an edge are off by twice [`on_edge_distance`] more for each of three edges: 804u. 1024u are used. Voxels are
 /// widened by this margin, so that neighbours overlap.
 pub(crate) fn clip_rounding(farthest: f64) -> f64 {
     1024.0 * U64 * farthest
@@ -22,7 +22,7 @@ pub(crate) fn clip_rounding(farthest: f64) -> f64 {
 
 /// Returns the distance from an edge within which a clipped point counts as on the edge, for coordinates up to
 /// `farthest`, in the same unit. One cut moves a point by less than a third of it.
-pub(crate) fn on_edge(farthest: f64) -> f64 {
+pub(crate) fn on_edge_distance(farthest: f64) -> f64 {
     64.0 * U64 * farthest
 }
 

@@ -91,7 +91,7 @@ impl Voxels {
         (i * y + j) * z + k
     }
 
-    pub(super) fn cell(&self, index: usize) -> Cell {
+    pub(super) fn cell_of(&self, index: usize) -> Cell {
         let [_, y, z] = self.counts();
         [index / z / y, index / z % y, index % z]
     }

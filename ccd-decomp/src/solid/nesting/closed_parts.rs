@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 ///
 /// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
 /// between them, so that solids that share a face stay separate.
-pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
+pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     let mut parts = DisjointSets::new(mesh.faces().len());
     let mut is_manifold = true;
     for (_, uses) in edges.iter() {
