@@ -12,8 +12,8 @@ pub(crate) struct Edges {
     uses: Vec<EdgeUse>,
 }
 
-/// A half-edge on an edge, packed in one number: the upper end, the half-edge, and in the lowest bit whether it
-/// starts at the upper end.
+/// A half-edge on an edge, packed in one number. It holds the upper end, the half-edge, and in the lowest bit whether
+/// the half-edge starts at the upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct EdgeUse(u64);
 

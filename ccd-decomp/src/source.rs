@@ -83,8 +83,8 @@ pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
 }
 
 impl BodySource {
-    /// Creates the body. The detail applies to meshes only. Shapes are single pieces, and a stored body keeps its
-    /// pieces.
+    /// Creates the body that the source describes. The detail applies to meshes only. Shapes are single pieces, and a
+    /// stored body keeps its pieces.
     ///
     /// # Errors
     /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::InFile`] if its content

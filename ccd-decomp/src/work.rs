@@ -21,7 +21,7 @@ impl Work {
         }
     }
 
-    /// Spends some steps. Returns whether any are left.
+    /// Spends steps from the budget. Returns whether any are left.
     pub(crate) fn spend(&self, steps: usize) -> bool {
         let rest = self.left.get().checked_sub(steps as u64);
         self.left.set(rest.unwrap_or(0));

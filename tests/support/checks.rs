@@ -153,8 +153,8 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
-    /// are not checked, because they need not be closed together.
+    /// Returns true if a point of a piece at the start is in the solid of its body, or on the mesh. The body is A (0)
+    /// or B (1). Parts are not checked, because they need not be closed together.
     fn is_in_solid(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let placements = Placement::pair(self.query);
         let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();

@@ -220,7 +220,7 @@ impl Shape {
 }
 
 impl Mesh {
-    /// Appends another mesh. Vertices and faces are numbered consecutively.
+    /// Appends the vertices and faces of another mesh, numbered consecutively.
     pub fn append(&mut self, other: &Mesh) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);

@@ -1,4 +1,4 @@
-//! Checks convex patches of a closed surface exactly: the hull is in the solid, the faces are on the hull, and the
+//! Checks convex patches of a closed surface exactly. The hull is in the solid, the faces are on the hull, and the
 //! names are right.
 
 use crate::checks::CheckResult;
@@ -200,7 +200,7 @@ fn outward_corners(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3],
     Ok(if inside_out { [a, c, b] } else { [a, b, c] })
 }
 
-/// Returns true if a loop of vertices is that of a triangle, with any start.
+/// Returns true if a loop of vertices is the triangle `a b c`, with any start.
 fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()

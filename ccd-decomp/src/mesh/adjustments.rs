@@ -84,8 +84,8 @@ impl Adjustments {
         }
     }
 
-    /// Mirrors the mesh across the plane through the origin normal to an axis, and reverses its triangles, so that a
-    /// solid stays one. Exact.
+    /// Mirrors the mesh along a coordinate axis, across the plane through the origin. The triangles are reversed, so
+    /// that a solid stays one. Exact.
     #[must_use]
     pub fn mirrored(self, axis: Axis) -> Self {
         let mut factors = self.factors;
@@ -102,7 +102,7 @@ impl Adjustments {
         }
     }
 
-    /// Combines two adjustments. The units of `other` take precedence.
+    /// Combines two adjustments, both of which apply. The units of `other` take precedence.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.

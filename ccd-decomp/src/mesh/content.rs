@@ -26,7 +26,7 @@ pub(crate) struct Content {
 pub(crate) enum Layout {
     /// A list of vertices and faces. Each part of the file is a group of these faces.
     List(Polygons, Groups),
-    /// Shapes and their placements. One shape may be placed several times.
+    /// An assembly of shapes and their placements. One shape may be placed several times.
     Assembly(Assembly),
 }
 

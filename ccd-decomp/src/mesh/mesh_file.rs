@@ -38,7 +38,7 @@ pub struct MeshFile {
 pub struct NamedMesh {
     /// The name of the part, if it has one. Several parts of a file may have the same name.
     pub name: Option<String>,
-    /// The triangles. Vertices and faces are numbered from 0 in each part.
+    /// The triangles of the part. Vertices and faces are numbered from 0 in each part.
     pub mesh: TriangleMesh,
 }
 
@@ -93,8 +93,8 @@ impl MeshFile {
         }
     }
 
-    /// Returns the unit of the coordinates: that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY and OFF
-    /// have no unit.
+    /// Returns the unit of the coordinates. It is that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY
+    /// and OFF have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
@@ -230,7 +230,7 @@ impl MeshFile {
     }
 }
 
-/// Returns the paths of all files that a mesh is read from: the mesh file, and those that it refers to.
+/// Returns the paths of all files that a mesh is read from, including the files that it refers to.
 pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
     let found = || {
         if !Format::from_path(path).is_ok_and(Format::refers_to_files) {

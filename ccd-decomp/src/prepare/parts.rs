@@ -35,7 +35,8 @@ pub(super) struct PieceTree {
 }
 
 impl Choice {
-    /// Creates the model. `triangles` are those of the mesh before any shell is reversed, if computed.
+    /// Creates the model from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
+    /// computed.
     pub(super) fn into_model(
         self,
         mesh: &TriangleMesh,
@@ -95,8 +96,8 @@ impl PieceTree {
         Ok(PieceTree { pieces, hierarchy })
     }
 
-    /// Replaces the triangles by those of a mesh that differs only in the order of corners. The hierarchy stays
-    /// valid.
+    /// Replaces the triangles by those of a reoriented mesh, which differs only in the order of corners. The
+    /// hierarchy stays valid.
     fn with_corners_of(self, turned: &TriangleMesh) -> Result<Self, PrepareError> {
         let pieces = triangles(turned)?;
         Ok(PieceTree { pieces, ..self })

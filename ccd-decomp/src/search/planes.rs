@@ -146,8 +146,8 @@ pub(super) fn separating_planes_in_plane(corners: &[DVec3; 3], hub: DVec3) -> Ve
     planes
 }
 
-/// Adds the planes through a line, parallel to a coordinate axis, that have some points on or behind them and the hub
-/// on or in front of them.
+/// Adds the separating planes through the line `p q`, parallel to a coordinate axis. They have some points on or
+/// behind them and the hub on or in front of them.
 fn add_axis_parallel_planes(
     planes: &mut Vec<Plane>,
     [p, q]: [DVec3; 2],

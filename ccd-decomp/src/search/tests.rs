@@ -102,8 +102,8 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     })
 }
 
-/// Tests that all triangles that meet a triangle, a segment or the interior of a tetrahedron are found, exactly and
-/// over every triangle.
+/// Tests that all triangles that meet a query shape are found: a triangle, a segment or the interior of a
+/// tetrahedron. The comparison is exact and with every triangle.
 #[test]
 fn skipped_triangles_meet_nothing() {
     let probes = prop::collection::vec([corner(), corner(), corner(), corner()], 20);

@@ -71,8 +71,8 @@ pub(crate) struct RegionMerger<'a, 'm> {
 }
 
 impl<'a, 'm> RegionMerger<'a, 'm> {
-    /// Merges adjacent regions while their union is convex, in order of the longest common edge: a diagonal is
-    /// removed before an edge of the outline `[HM83]`.
+    /// Merges adjacent regions while their union is convex. The longest common edge comes first, so that a diagonal
+    /// is removed before an edge of the outline `[HM83]`.
     ///
     /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
     /// covers a convex polygon once.
@@ -177,8 +177,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         true
     }
 
-    /// Follows the boundary from an edge to the last half-edge that has the given region on its other side; `None` if
-    /// the whole boundary has.
+    /// Follows the boundary of a region to the last half-edge that borders another given region. Returns `None` if
+    /// the whole boundary borders it.
     fn last_beside_region(
         &mut self,
         edge: HalfEdge,

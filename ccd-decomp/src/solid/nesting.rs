@@ -178,8 +178,8 @@ impl<'m> Shells<'m> {
         }
     }
 
-    /// Returns the other shells with a winding number other than 0 about a shell; `None` if every ray meets an edge
-    /// or vertex.
+    /// Returns the other shells whose winding number about a shell is not 0; `None` if every ray meets an edge or
+    /// vertex.
     fn shells_winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
@@ -212,8 +212,8 @@ impl<'m> Shells<'m> {
         is_alone.then_some(middle)
     }
 
-    /// Returns the other shells with a winding number other than 0 about the start of a ray; `None` if the ray meets
-    /// an edge or vertex.
+    /// Returns the other shells whose winding number about the start of a ray is not 0; `None` if the ray meets an
+    /// edge or vertex.
     fn shells_winding_about_start(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);

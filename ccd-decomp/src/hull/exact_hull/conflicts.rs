@@ -31,7 +31,7 @@ const NONE: u32 = u32::MAX;
 struct Facet {
     corners: [u32; 3],
     plane: Plane,
-    /// The adjacent facets. The first is across the edge from the first corner to the second.
+    /// The indices of the adjacent facets. The first is across the edge from the first corner to the second.
     adjacent: [u32; 3],
     /// The points that see the facet and are not inserted yet.
     seen_by: Vec<u32>,

@@ -194,8 +194,8 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     })
 }
 
-/// Returns how the ray from a point along z crosses a triangle: 1 from back to front, −1 from front to back, 0 if it
-/// misses.
+/// Returns how the ray from a point along z crosses a triangle. It is 1 from back to front, −1 from front to back, 0
+/// if it misses.
 ///
 /// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
 /// triangles at an edge.

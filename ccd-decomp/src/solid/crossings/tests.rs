@@ -141,8 +141,8 @@ fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     }
 }
 
-/// Returns a prism over an outline, on a grid, so that corners coincide and edges lie in lines, or over a rough
-/// circle. It is large enough for fans.
+/// Returns a prism over an outline on a grid, or over a rough circle. On a grid, corners coincide and edges lie in
+/// lines. The prism is large enough for fans.
 fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
         let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;

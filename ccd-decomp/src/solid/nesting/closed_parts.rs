@@ -123,8 +123,8 @@ impl<'m> AngularOrder<'m> {
         self.ends.map(|v| self.mesh.vertices()[v as usize])
     }
 
-    /// Returns the class of a point's angle from the first face: 0 for no angle, 1 below half a turn, 2 for half a
-    /// turn, 3 above.
+    /// Returns the class of a point's angle from the first face. The classes are 0 for no angle, 1 below half a turn,
+    /// 2 for half a turn, 3 above.
     fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;

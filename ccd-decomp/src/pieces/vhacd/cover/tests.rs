@@ -1,7 +1,7 @@
 use super::*;
 use ccd_core::glam::dvec3;
 
-/// Tests random points on the edges of triangles: two points of each edge are kept, and a removed point is between
+/// Tests which of random points on the edges of a triangle are kept: two of each edge. A removed point is between
 /// them.
 #[test]
 fn only_the_ends_of_edges_are_kept() {
