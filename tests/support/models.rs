@@ -259,7 +259,7 @@ impl Mesh {
     /// Converts the mesh to the type that `ccd_decomp` reads.
     ///
     /// # Panics
-    /// If it has no faces, or a number that is not finite.
+    /// If the mesh has no faces, or a coordinate that is not finite.
     pub fn for_decomposition(&self) -> TriangleMesh {
         TriangleMesh::new(self.vertices.clone(), &self.faces).expect("a mesh")
     }

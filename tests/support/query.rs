@@ -109,7 +109,7 @@ impl Query {
     /// Builds the engine's query of given bodies.
     ///
     /// # Panics
-    /// If the engine refuses it.
+    /// If the engine refuses the query.
     pub fn problem<'a>(&self, bodies: &'a Bodies, config: &'a Settings) -> ccd_core::Query<'a> {
         let a = Moving::from((bodies.a(), self.a.motion));
         let b = Moving::from((bodies.b(), self.b.motion));

@@ -46,7 +46,7 @@ impl Solid {
     /// Builds the engine's body of the solid.
     ///
     /// # Panics
-    /// If the engine refuses it.
+    /// If the engine refuses the body.
     pub fn body(&self) -> Body {
         let mesh = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let names: Vec<_> = (0..faces.len() as u32).collect();
