@@ -23,9 +23,9 @@ use rigid_ccd::command::Progress;
 use settings::settings;
 use std::time::Duration;
 
-/// The number of rows of a scene, evenly spread.
+/// The number of rows of each scene that are measured, evenly spread over its table.
 const ROWS: usize = 32;
-/// The scenes; each mesh occurs once.
+/// The names of the measured scenes, in which each mesh occurs once.
 const SCENES: [&str; 7] = [
     "santa",
     "bunny turning",
@@ -33,10 +33,10 @@ const SCENES: [&str; 7] = [
     "knot11520 turning",
     "knot34560 turning",
     "falling rings",
-    SMALL,
+    SMALL_SCENE,
 ];
-/// The only scene small enough for the slowest schedule.
-const SMALL: &str = "knot216";
+/// The name of the only scene that is small enough for the slowest schedule.
+const SMALL_SCENE: &str = "knot216";
 
 fn advancement(criterion: &mut Criterion) {
     let mut models = Models::default();
@@ -57,7 +57,7 @@ fn advancement(criterion: &mut Criterion) {
                 continue;
             };
             // The schedule that advances all pairs in every step runs on one scene only.
-            if kind.schedule == ScheduleKind::Naive && scene.name != SMALL {
+            if kind.schedule == ScheduleKind::Naive && scene.name != SMALL_SCENE {
                 continue;
             }
             truths.find(&contest, method.motion_kind(), &rows, &Progress::hidden());

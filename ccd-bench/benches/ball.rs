@@ -1,4 +1,4 @@
-//! Builds convex hulls with any number of vertices.
+//! Builds convex hulls of random points on a sphere.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{HullTree, Pieces, Polytope};

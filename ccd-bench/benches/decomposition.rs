@@ -14,7 +14,7 @@ use criterion::{
 use settings::settings;
 use std::hint::black_box;
 
-/// Torus knots that differ in size only.
+/// The torus knots to decompose, which differ in size only.
 const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
 
 fn meshes() -> Vec<(String, TriangleMesh)> {
@@ -29,7 +29,7 @@ fn meshes() -> Vec<(String, TriangleMesh)> {
         .collect()
 }
 
-/// Decomposes surfaces into convex patches, in every order of growth.
+/// Benchmarks the decomposition of surfaces into convex patches, in every order of growth.
 fn decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
@@ -63,7 +63,7 @@ fn assert_covered(mesh: &TriangleMesh, order: Order) {
     assert!(faces.iter().copied().eq(0..mesh.faces().len() as u32));
 }
 
-/// Turns meshes into bodies that are ready for queries.
+/// Benchmarks the making of bodies that are ready for queries from meshes.
 fn bodies(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);

@@ -23,7 +23,7 @@ use std::hint::black_box;
 /// The number of poses in a sequence.
 const POSES: usize = 256;
 
-/// Two pieces of one shape, and the sequence of their poses.
+/// Two pieces of one shape, and the sequence of poses at which their distance is computed.
 struct PoseSequence {
     a: Pieces,
     b: Pieces,
@@ -31,23 +31,24 @@ struct PoseSequence {
     start: Start,
 }
 
-/// The initial state of a distance call.
+/// What a distance call may reuse.
 #[derive(Clone, Copy)]
 enum Start {
-    /// The result of the call for the previous pose.
+    /// The call starts from the result for the previous pose.
     Warm,
-    /// No state.
+    /// The call starts without any state.
     Cold,
 }
 
-/// The coherence of a sequence: its name, the radians between poses, and the initial state of a call.
+/// The kinds of sequences: a name, the rotation between poses in radians, and what a call may reuse.
 const COHERENCE: [(&str, f64, Start); 3] = [
     ("close", 0.01, Start::Warm),
     ("apart", 0.3, Start::Warm),
     ("cold", 0.01, Start::Cold),
 ];
 
-/// The distance of the centres beyond the least one at which the pieces cannot touch, in radii.
+/// The separations of pieces: a name, and the distance of the centres in radii, counted from where the pieces cannot
+/// touch.
 const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
 
 fn distances(criterion: &mut Criterion) {
@@ -103,7 +104,8 @@ fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
     shapes
 }
 
-/// Returns the sum of the axes of a whole sequence, so that the compiler cannot drop a call.
+/// Computes the distances of a whole sequence, and returns the sum of their axes, so that the compiler cannot drop a
+/// call.
 fn run<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
     let mut oracle = O::default();
     let mut cache = O::Cache::default();
@@ -141,17 +143,20 @@ impl PoseSequence {
     }
 }
 
-/// The largest allowed difference of two backends' distances. It is far above their rounding at the largest distance
-/// here.
-const ALIKE: f64 = 1e-9;
+/// The largest allowed difference between the distances of two backends. It is far above their rounding at the largest
+/// distance here.
+const DISTANCE_TOLERANCE: f64 = 1e-9;
 
 fn assert_alike(one: &[f64], other: &[f64]) {
     for (one, other) in one.iter().zip(other) {
-        assert!((one - other).abs() <= ALIKE, "{one} and {other}");
+        assert!(
+            (one - other).abs() <= DISTANCE_TOLERANCE,
+            "{one} and {other}"
+        );
     }
 }
 
-/// Returns poses with a steady rotation and a constant distance of the centres.
+/// Returns poses with a steady rotation and a constant distance between the centres.
 fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     let (way, turn) = (direction(rng), turn * direction(rng));
     let pose = |k: usize| {

@@ -1,12 +1,12 @@
-//! The settings of all benches.
+//! The settings that all benchmarks share.
 
 use criterion::Criterion;
 use std::time::Duration;
 
-/// The number of resamples, enough for a median. The default takes longer than the calls.
+/// The number of bootstrap resamples, enough for a median. The default takes longer than the calls.
 const RESAMPLES: usize = 2_000;
 
-/// Returns settings with this number of samples and these times in milliseconds.
+/// Returns settings with this number of samples, and with these times for warm-up and measurement in milliseconds.
 pub(crate) fn settings(samples: usize, warm_up: u64, measurement: u64) -> Criterion {
     Criterion::default()
         .nresamples(RESAMPLES)

@@ -1,5 +1,5 @@
-//! Benchmarks the search for extremal corners: a scan of all corners, and climbing from a cold and a warm start, by the
-//! size of the piece. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
+//! Benchmarks the search for extremal corners, by the size of the piece: a scan of all corners, and climbing from a
+//! cold and a warm start. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
 //!
 //! `cargo bench -p ccd-bench --bench support`
 
@@ -15,12 +15,12 @@ use rand_pcg::Pcg64;
 use settings::settings;
 use std::hint::black_box;
 
-/// The number of directions in a sample.
-const LOOKS: usize = 256;
+/// The number of directions in which the extremal corner is searched for.
+const DIRECTIONS: usize = 256;
 
 fn support(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("support");
-    group.throughput(Throughput::Elements(LOOKS as u64));
+    group.throughput(Throughput::Elements(DIRECTIONS as u64));
     let mut rng = Pcg64::seed_from_u64(7);
     for corners in [8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048, 4096] {
         let tree = ball(&mut rng, corners);
@@ -28,8 +28,8 @@ fn support(criterion: &mut Criterion) {
         let scan = SupportScan::new(piece.points);
         let table =
             SupportTable::new(piece.points, piece.facets).expect("the hull of a ball has facets");
-        let cold: Vec<DVec3> = (0..LOOKS).map(|_| direction(&mut rng)).collect();
-        let warm = turning(&mut rng);
+        let cold: Vec<DVec3> = (0..DIRECTIONS).map(|_| direction(&mut rng)).collect();
+        let warm = rotating_directions(&mut rng);
         group.bench_with_input(BenchmarkId::new("scan", corners), &cold, |b, looks| {
             b.iter(|| {
                 looks
@@ -59,13 +59,13 @@ fn support(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Returns directions a hundredth of a radian apart, as in the steps of a query.
-fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
+/// Returns directions, each a hundredth of a radian from the one before, as in the steps of a query.
+fn rotating_directions(rng: &mut Pcg64) -> Vec<DVec3> {
     let turn = DQuat::from_scaled_axis(0.01 * direction(rng));
     let first = direction(rng);
     let next = |at: &DVec3| Some(turn * *at);
     std::iter::successors(Some(first), next)
-        .take(LOOKS)
+        .take(DIRECTIONS)
         .collect()
 }
 

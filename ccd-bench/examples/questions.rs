@@ -1,4 +1,4 @@
-//! The cost of every question relative to that of the first contact, row by row.
+//! Measures the cost of every question relative to that of the first contact, row by row.
 //!
 //! Asks each row for the first contact, for any contact and for the closest approach in turn, several times,
 //! and compares the least times of each row. The verdicts have to agree.
@@ -49,7 +49,7 @@ struct Solvers {
     oracle: Direct,
 }
 
-/// The answers to one row, with the least time of each.
+/// The answers to all questions about one row, each with its shortest time.
 struct Row {
     first: (Outcome, Duration),
     any: (Outcome, Duration),
@@ -80,7 +80,7 @@ impl Solvers {
     }
 }
 
-/// Returns the outcome and the least time of several calls, after an untimed one.
+/// Returns the outcome and the shortest time of several calls, after an untimed one.
 fn least(
     rounds: usize,
     mut call: impl FnMut() -> Result<Answer, InputError>,
@@ -126,7 +126,7 @@ impl Row {
     }
 }
 
-/// Prints the medians of the ratios of times.
+/// Prints for each question the median of its times, relative to the first contact's.
 fn print(rows: &[Row]) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     writeln!(

@@ -1,4 +1,4 @@
-//! Comparison of methods: scenes, exact answers, rivals, peers, measurements and charts.
+//! Compares methods of continuous collision detection: scenes, exact answers, rivals, peers, measurements and charts.
 //!
 //! | to … | see |
 //! |---|---|

@@ -21,50 +21,51 @@ use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, Question, ScheduleKind, So
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
-/// A method that answers queries.
+/// A method that answers queries: one of this project, a published one, or a library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
     /// A solver of this project, on bodies made of the given kind of pieces.
     Ours(SolverKind, Pieces),
-    /// A published rival, built here.
+    /// A published method that is built here for comparison.
     Rival(RivalKind),
-    /// A peer library.
+    /// A peer library that is called in this program.
     Peer(PeerKind),
     /// A peer library that a script runs.
     Script(ScriptKind),
 }
 
-/// The published rivals.
+/// The published methods that are built here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum RivalKind {
-    /// Continuous tests of oriented boxes.
+    /// The method CONTACT: continuous tests of oriented boxes.
     #[value(name = "CONTACT")]
     Contact,
-    /// Adaptive bisection.
+    /// The method of the dynamic collision checker: adaptive bisection of time.
     #[value(name = "Dynamic Collision Checker")]
     DynamicChecker,
-    /// Controlled conservative advancement.
+    /// The method C2A: controlled conservative advancement.
     #[value(name = "C2A")]
     C2a,
-    /// Static tests at equal steps.
+    /// Static intersection tests at equal steps in time.
     #[value(name = "discrete stepping")]
     Stepping,
 }
 
-/// The motion along which a method moves the bodies.
+/// The kind of motion along which a method moves the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
-    /// The motion of the query: the centre moves straight, and the body turns about it.
+    /// The motion of the query: the centre moves straight, and the body rotates about it.
     Given,
     /// The screw motion between the same start and end poses.
     Screw,
 }
 
-/// The paper's tolerance `[FAST06 §6.2]`: that of charts of one tolerance, and of methods without one of their own.
+/// The tolerance of the paper's benchmarks `[FAST06 §6.2]`: that of charts of one tolerance, and of methods without one
+/// of their own.
 pub const USUAL_TOLERANCE: f64 = 1e-3;
 
 impl Method {
-    /// Returns all methods that this program runs, the default kind first.
+    /// Returns all methods that this program runs, this project's default first.
     pub fn all() -> Vec<Method> {
         let kind = |schedule, oracle| SolverKind {
             schedule,
@@ -117,7 +118,7 @@ impl Method {
     }
 
     /// Returns FAST as published, whose bound does not hold over a step, so that its answers may be late.
-    pub fn published() -> Method {
+    pub fn fast_as_published() -> Method {
         let kind = SolverKind {
             schedule: ScheduleKind::Fast,
             oracle: OracleKind::Vmarch,
@@ -127,18 +128,18 @@ impl Method {
     }
 
     /// Returns all methods that a script runs.
-    pub fn of_scripts() -> impl Iterator<Item = Method> {
+    pub fn script_methods() -> impl Iterator<Item = Method> {
         ScriptKind::value_variants()
             .iter()
             .copied()
             .map(Method::Script)
     }
 
-    /// Returns the method with a name.
+    /// Returns the method with the given name; `None` if there is none.
     pub fn named(name: &str) -> Option<Method> {
         let more = Method::combinations()
             .into_iter()
-            .chain(Method::of_scripts());
+            .chain(Method::script_methods());
         let mut all = Method::all().into_iter().chain(more);
         all.find(|method| method.to_string() == name)
     }
@@ -179,7 +180,7 @@ impl Method {
 }
 
 impl MotionKind {
-    /// Returns the query with motions of this kind.
+    /// Returns the query with its motions replaced by those along which the method moves the bodies.
     ///
     /// # Errors
     /// If a screw's parameters overflow.
@@ -192,7 +193,7 @@ impl MotionKind {
 }
 
 impl RivalKind {
-    /// Returns a solver of this kind on two meshes.
+    /// Returns a solver that runs this method on two meshes.
     pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh) -> Box<dyn Solver> {
         match self {
             RivalKind::Contact => Box::new(Contact::new(a, b)),
@@ -219,7 +220,7 @@ pub(crate) fn first_contact(
     answer.expect("all schedules find the first contact")
 }
 
-/// A solver of this project.
+/// A solver of this project, with the bodies that it is asked about.
 pub struct Ours<'s> {
     bodies: Bodies<'s>,
     kind: SolverKind,
@@ -228,7 +229,7 @@ pub struct Ours<'s> {
 }
 
 impl<'s> Ours<'s> {
-    /// Returns a solver of the given kind on two bodies that are to keep a margin.
+    /// Creates a solver of the given kind for two bodies that are to keep a margin.
     pub fn new(kind: SolverKind, bodies: Bodies<'s>, margin: f64) -> Self {
         Ours {
             bodies,

@@ -1,4 +1,4 @@
-//! The names of values on the command line and in the tables.
+//! Names of values on the command line and in the tables.
 
 use clap::ValueEnum;
 

@@ -17,16 +17,16 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-/// Two bodies, and many motions of them.
+/// Two bodies, and many queries about motions of them.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The name.
+    /// The name of the scene in tables.
     pub name: String,
-    /// Body A.
+    /// The body that the first motion of each query moves.
     pub a: SceneBody,
-    /// Body B.
+    /// The body that the second motion of each query moves.
     pub b: SceneBody,
-    /// Their motions.
+    /// The motions of both bodies, one query each.
     pub queries: Vec<Motions>,
 }
 
@@ -36,29 +36,29 @@ pub struct SceneBody {
     /// The body, made of the fewest exact pieces.
     pub body: Arc<Body>,
     mesh: Arc<TriangleMesh>,
-    /// The same body made of other pieces, each made on first use; `None` if it cannot be made.
+    /// The same body made of each other kind of pieces on first use; `None` if it cannot be made.
     others: Arc<[OnceLock<Option<Body>>; Pieces::ALL.len()]>,
 }
 
-/// The kind of pieces of a body.
+/// The kind of convex pieces that a body is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pieces {
-    /// The fewest exact pieces.
+    /// The fewest pieces that represent the mesh exactly.
     #[default]
     Least,
-    /// One piece per triangle.
+    /// One piece per triangle of the mesh.
     Triangles,
     /// Patches of the surface under a hull tree, as in the paper.
     Patches,
-    /// Convex hulls of parts, which may extend beyond the body.
+    /// Convex hulls of parts of the mesh, which may extend beyond it.
     ApproximateHulls,
 }
 
-/// The largest number of approximate hulls of a body.
+/// The maximum number of approximate hulls of a body.
 const HULLS: u32 = 32;
 
 impl SceneBody {
-    /// Returns the mesh.
+    /// Returns the mesh from which the body is made.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
@@ -68,8 +68,7 @@ impl SceneBody {
         self.mesh.faces().len()
     }
 
-    /// Returns the same body made of the given pieces, which are made on first use, or `None` if
-    /// the mesh does not allow them.
+    /// Returns the same body made of the given kind of pieces; `None` if the mesh does not allow them.
     pub fn body_of(&self, pieces: Pieces) -> Option<&Body> {
         if pieces == Pieces::Least {
             return Some(&self.body);
@@ -81,7 +80,7 @@ impl SceneBody {
 }
 
 impl Pieces {
-    /// All kinds.
+    /// All kinds of pieces.
     pub const ALL: [Pieces; 4] = [
         Pieces::Least,
         Pieces::Triangles,
@@ -89,7 +88,7 @@ impl Pieces {
         Pieces::ApproximateHulls,
     ];
 
-    /// Makes the body of a mesh.
+    /// Makes a body of this kind of pieces from a mesh.
     ///
     /// # Errors
     /// If the mesh does not allow such pieces.
@@ -108,7 +107,7 @@ impl Pieces {
     }
 }
 
-/// The bodies of models, each made once.
+/// The bodies of the models, each of which is made once.
 #[derive(Debug, Default)]
 pub struct Models {
     directory: Option<PathBuf>,
@@ -116,7 +115,7 @@ pub struct Models {
 }
 
 impl Scene {
-    /// Returns both bodies.
+    /// Returns both bodies of the scene, made of the fewest exact pieces.
     pub fn bodies(&self) -> Bodies<'_> {
         Bodies {
             a: &self.a.body,
@@ -124,7 +123,7 @@ impl Scene {
         }
     }
 
-    /// Returns both bodies made of the given pieces, or `None` if a mesh does not allow them.
+    /// Returns both bodies made of the given kind of pieces; `None` if a mesh does not allow them.
     pub fn bodies_of(&self, pieces: Pieces) -> Option<Bodies<'_>> {
         Some(Bodies {
             a: self.a.body_of(pieces)?,
@@ -139,7 +138,7 @@ impl Scene {
 }
 
 impl Models {
-    /// Uses models made by code, except those that have a file in the directory.
+    /// Creates models that are made by code, except those that have a file in the directory.
     pub fn new(directory: Option<PathBuf>) -> Self {
         Models {
             directory,
@@ -147,7 +146,7 @@ impl Models {
         }
     }
 
-    /// Returns the body of a model.
+    /// Returns the body of a model, which is made on first use.
     ///
     /// # Errors
     /// If the model's file is no mesh that a body can be made of.

@@ -1,4 +1,4 @@
-//! Shows measurements as tables, charts and a page.
+//! Presents measurements as tables, charts and a page.
 
 pub mod chart;
 pub mod comparable;
@@ -12,7 +12,7 @@ pub mod views;
 use rigid_ccd::command::CannotWrite;
 use std::path::Path;
 
-/// Writes a text into a file.
+/// Writes a text into a file, or returns an error that names the file.
 pub(crate) fn write(path: &Path, text: &str) -> Result<(), CannotWrite> {
     ccd_file::write(path, |out| out.write_all(text.as_bytes())).map_err(|source| CannotWrite {
         place: path.display().to_string(),

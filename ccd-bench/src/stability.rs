@@ -1,4 +1,4 @@
-//! Stability: families of scenes that get harder step by step, and the reach of each method.
+//! Surveys stability: families of scenes get harder step by step, and each method is asked until it fails.
 //!
 //! | to … | see |
 //! |---|---|

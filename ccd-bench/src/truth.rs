@@ -1,4 +1,4 @@
-//! Ground truth: a rigorous bracket of the exact first contact of two moving surfaces.
+//! Computes ground truth: a rigorous bracket of the exact first contact of two moving surfaces.
 //!
 //! It judges the engine and its rivals, and shares no code with them: it has its own tree,
 //! distance, motion and rounding. It reads only the numbers of a motion and of a mesh.
@@ -31,14 +31,15 @@ pub use table::{Status, TRUTH_COLUMNS, TruthRow};
 use rigid_ccd::table::motions::Motions;
 use search::Search;
 
-/// The proven facts about a query; times are from 0 to the duration.
+/// What is proven about a query; times are from 0 to the duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Truth {
     /// The surfaces share no point before `lo`, and they share one at `hi`.
     Hit {
-        /// The time just before the first contact, usually by less than 1e-13 of the duration.
+        /// The latest time before which no contact is proven, usually less than 1e-13 of the duration before the first
+        /// contact.
         lo: f64,
-        /// The time just after the first contact.
+        /// The time at which a common point is proven.
         hi: f64,
     },
     /// The surfaces share no point at any time.
@@ -48,26 +49,26 @@ pub enum Truth {
     /// The surfaces share no point before `lo`, cannot be separated at `lo`, and no proof of contact was found then or
     /// later: they touch without intersecting, or nearly touch.
     Graze {
-        /// The first time at which the surfaces come that near.
+        /// The first time at which the surfaces cannot be separated.
         lo: f64,
     },
     /// The surfaces share no point before `lo`; the work limit of a query was reached.
     Undecided {
-        /// The end of the proven time.
+        /// The time before which the surfaces are proven to share no point.
         lo: f64,
     },
 }
 
-/// Two bounds of a distance.
+/// A lower and an upper bound of a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bracket {
-    /// The distance is at least this, which is not negative.
+    /// The lower bound of the distance, which is not negative.
     pub lower: f64,
-    /// The distance is at most this.
+    /// The upper bound of the distance.
     pub upper: f64,
 }
 
-/// A referee that decides queries about two surfaces.
+/// A referee that decides queries about two surfaces with proofs.
 #[derive(Clone, Copy, Debug)]
 pub struct Referee<'a> {
     a: &'a Surface,
@@ -100,7 +101,7 @@ impl<'a> Referee<'a> {
         Search::new(self, query).run()
     }
 
-    /// Brackets the distance of the surfaces at a time.
+    /// Returns bounds on the distance of the surfaces at a time.
     ///
     /// # Guarantee
     /// The exact distance, for the motion of [`Referee::first_contact`], lies in the bracket. It is

@@ -1,12 +1,12 @@
 //! Files that only one process writes at a time.
 
-use crate::temp_file::{buffered, naming, place, sibling};
+use crate::temp_file::{buffered, error_with_path, place, sibling};
 use same_file::Handle;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// The name ending of a claimed file.
+/// The extension that is appended to the name of a claimed file.
 pub const PARTIAL: &str = ".partial";
 
 /// A file that only this process writes, under a temporary name beside its target.
@@ -18,23 +18,23 @@ pub const PARTIAL: &str = ".partial";
 /// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep).
 #[derive(Debug)]
 pub struct Claim {
-    /// The file, locked while it is open.
+    /// The open file, which is locked as long as it is open.
     file: File,
     partial: PathBuf,
     target: PathBuf,
-    /// The number of bytes that an earlier process left.
+    /// The length in bytes of what an earlier process left in the file.
     left: u64,
-    end: End,
+    end: DropAction,
 }
 
-/// The fate of a file that is dropped before it is placed.
+/// What happens to a file that is dropped before it has its final name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum End {
+enum DropAction {
     Removed,
     Kept,
 }
 
-/// The maximum number of attempts, if other processes finish between opening and locking.
+/// The maximum number of attempts to lock the file; other processes may finish between opening and locking.
 const TRIES: usize = 100;
 
 impl Claim {
@@ -53,12 +53,12 @@ impl Claim {
                 .clone();
             let file = options
                 .open(&partial)
-                .map_err(|error| naming(&partial, &error))?;
+                .map_err(|error| error_with_path(&partial, &error))?;
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => return Err(busy()),
                 Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
-                Err(TryLockError::Error(error)) => return Err(naming(&partial, &error)),
+                Err(TryLockError::Error(error)) => return Err(error_with_path(&partial, &error)),
             }
             // Another process may have renamed the file before it was locked.
             if is_at(&file, &partial)? {
@@ -68,7 +68,11 @@ impl Claim {
                     return Err(io::Error::new(io::ErrorKind::AlreadyExists, problem));
                 }
                 let left = about.len();
-                let end = if left == 0 { End::Removed } else { End::Kept };
+                let end = if left == 0 {
+                    DropAction::Removed
+                } else {
+                    DropAction::Kept
+                };
                 return Ok(Claim {
                     file,
                     partial,
@@ -81,17 +85,17 @@ impl Claim {
         Err(busy())
     }
 
-    /// Returns the number of bytes that an earlier process left in the file.
+    /// Returns the length in bytes of what an earlier process left in the file.
     pub fn left(&self) -> u64 {
         self.left
     }
 
-    /// Returns the temporary path.
+    /// Returns the temporary path under which the file is written.
     pub fn partial(&self) -> &Path {
         &self.partial
     }
 
-    /// Returns the target path.
+    /// Returns the final path of the file.
     pub fn target(&self) -> &Path {
         &self.target
     }
@@ -116,7 +120,7 @@ impl Claim {
         self.place()
     }
 
-    /// Truncates the file, and continues at its end.
+    /// Truncates the file to a length in bytes, so that writing continues there.
     ///
     /// # Errors
     /// Errors of the operating system.
@@ -124,14 +128,14 @@ impl Claim {
         self.file.set_len(bytes)?;
         self.file.seek(SeekFrom::Start(bytes))?;
         if bytes == 0 {
-            self.end = End::Removed;
+            self.end = DropAction::Removed;
         }
         Ok(())
     }
 
     /// Keeps the file under its temporary name if the claim is dropped.
     pub fn keep(&mut self) {
-        self.end = End::Kept;
+        self.end = DropAction::Kept;
     }
 
     /// Renames the complete file to its target.
@@ -140,20 +144,20 @@ impl Claim {
     /// The file was removed or replaced, or the operating system fails.
     pub fn place(mut self) -> io::Result<()> {
         if !is_at(&self.file, &self.partial)? {
-            self.end = End::Kept;
+            self.end = DropAction::Kept;
             let partial = self.partial.display();
             let problem = format!("{partial} was removed or replaced while it was written");
             return Err(io::Error::new(io::ErrorKind::NotFound, problem));
         }
         place(&self.file, &self.partial, &self.target)?;
-        self.end = End::Kept;
+        self.end = DropAction::Kept;
         Ok(())
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        if self.end == End::Removed && is_at(&self.file, &self.partial).unwrap_or(false) {
+        if self.end == DropAction::Removed && is_at(&self.file, &self.partial).unwrap_or(false) {
             // What stays behind does no harm.
             let _ = fs::remove_file(&self.partial);
         }

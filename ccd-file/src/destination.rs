@@ -1,19 +1,19 @@
-//! Destinations of output: files, which can be replaced, or streams.
+//! Finds out where an output path leads: to a file, which can be replaced, or to a stream.
 
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The destination of an output path.
+/// Where an output path leads.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Destination {
-    /// A regular file, existing or not: its path after following links.
+    /// A regular file, existing or not, by its path after following links.
     File(PathBuf),
     /// A pipe, a terminal, a device, or an open file of this process such as `/dev/stdout`.
     Stream,
 }
 
-/// The maximum number of links followed, as on Linux.
+/// The maximum number of symbolic links followed, the same as on Linux.
 const MOST_LINKS: usize = 40;
 
 impl Destination {

@@ -1,4 +1,4 @@
-//! Temporary files beside their targets.
+//! Temporary files that are renamed to their final names.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -13,7 +13,7 @@ pub(crate) struct TempFile {
 }
 
 impl TempFile {
-    /// Creates a file beside the target with an unused name: threads and processes may write at the same time.
+    /// Creates a file beside the target with an unused name, because other threads and processes may write there too.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
@@ -22,7 +22,7 @@ impl TempFile {
             match File::create_new(&part) {
                 // Left behind by a process with the same id.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(naming(&part, &error)),
+                Err(error) => return Err(error_with_path(&part, &error)),
                 Ok(file) => {
                     let part = Some(part);
                     return Ok(TempFile { file, part, target });
@@ -80,7 +80,7 @@ pub(crate) fn sibling(path: &Path, ending: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Adds the path to an error about a file that the caller has not named.
-pub(crate) fn naming(path: &Path, error: &io::Error) -> io::Error {
+/// Returns the error with the path added to its message.
+pub(crate) fn error_with_path(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }

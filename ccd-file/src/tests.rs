@@ -2,7 +2,7 @@ use super::*;
 use std::fs;
 use std::path::PathBuf;
 
-/// A new folder, which is removed at the end.
+/// A new folder that is removed when the test ends.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -37,8 +37,8 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// A disk that is full after a few bytes.
-fn fills_up(out: &mut dyn Write) -> io::Result<()> {
+/// Writes a few bytes, and then fails as on a full disk.
+fn write_until_full(out: &mut dyn Write) -> io::Result<()> {
     out.write_all(b"half")?;
     out.flush()?;
     Err(io::ErrorKind::StorageFull.into())
@@ -49,10 +49,10 @@ fn a_write_that_fails_leaves_the_older_file() {
     let folder = Folder::new("fails");
     let file = folder.path("good");
     fs::write(&file, "good").unwrap();
-    let error = write(&file, fills_up).unwrap_err();
+    let error = write(&file, write_until_full).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::StorageFull);
     assert_eq!(text(&file), "good");
-    assert!(write(folder.path("new"), fills_up).is_err());
+    assert!(write(folder.path("new"), write_until_full).is_err());
     assert_eq!(folder.names(), ["good"]);
     write(&file, |out| out.write_all(b"better")).unwrap();
     assert_eq!(text(&file), "better");
@@ -95,7 +95,12 @@ fn a_claimed_file_is_given_to_one() {
     again.file().write_all(b"over").unwrap();
     again.place().unwrap();
     assert_eq!(text(&target), "moreover");
-    assert!(claim(target.clone()).unwrap().write(fills_up).is_err());
+    assert!(
+        claim(target.clone())
+            .unwrap()
+            .write(write_until_full)
+            .is_err()
+    );
     assert_eq!(
         (text(&target).as_str(), folder.names().len()),
         ("moreover", 1)
@@ -107,7 +112,7 @@ fn a_claimed_file_is_given_to_one() {
     assert_eq!(text(&target), "all");
 }
 
-/// The name of a claimed file may be taken from it, by hand or by another machine.
+/// Tests a claimed file whose name was taken from it, by hand or by another machine.
 #[test]
 fn a_replaced_file_is_not_placed() {
     let folder = Folder::new("replaced");
@@ -125,7 +130,7 @@ fn a_replaced_file_is_not_placed() {
     assert_eq!(folder.names(), ["table.partial"]);
 }
 
-/// Threads claim, write and place one file, one at a time.
+/// Tests that threads that claim, write and place one file do so one at a time.
 #[test]
 fn threads_have_a_claimed_file_one_after_the_other() {
     let folder = Folder::new("in-turn");

@@ -34,6 +34,8 @@ mod shown_motion;
 mod view;
 
 pub use mesh::{DrawnMesh, Meshes};
-pub use page::{HTML, Page, PageError, STYLE, data, escape, filled, json, scripts, stage_scripts};
+pub use page::{
+    HTML, Page, PageError, STYLE, data, drawing_scripts, escape, fill_template, json, scripts,
+};
 pub use shown_motion::{Key, ShownMotion};
 pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

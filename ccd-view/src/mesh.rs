@@ -5,32 +5,32 @@ use base64::prelude::BASE64_STANDARD;
 use ccd_core::glam::DVec3;
 use serde::Serialize;
 
-/// Triangles to draw.
+/// The triangles of a body, as a page draws them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DrawnMesh {
-    /// The vertices, in the body's frame.
+    /// The positions of the vertices, in the body's frame.
     pub vertices: Vec<DVec3>,
     /// Three vertex numbers for each face.
     pub faces: Vec<[u32; 3]>,
 }
 
-/// The meshes of a page; equal ones are stored once.
+/// The meshes of a page, of which equal ones are stored once.
 #[derive(Clone, Debug, Default)]
 pub struct Meshes(Vec<Stored>);
 
-/// A mesh as little-endian numbers in base64.
+/// A mesh as it is stored in the page: little-endian numbers in base64.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Stored {
-    /// The centre of the bounding box.
+    /// The centre of the mesh's bounding box, in the body's frame.
     middle: [f64; 3],
-    /// Three `f32` per vertex, relative to the centre.
+    /// Three `f32` coordinates per vertex, relative to `middle`.
     vertices: String,
-    /// Three `u32` per face.
+    /// Three `u32` vertex numbers per face.
     faces: String,
 }
 
 impl Meshes {
-    /// Adds a mesh, and returns its number.
+    /// Adds a mesh, or finds an equal one, and returns its number.
     pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
         let stored = Stored::new(mesh);
         let known = self.0.iter().position(|known| *known == stored);
@@ -40,7 +40,7 @@ impl Meshes {
         })
     }
 
-    /// Returns the centre of a mesh's bounding box.
+    /// Returns the centre of the bounding box of a mesh, in the body's frame.
     pub fn middle(&self, number: usize) -> DVec3 {
         self.0
             .get(number)

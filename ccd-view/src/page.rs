@@ -1,4 +1,4 @@
-//! Pages of views, as one file or as parts of another page.
+//! Writes views as a page of one file, or as parts of another page.
 
 use crate::{Group, Meshes};
 use serde::Serialize;
@@ -7,41 +7,41 @@ use serde_json::ser::{CharEscape, CompactFormatter, Formatter};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The HTML element for the views.
+/// The HTML element in which the scripts show the views.
 pub const HTML: &str = include_str!("page/view.html");
-/// The style of the views.
+/// The style sheet for the element in [`HTML`].
 pub const STYLE: &str = include_str!("page/view.css");
 
-/// A page of views.
+/// The content of a page.
 #[derive(Clone, Debug)]
 pub struct Page<'a> {
-    /// The title.
+    /// The title of the page.
     pub title: &'a str,
-    /// The meshes of all bodies.
+    /// The meshes of all bodies on the page.
     pub meshes: Meshes,
-    /// The views. Several groups get a list to choose from.
+    /// The groups of views among which the reader chooses. Several groups get a list to choose from.
     pub groups: Vec<Group>,
 }
 
-/// An error of creating a page.
+/// The error of a page that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
-    /// The data cannot be serialised.
+    /// The views cannot be serialised as JSON.
     #[error("the page's data: {0}")]
     Data(#[from] serde_json::Error),
-    /// The file cannot be written.
+    /// The file of the page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The cause.
+        /// The error of the operating system.
         source: io::Error,
     },
 }
 
 impl Page<'_> {
-    /// Writes the page into a file. An older file of that name stays until the page is complete.
+    /// Writes the page into an HTML file. An older file of that name stays until the page is complete.
     ///
     /// # Errors
     /// [`PageError`].
@@ -55,7 +55,7 @@ impl Page<'_> {
         })
     }
 
-    /// Returns the text of the page.
+    /// Returns the page as HTML text.
     ///
     /// # Errors
     /// [`PageError::Data`].
@@ -67,7 +67,7 @@ impl Page<'_> {
             ("views", data(&self.meshes, &self.groups)?),
             ("scripts", scripts()),
         ];
-        Ok(filled(include_str!("page/page.html"), &parts))
+        Ok(fill_template(include_str!("page/page.html"), &parts))
     }
 }
 
@@ -79,11 +79,11 @@ pub fn scripts() -> String {
         include_str!("page/marks.js"),
         include_str!("page/view.js"),
     ];
-    stage_scripts() + &elements(&views)
+    drawing_scripts() + &elements(&views)
 }
 
-/// Returns the scripts for another page with a stage of its own: three.js, `Motion`, `Stage` and `Player`.
-pub fn stage_scripts() -> String {
+/// Returns the scripts for a page that draws its own scene: three.js, `Motion`, `Stage` and `Player`.
+pub fn drawing_scripts() -> String {
     elements(&[
         include_str!("../vendor/three/three.min.js"),
         include_str!("page/motion.js"),
@@ -160,7 +160,7 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
-pub fn filled(template: &str, parts: &[(&str, String)]) -> String {
+pub fn fill_template(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {

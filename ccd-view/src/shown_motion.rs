@@ -1,27 +1,27 @@
-//! Motions of bodies on a page.
+//! The motions of bodies on a page.
 
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::{Motion, Pose};
 use serde::Serialize;
 
-/// The motion of a shown body.
+/// The motion of a body that a page draws.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ShownMotion {
-    /// At constant velocities, by the formula of [`Motion`].
+    /// The body moves at constant velocities, by the formula of [`Motion`].
     Steady {
         /// The centre of rotation, in the body's frame.
         centre: [f64; 3],
-        /// The centre at the start.
+        /// The position of the centre at time 0, in the world frame.
         from: [f64; 3],
-        /// The velocity of the centre.
+        /// The velocity of the centre, per unit of time, in the world frame.
         velocity: [f64; 3],
-        /// The angular velocity.
+        /// The angular velocity in radians per unit of time, in the world frame.
         spin: [f64; 3],
-        /// The rotation at the start, by rows.
+        /// The rotation matrix at time 0, row by row.
         rotation: [f64; 9],
     },
-    /// From pose to pose, along straight lines, with the keys' rotations.
+    /// The body moves from pose to pose: its centre in straight lines, its rotation as the keys say.
     Keys {
         /// The point that moves along straight lines, in the body's frame.
         centre: [f64; 3],
@@ -30,13 +30,13 @@ pub enum ShownMotion {
     },
 }
 
-/// A pose at a time.
+/// The pose of a body at a time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Key {
     time: f64,
-    /// The position of the centre.
+    /// The position of the centre, in the world frame.
     place: [f64; 3],
-    /// The rotation, by rows.
+    /// The rotation matrix, row by row.
     rotation: [f64; 9],
     /// The rotation vector to the next key, in the world frame, because the poses alone are ambiguous at half a turn.
     turn: [f64; 3],
@@ -68,7 +68,7 @@ impl From<&Motion> for ShownMotion {
 }
 
 impl ShownMotion {
-    /// Returns whether the body moves.
+    /// Returns whether the body moves at all.
     pub(crate) fn moves(&self) -> bool {
         match self {
             ShownMotion::Steady { velocity, spin, .. } => velocity

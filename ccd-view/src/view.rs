@@ -1,87 +1,87 @@
-//! The content of a page.
+//! The content of a page: groups of views, with their bodies and contacts.
 
 use crate::ShownMotion;
 use ccd_core::glam::DVec3;
 use serde::Serialize;
 
-/// A named group of views.
+/// A named group of views, which the page lists together.
 #[derive(Clone, Debug, Serialize)]
 pub struct Group {
-    /// The name in the list of groups.
+    /// The name of the group in the page's list of groups.
     pub name: String,
-    /// The views, shown one at a time.
+    /// The views of the group, shown one at a time.
     pub views: Vec<View>,
 }
 
-/// One query, or one scene.
+/// What is shown at a time: one query, or one scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct View {
-    /// The name in the list of views.
+    /// The name of the view in its group's list.
     pub name: String,
-    /// The result, in words.
+    /// The result of the query or the scene, in words.
     pub verdict: String,
     /// The duration of the motions, from time 0.
     pub duration: f64,
-    /// The displayed value of time 0.
+    /// The time that the page displays for time 0.
     pub start: f64,
-    /// The initially displayed time.
+    /// The time at which the animation is shown first.
     pub time: f64,
-    /// The world point at the centre of the drawing.
+    /// The point of the world that is the centre of the drawing.
     pub origin: [f64; 3],
-    /// The bodies.
+    /// The bodies of the query or the scene.
     pub bodies: Vec<ShownBody>,
-    /// The times at which moving bodies are drawn as ghosts.
+    /// The times at which moving bodies are also drawn, translucent.
     pub ghosts: Vec<f64>,
-    /// The gap between two bodies, if it is known.
+    /// The distance between two bodies over time, if it is known.
     pub gap: Option<Gap>,
-    /// The contacts, by time.
+    /// The contacts, in order of time.
     pub contacts: Vec<ShownContact>,
 }
 
-/// A body of a view.
+/// A body that the page draws.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShownBody {
-    /// The name in the legend.
+    /// The name of the body in the legend.
     pub name: String,
-    /// The number of its mesh in [`Meshes`](crate::Meshes).
+    /// The number of the body's mesh in [`Meshes`](crate::Meshes).
     pub mesh: usize,
-    /// The colour, in CSS.
+    /// The colour of the body, in CSS.
     pub color: String,
-    /// The motion.
+    /// The motion by which the page moves the body.
     pub motion: ShownMotion,
     moves: bool,
 }
 
-/// The gap between two bodies over time.
+/// The distance between two bodies over time.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Gap {
-    /// The gap at some times, in their order.
+    /// The measured distances, in order of time.
     pub points: Vec<GapPoint>,
     /// A proven lower bound of the gap over time: pairs of time and gap, by time.
     pub proven: Vec<[f64; 2]>,
 }
 
-/// The gap at one time.
+/// The distance between two bodies, measured at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GapPoint {
-    /// The time.
+    /// The time of the measurement.
     pub time: f64,
-    /// The lower bound.
+    /// The lower bound of the distance.
     pub lower: f64,
-    /// The upper bound.
+    /// The upper bound of the distance.
     pub upper: f64,
 }
 
 /// A contact, in world coordinates at its time.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShownContact {
-    /// The time.
+    /// The time of the contact.
     pub time: f64,
     /// The touching features, in words.
     pub words: String,
-    /// The nearest points of both bodies.
+    /// The nearest points of both bodies, in the world frame.
     pub witnesses: Option<[DVec3; 2]>,
-    /// The direction from the first body to the second.
+    /// The unit vector from the first body to the second, in the world frame.
     pub normal: Option<DVec3>,
     /// The corners of the first body's feature: one of a vertex, two of an edge, three of each triangle of a face.
     pub lit_a: Vec<DVec3>,
@@ -90,7 +90,7 @@ pub struct ShownContact {
 }
 
 impl View {
-    /// Creates a view without bodies.
+    /// Creates a view of motions from time 0 to `duration`, without bodies.
     pub fn new(name: &str, verdict: &str, duration: f64) -> Self {
         View {
             name: name.to_owned(),
@@ -108,7 +108,7 @@ impl View {
 }
 
 impl ShownBody {
-    /// Creates a body.
+    /// Creates a body that is drawn with the mesh of the given number.
     pub fn new(name: &str, mesh: usize, color: &str, motion: impl Into<ShownMotion>) -> Self {
         let motion = motion.into();
         ShownBody {

@@ -1,4 +1,4 @@
-//! Native answers, with which the page compares its own.
+//! Computes answers on this machine, with which the page compares its own in the browser.
 
 use ccd_web::{Part, Throw, WebError};
 use rand::{RngExt, SeedableRng};
@@ -6,12 +6,12 @@ use rand_pcg::Pcg64Mcg;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
-/// The number of throws.
+/// The number of random throws.
 const THROWS: u32 = 400;
-/// The number of steps for each throw.
+/// The number of steps in time of each throw.
 const STEPS: u32 = 60;
 
-/// Returns random throws, with certified and stepped results.
+/// Returns random throws as JSON, with certified and stepped results.
 pub(crate) fn answers() -> Result<Value, WebError> {
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let (parts, targets) = Part::NAMES.split_at(5);

@@ -1,4 +1,4 @@
-//! Parts thrown at each other, in a browser or natively: the certified first contact beside discrete stepping.
+//! Throws parts at each other, in a browser or natively: the certified first contact beside discrete stepping.
 //!
 //! | to … | use |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! The command `ccd-web`: writes the page.
+//! The command `ccd-web`, which writes the page.
 
 #[cfg(not(target_family = "wasm"))]
 mod answers;

@@ -14,7 +14,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Builds the module, and writes the page.
+/// Builds the WebAssembly module, and writes the page.
 pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
     let mut bindgen = Bindgen::new();
     bindgen.input_path(build()?).no_modules(true)?;
@@ -23,7 +23,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         .remove_name_section(true)
         .remove_producers_section(true);
     let mut module = bindgen.generate_output()?;
-    let code = BASE64_STANDARD.encode(zipped(&module.wasm_mut().emit_wasm())?);
+    let code = BASE64_STANDARD.encode(compressed(&module.wasm_mut().emit_wasm())?);
     let checks = if check {
         format!(
             "<script type=\"application/json\" id=\"answers\">{}</script>\n<script>\n{}</script>",
@@ -43,7 +43,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
     let parts = [
         ("style", include_str!("page/page.css").to_owned()),
         ("code", code),
-        ("stage", ccd_view::stage_scripts()),
+        ("stage", ccd_view::drawing_scripts()),
         (
             "scripts",
             scripts
@@ -52,19 +52,19 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         ),
         ("checks", checks),
     ];
-    let text = ccd_view::filled(include_str!("page/page.html"), &parts);
+    let text = ccd_view::fill_template(include_str!("page/page.html"), &parts);
     ccd_file::write(out, |file| file.write_all(text.as_bytes()))
         .with_context(|| format!("cannot write {}", out.display()))
 }
 
-/// Compresses the module, which halves the page.
-fn zipped(bytes: &[u8]) -> Result<Vec<u8>> {
+/// Compresses the WebAssembly module, which halves the page.
+fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
     Ok(encoder.finish()?)
 }
 
-/// Builds this crate for the browser, and returns the module.
+/// Builds this crate as a WebAssembly module, and returns the module's path.
 fn build() -> Result<PathBuf> {
     // This command is at TARGET_DIR/PROFILE/ccd-web.
     let command = env::current_exe()?;

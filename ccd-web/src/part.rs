@@ -1,4 +1,4 @@
-//! Parts: bodies with their drawings.
+//! Parts to throw: bodies with the triangles that draw them.
 
 use crate::shapes::{self, Surface};
 use rigid_ccd::mesh::{
@@ -7,7 +7,7 @@ use rigid_ccd::mesh::{
 };
 use rigid_ccd::{Body, InputError, Pose};
 
-/// A body with its drawing, relative to the same origin.
+/// A body with the triangles that draw it, relative to the same origin.
 #[derive(Debug)]
 pub struct Part {
     pub(crate) body: Body,
@@ -21,19 +21,19 @@ pub enum WebError {
     /// No part has this name.
     #[error("no part is called {0:?}; there are {names}", names = Part::NAMES.join(", "))]
     UnknownPart(String),
-    /// The file's name has no known extension.
+    /// The name of the file has no known extension.
     #[error(transparent)]
     Format(#[from] MeshFault),
-    /// The file is no mesh.
+    /// The file cannot be read as a mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// The mesh makes no body.
+    /// No body can be made of the mesh.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
-    /// A number is out of range.
+    /// A number of the part or the throw is out of range.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The throw is no valid query.
+    /// The throw makes no valid query.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),
 }
@@ -115,7 +115,7 @@ impl Part {
         Ok(Part { body, surface })
     }
 
-    /// Returns the greatest distance of the drawing from the part's origin.
+    /// Returns the greatest distance of the drawing from the part's origin, in metres.
     pub fn reach(&self) -> f64 {
         let lengths = self.surface.vertices.iter().map(|v| v.length());
         lengths.max_by(f64::total_cmp).unwrap_or(0.0)

@@ -1,10 +1,10 @@
-//! Surfaces of simple shapes.
+//! Makes the surfaces of simple shapes.
 
 use rigid_ccd::Body;
 use rigid_ccd::glam::{DVec3, dvec3};
 use std::f64::consts::{PI, TAU};
 
-/// Triangles, counterclockwise from outside.
+/// The triangles of a surface, counterclockwise from outside.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {
     pub(crate) vertices: Vec<DVec3>,
@@ -40,7 +40,7 @@ pub(crate) fn capsule(radius: f64, half: f64) -> Surface {
     })
 }
 
-/// Returns a tubular trefoil knot.
+/// Returns the surface of a tube along a trefoil knot.
 pub(crate) fn knot(size: f64, radius: f64) -> Surface {
     let curve = |t: f64| {
         let ring = 2.0 + (3.0 * t).cos();
@@ -87,14 +87,15 @@ pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Surface {
     }
 }
 
-/// The ends of a tube.
+/// Whether the ends of a tube are joined to each other or left open.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ends {
     Joined,
     Open,
 }
 
-/// Returns a tubular grid of quadrilaterals. `point` maps the fractions around and along to a point.
+/// Returns a tubular grid of quadrilaterals, each split into two triangles. `point` maps the fractions around and along
+/// to a point.
 fn sheet([around, along]: [u32; 2], ends: Ends, point: impl Fn([f64; 2]) -> DVec3) -> Surface {
     let rows = match ends {
         Ends::Joined => along,

@@ -1,35 +1,35 @@
-//! Throws: certified and stepped results.
+//! Throws a part at another one: the certified first contact, and tests at equal steps.
 
 use crate::{Part, WebError};
 use rigid_ccd::{Hit, HitKind, Motion, Pose, Settings, Solver};
 
-/// A throw of one second: the start position, velocity and angular velocity of a part. The other part rests at the
-/// world's origin.
+/// A throw of one second: a part's position at the start, its velocity and its angular velocity. The other part rests
+/// at the world's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Throw {
-    /// The position at the start.
+    /// The position of the part's origin at the start, in metres.
     pub place: [f64; 3],
-    /// The velocity, per second.
+    /// The velocity of the part, in metres per second.
     pub velocity: [f64; 3],
-    /// The angular velocity, in radians per second.
+    /// The angular velocity of the part, in radians per second.
     pub spin: [f64; 3],
 }
 
 /// The certified result of a throw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thrown {
-    /// The verdict.
+    /// The kind of the result.
     pub verdict: Verdict,
-    /// The time before which nothing touches.
+    /// The time in seconds before which nothing touches.
     pub time: f64,
-    /// The contact, if there is one.
+    /// The first contact; `None` without one.
     pub hit: Option<Hit>,
 }
 
-/// The verdict of a throw.
+/// The kind of a throw's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The parts touch.
+    /// The parts touch after the start.
     Contact,
     /// The parts never touch.
     Free,
@@ -37,17 +37,17 @@ pub enum Verdict {
     Touching,
     /// The parts overlap at the start.
     Overlapping,
-    /// A limit was reached.
+    /// A limit was reached before there was a result.
     Unresolved,
 }
 
 impl Throw {
-    /// The duration, in seconds.
+    /// The duration of every throw, in seconds.
     pub const DURATION: f64 = 1.0;
     /// The distance, in metres, at which parts count as touching.
     pub const TOLERANCE: f64 = 1e-6;
 
-    /// Finds the first contact.
+    /// Finds the first contact of the thrown part with the target.
     ///
     /// # Guarantee
     /// Nothing touches before the returned time.
@@ -115,7 +115,7 @@ fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Thro
 }
 
 impl Verdict {
-    /// Returns the name.
+    /// Returns the name of the result's kind on the page.
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Contact => "contact",

@@ -1,4 +1,4 @@
-//! Conversion of answers to the package's classes: `_answers.py` has their classes.
+//! Converts answers to the package's Python classes, which `_answers.py` defines.
 
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -8,7 +8,7 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::table::results::Status;
 use rigid_ccd::{Hit, Outcome};
 
-/// Makes a `Contact`.
+/// Makes a Python `Contact` from a hit.
 pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, PyAny>> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let contact = hit.contact();
@@ -25,7 +25,7 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
     ))
 }
 
-/// Makes a `Distance`, including its comparison with a clearance.
+/// Makes a Python `Distance`, including its comparison with a clearance.
 pub(crate) fn distance<'py>(
     py: Python<'py>,
     found: &Outcome,

@@ -1,6 +1,6 @@
-//! Reading and making NumPy arrays, with NumPy's conversion rules.
+//! Reads and makes NumPy arrays, with NumPy's conversion rules.
 
-use crate::errors::{caused, input};
+use crate::errors::{input_error, input_error_from};
 use numpy::{PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -19,18 +19,21 @@ pub(crate) fn rows<const N: usize>(
         .collect())
 }
 
-/// Reads rows of three indices.
+/// Reads rows of three vertex indices.
 pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     let given = plain(values, "faces")?;
     let size: usize = given.getattr("size")?.extract()?;
     if size > 0 && !matches!(kind(&given)?, 'i' | 'u') {
         let dtype = given.getattr("dtype")?;
-        return Err(input(format!("faces: indices are integers, not {dtype}")));
+        return Err(input_error(format!(
+            "faces: indices are integers, not {dtype}"
+        )));
     }
     let array = as_array(&given, "int64", "faces")?;
     let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
     let corner = |(face, index): (usize, i64)| {
-        u32::try_from(index).map_err(|_| input(format!("faces: face {face} has the index {index}")))
+        u32::try_from(index)
+            .map_err(|_| input_error(format!("faces: face {face} has the index {index}")))
     };
     let rows = array.as_array();
     let rows = rows.rows().into_iter().enumerate();
@@ -51,7 +54,7 @@ pub(crate) fn finite<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> P
         Some(entry) => {
             let number = found[entry];
             let text = format!("{what}: entry {entry} is {number}, no finite number");
-            Err(input(text))
+            Err(input_error(text))
         }
         None => Ok(found),
     }
@@ -63,7 +66,7 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
     let length = found.len();
     found
         .try_into()
-        .map_err(|_| input(format!("{what}: {N} numbers are needed, not {length}")))
+        .map_err(|_| input_error(format!("{what}: {N} numbers are needed, not {length}")))
 }
 
 /// Reads a list of numbers of any length.
@@ -80,7 +83,7 @@ pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64
     let given = plain(values, what)?;
     let (kind, size) = (kind(&given)?, given.getattr("size")?.extract::<usize>()?);
     if size > 0 && !matches!(kind, 'i' | 'u') {
-        return Err(input(format!("{what}: whole numbers are needed")));
+        return Err(input_error(format!("{what}: whole numbers are needed")));
     }
     let array = as_array(&given, "int64", what)?;
     array
@@ -100,15 +103,16 @@ pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i
             let numpy = given.py().import("numpy")?;
             indices(&numpy.call_method1("flatnonzero", (given,))?, "rows")
         }
-        ref shape => Err(input(format!(
+        ref shape => Err(input_error(format!(
             "rows: an array of {all} bool is needed, not one of shape {shape:?}"
         ))),
     }
 }
 
-/// Reads an index.
+/// Converts a number from Python to an index that is not negative.
 pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
-    usize::try_from(value).map_err(|_| input(format!("{what} is {value}, but must be at least 0")))
+    usize::try_from(value)
+        .map_err(|_| input_error(format!("{what} is {value}, but must be at least 0")))
 }
 
 /// Returns the shape of the array that NumPy makes of some values.
@@ -116,26 +120,26 @@ pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize
     plain(values, what)?.getattr("shape")?.extract()
 }
 
-/// Makes an array of values, with the values' own type.
+/// Makes an array of values, whose element type NumPy chooses.
 pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
     let masked = numpy.getattr("ma")?.call_method1("is_masked", (values,))?;
     if masked.is_truthy()? {
-        return Err(input(format!(
+        return Err(input_error(format!(
             "{what}: some values are masked; fill them, or leave them out"
         )));
     }
     let array = numpy.call_method1("asarray", (values,));
-    array.map_err(|error| caused(py, what, error))
+    array.map_err(|error| input_error_from(py, what, error))
 }
 
-/// Returns NumPy's one-letter code for the kind of an array's type.
+/// Returns NumPy's one-letter code for the kind of an array's elements.
 pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Makes a float64 array.
+/// Makes an array of float64 elements.
 fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
     let given = plain(values, what)?;
     match kind(&given)? {
@@ -143,7 +147,9 @@ fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, Py
         'f' | 'i' | 'u' | 'O' => as_array(&given, "float64", what),
         _ => {
             let dtype = given.getattr("dtype")?;
-            Err(input(format!("{what}: numbers are needed, not {dtype}")))
+            Err(input_error(format!(
+                "{what}: numbers are needed, not {dtype}"
+            )))
         }
     }
 }
@@ -155,7 +161,7 @@ fn as_array<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let array = py.import("numpy")?.call_method1("asarray", (values, dtype));
-    array.map_err(|error| caused(py, what, error))
+    array.map_err(|error| input_error_from(py, what, error))
 }
 
 fn of_shape<'py, T: numpy::Element>(
@@ -164,7 +170,7 @@ fn of_shape<'py, T: numpy::Element>(
     what: &str,
 ) -> PyResult<PyReadonlyArray2<'py, T>> {
     let wrong = |shape: &[usize]| {
-        input(format!(
+        input_error(format!(
             "{what}: an array of shape (n, {columns}) is needed, not {shape:?}"
         ))
     };

@@ -1,7 +1,7 @@
-//! Bodies.
+//! The Python class `Body`.
 
 use crate::arrays::{rows, triangles};
-use crate::errors::{InputError, input, of_file, warn, wrong_type};
+use crate::errors::{InputError, file_error, input_error, warn, wrong_type};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 use rigid_ccd::body::{Round, Volume};
@@ -34,16 +34,16 @@ use std::path::{Path, PathBuf};
 #[pyclass(name = "Body", module = "rigid_ccd", frozen)]
 pub(crate) struct PyBody {
     pub(crate) body: Body,
-    /// The largest side of the bounding box.
+    /// The largest side of the bounding box, in the body's unit of length.
     size: f64,
-    made: Made,
+    made: PickleData,
     #[pyo3(get)]
-    /// The message about the mesh.
+    /// The message about the mesh that the body was made of.
     report: String,
 }
 
 /// The data from which pickle makes the body again.
-enum Made {
+enum PickleData {
     /// The name of a shape's constructor, and its arguments.
     Shape(&'static str, Vec<Option<f64>>),
     Mesh(Box<Model>),
@@ -88,8 +88,8 @@ impl PyBody {
         let faces = triangles(faces)?;
         let detail = detail(pieces, surface)?;
         py.detach(|| {
-            let mesh = TriangleMesh::new(points, &faces).map_err(input)?;
-            PyBody::from_model(prepare(&mesh, detail).map_err(input)?)
+            let mesh = TriangleMesh::new(points, &faces).map_err(input_error)?;
+            PyBody::from_model(prepare(&mesh, detail).map_err(input_error)?)
         })
     }
 
@@ -131,7 +131,7 @@ impl PyBody {
             adjustments = adjustments.stated_in(unit);
         }
         if let Some(scale) = scale {
-            adjustments = adjustments.scaled(scale).map_err(input)?;
+            adjustments = adjustments.scaled(scale).map_err(input_error)?;
         }
         if let Some(axis) = mirror {
             adjustments = adjustments.mirrored(named_axis(axis)?);
@@ -142,16 +142,16 @@ impl PyBody {
         }
         class.py().detach(|| {
             // An unreadable file is an OSError. A pipe would block, and is refused.
-            let there = std::fs::metadata(&path).map_err(|error| of_file(&error, &path))?;
+            let there = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
             if !there.is_file() {
-                return Err(input(format!("{}: is no file", path.display())));
+                return Err(input_error(format!("{}: is no file", path.display())));
             }
-            std::fs::File::open(&path).map_err(|error| of_file(&error, &path))?;
+            std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
             let model = match is_stored(&path) && part.is_none() {
-                true if as_prepared => Model::load(&path).map_err(input)?,
+                true if as_prepared => Model::load(&path).map_err(input_error)?,
                 true => {
                     let error = SourceError::Prepared { file: path };
-                    return Err(input(error));
+                    return Err(input_error(error));
                 }
                 false => {
                     let source = MeshSource {
@@ -159,8 +159,9 @@ impl PyBody {
                         part,
                         adjustments,
                     };
-                    let (mesh, _) = source.read().map_err(input)?;
-                    prepare(&mesh, detail).map_err(|error| input(format!("{source}: {error}")))?
+                    let (mesh, _) = source.read().map_err(input_error)?;
+                    prepare(&mesh, detail)
+                        .map_err(|error| input_error(format!("{source}: {error}")))?
                 }
             };
             PyBody::from_model(model)
@@ -226,7 +227,7 @@ impl PyBody {
         half_height: f64,
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let round = Round::cylinder(radius, half_height).map_err(input)?;
+        let round = Round::cylinder(radius, half_height).map_err(input_error)?;
         PyBody::round("cylinder", &round, [radius, half_height], excess)
     }
 
@@ -244,7 +245,7 @@ impl PyBody {
         half_height: f64,
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let round = Round::cone(radius, half_height).map_err(input)?;
+        let round = Round::cone(radius, half_height).map_err(input_error)?;
         PyBody::round("cone", &round, [radius, half_height], excess)
     }
 
@@ -261,7 +262,7 @@ impl PyBody {
         self.body.excess()
     }
 
-    /// The number of convex pieces.
+    /// The number of convex pieces of the body.
     #[getter]
     fn pieces(&self) -> usize {
         self.body.pieces().len()
@@ -276,8 +277,8 @@ impl PyBody {
             self.model()?
                 .save(&path)
                 .map_err(|error| match error.fault {
-                    StoreFault::Unwritable(error) => of_file(&error, &path),
-                    _ => input(error),
+                    StoreFault::Unwritable(error) => file_error(&error, &path),
+                    _ => input_error(error),
                 })
         })
     }
@@ -288,10 +289,10 @@ impl PyBody {
         let py = slf.py();
         let make = |name: &str| py.get_type::<PyBody>().getattr(name);
         Ok(match &slf.get().made {
-            Made::Shape(name, sizes) => (make(name)?, PyTuple::new(py, sizes)?),
-            Made::Mesh(model) => {
+            PickleData::Shape(name, sizes) => (make(name)?, PyTuple::new(py, sizes)?),
+            PickleData::Mesh(model) => {
                 let mut bytes = Vec::new();
-                py.detach(|| model.write(&mut bytes)).map_err(input)?;
+                py.detach(|| model.write(&mut bytes)).map_err(input_error)?;
                 (
                     make("_from_bytes")?,
                     PyTuple::new(py, [PyBytes::new(py, &bytes)])?,
@@ -305,7 +306,7 @@ impl PyBody {
     fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
         class
             .py()
-            .detach(|| PyBody::from_model(Model::read(stored).map_err(input)?))
+            .detach(|| PyBody::from_model(Model::read(stored).map_err(input_error)?))
     }
 
     fn __repr__(&self) -> String {
@@ -314,7 +315,7 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn new_of(body: Body, made: Made, report: String) -> Self {
+    fn new_of(body: Body, made: PickleData, report: String) -> Self {
         let size = Remark::size(&body);
         PyBody {
             body,
@@ -325,8 +326,12 @@ impl PyBody {
     }
 
     fn from_model(model: Model) -> PyResult<Self> {
-        let (body, report) = (model.body().map_err(input)?, model.report.to_string());
-        Ok(PyBody::new_of(body, Made::Mesh(Box::new(model)), report))
+        let (body, report) = (model.body().map_err(input_error)?, model.report.to_string());
+        Ok(PyBody::new_of(
+            body,
+            PickleData::Mesh(Box::new(model)),
+            report,
+        ))
     }
 
     fn shape<const N: usize>(
@@ -335,8 +340,8 @@ impl PyBody {
         body: Result<Body, rigid_ccd::InputError>,
         report: String,
     ) -> PyResult<Self> {
-        let made = Made::Shape(name, sizes.map(Some).to_vec());
-        Ok(PyBody::new_of(body.map_err(input)?, made, report))
+        let made = PickleData::Shape(name, sizes.map(Some).to_vec());
+        Ok(PyBody::new_of(body.map_err(input_error)?, made, report))
     }
 
     fn round(
@@ -347,24 +352,26 @@ impl PyBody {
     ) -> PyResult<Self> {
         let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()));
         let body = enclosure.and_then(|enclosure| enclosure.body());
-        let body = body.map_err(input)?;
+        let body = body.map_err(input_error)?;
         let report = format!(
             "{name} of radius {radius} and half height {half_height}, sticking out by up to {:.3e}",
             body.excess()
         );
         let sizes = vec![Some(radius), Some(half_height), excess];
-        Ok(PyBody::new_of(body, Made::Shape(name, sizes), report))
+        Ok(PyBody::new_of(body, PickleData::Shape(name, sizes), report))
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
         match &self.made {
-            Made::Mesh(model) => Ok(Cow::Borrowed(model)),
-            Made::Shape(..) => Ok(Cow::Owned(Model::of_body(&self.body).map_err(input)?)),
+            PickleData::Mesh(model) => Ok(Cow::Borrowed(model)),
+            PickleData::Shape(..) => {
+                Ok(Cow::Owned(Model::of_body(&self.body).map_err(input_error)?))
+            }
         }
     }
 }
 
-/// Returns whether a file is a prepared body, by its extension.
+/// Returns whether a file is a prepared body, judged by its extension.
 fn is_stored(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
@@ -372,7 +379,7 @@ fn is_stored(path: &Path) -> bool {
 
 fn named_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
     let unit = name.map(str::parse::<Unit>).transpose();
-    unit.map_err(|error| input(format!("{argument}: {error}")))
+    unit.map_err(|error| input_error(format!("{argument}: {error}")))
 }
 
 fn named_axis(name: &str) -> PyResult<Axis> {

@@ -1,7 +1,7 @@
-//! Serial chains, such as robot arms.
+//! The Python classes of serial chains, such as robot arms.
 
 use crate::arrays::{any_numbers, finite, index, numbers};
-use crate::errors::{input, warn};
+use crate::errors::{input_error, warn};
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -27,7 +27,7 @@ enum Kind {
 
 #[pymethods]
 impl PyJoint {
-    /// A joint that rotates about an axis; its position is an angle in radians.
+    /// Makes a joint that rotates about an axis; its position is an angle in radians.
     ///
     /// Args:
     ///     origin: the pose of the joint's frame in that of the link before it, as `Motion.between` takes poses.
@@ -44,7 +44,7 @@ impl PyJoint {
         PyJoint::new(Kind::Revolute(finite(axis, "axis")?), origin, limits)
     }
 
-    /// A joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
+    /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
     #[classmethod]
     #[pyo3(signature = (origin, axis, limits = None))]
     fn prismatic(
@@ -56,7 +56,7 @@ impl PyJoint {
         PyJoint::new(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
     }
 
-    /// A joint without a degree of freedom. It has a position all the same, which does not matter.
+    /// Makes a joint without a degree of freedom. It has a position all the same, which does not matter.
     #[classmethod]
     fn fixed(_class: &Bound<'_, PyType>, origin: &Bound<'_, PyAny>) -> PyResult<Self> {
         PyJoint::new(Kind::Fixed, origin, None)
@@ -81,7 +81,7 @@ impl PyJoint {
         Ok((make, parts))
     }
 
-    /// The least and the greatest position.
+    /// The least and the greatest allowed position of the joint.
     #[getter]
     fn limits(&self) -> (f64, f64) {
         let limits = self.joint.limits();
@@ -127,10 +127,10 @@ impl PyJoint {
         let joint = match limits {
             // Written so that NaN is refused.
             Some([low, high]) if !(low <= high) => {
-                return Err(input(format!("limits: {low} is not at most {high}")));
+                return Err(input_error(format!("limits: {low} is not at most {high}")));
             }
-            Some([low, high]) => joint.map_err(input)?.within(low..=high),
-            None => joint.map_err(input)?,
+            Some([low, high]) => joint.map_err(input_error)?.within(low..=high),
+            None => joint.map_err(input_error)?,
         };
         Ok(PyJoint {
             joint,
@@ -159,7 +159,7 @@ impl PyJoint {
 #[pyclass(name = "Chain", module = "rigid_ccd", frozen)]
 pub(crate) struct PyChain {
     chain: Chain,
-    /// The joints, kept for pickle.
+    /// The Python objects of the joints, kept for pickle.
     joints: Vec<Py<PyJoint>>,
     base: GivenPose,
 }
@@ -183,7 +183,7 @@ impl PyChain {
         })
     }
 
-    /// The joints, in order from the base.
+    /// The joints of the chain, in order from the base.
     #[getter]
     fn joints(&self, py: Python<'_>) -> Vec<Py<PyJoint>> {
         self.joints
@@ -207,7 +207,7 @@ impl PyChain {
         self.chain.joints().len()
     }
 
-    /// The pose of a link for given positions of the joints, as a matrix of shape (4, 4).
+    /// Returns the pose of a link for given positions of the joints, as a matrix of shape (4, 4).
     fn pose<'py>(
         &self,
         py: Python<'py>,
@@ -216,10 +216,10 @@ impl PyChain {
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let positions = any_numbers(positions, "positions")?;
         let pose = self.chain.pose(index(link, "link")?, &positions);
-        Ok(matrix_of(py, &pose.map_err(input)?))
+        Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
-    /// A link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
+    /// Returns a link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
     /// planner.
     ///
     /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
@@ -279,7 +279,8 @@ pub(crate) struct PyLink {
 
 #[pymethods]
 impl PyLink {
-    /// The same link in the frame of another one, nearer to the base: query it against that link's body at rest.
+    /// Returns the same link in the frame of another one, nearer to the base: query it against that link's body at
+    /// rest.
     ///
     /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
     fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
@@ -294,10 +295,10 @@ impl PyLink {
         .checked()
     }
 
-    /// The pose at a time, as a matrix of shape (4, 4).
+    /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let pose = Trajectory::pose(&self.link()?, time);
-        Ok(matrix_of(py, &pose.map_err(input)?))
+        Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
     /// The time at which the joints are at `end`.
@@ -349,28 +350,28 @@ impl PyLink {
 }
 
 impl PyLink {
-    /// Refuses positions outside the joints' limits.
+    /// Returns the link, or an error if a position is outside a joint's limits.
     fn checked(self) -> PyResult<Self> {
         let joints = self.chain.get().chain.joints().len();
         for (what, positions) in [("start", &self.start), ("end", &self.end)] {
             if positions.len() != joints {
                 let positions = positions.len();
                 let error = InputError::JointCount { positions, joints };
-                return Err(input(format!("{what}: {error}")));
+                return Err(input_error(format!("{what}: {error}")));
             }
         }
         self.link()?;
         Ok(self)
     }
 
-    /// Returns the trajectory.
+    /// Returns the link's trajectory.
     pub(crate) fn link(&self) -> PyResult<Link<'_>> {
         let chain = &self.chain.get().chain;
         let link = chain
             .link(self.link, &self.start, &self.end, self.duration)
-            .map_err(input)?;
+            .map_err(input_error)?;
         match self.seen_from {
-            Some(from) => link.seen_from(from).map_err(input),
+            Some(from) => link.seen_from(from).map_err(input_error),
             None => Ok(link),
         }
     }

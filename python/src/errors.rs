@@ -1,4 +1,4 @@
-//! The exceptions.
+//! The Python exceptions, and conversions to them.
 
 use pyo3::exceptions::{
     PyException, PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyTypeError, PyUserWarning,
@@ -54,20 +54,25 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
 ///
 /// A panic would be an exception that `except Exception` does not catch.
-pub(crate) fn guarded<T>(what: &str, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+pub(crate) fn catching_panics<T>(what: &str, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     let done = catch_unwind(AssertUnwindSafe(work));
-    done.unwrap_or_else(|panic| Err(input(format!("{what}: {}", panic_message(panic.as_ref())))))
+    done.unwrap_or_else(|panic| {
+        Err(input_error(format!(
+            "{what}: {}",
+            panic_message(panic.as_ref())
+        )))
+    })
 }
 
 /// Converts a panic with no known input as its cause to a `RuntimeError`.
-pub(crate) fn fault(panic: &(dyn Any + Send)) -> PyErr {
+pub(crate) fn panic_error(panic: &(dyn Any + Send)) -> PyErr {
     PyRuntimeError::new_err(format!(
         "a fault of rigid_ccd, please report it: {}",
         panic_message(panic)
     ))
 }
 
-/// Returns the message of a panic.
+/// Returns the text of a panic's message.
 fn panic_message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
@@ -75,27 +80,27 @@ fn panic_message(panic: &(dyn Any + Send)) -> &str {
 }
 
 /// Converts an error of the library to an `InputError`.
-pub(crate) fn input(error: impl Display) -> PyErr {
+pub(crate) fn input_error(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
 /// Converts an error of a table to an exception.
 ///
 /// A stream hands over the text of an exception, not the exception: that of Ctrl-C stays what it is.
-pub(crate) fn of_table(error: impl Display) -> PyErr {
+pub(crate) fn error_of_table(error: impl Display) -> PyErr {
     let text = error.to_string();
     let last = text.trim_end().lines().next_back().unwrap_or_default();
     let raised = last.rsplit("Python exception: ").next().unwrap_or_default();
     if text.contains("Python exception: ") && raised.starts_with("KeyboardInterrupt") {
         PyKeyboardInterrupt::new_err(raised.to_owned())
     } else {
-        input(text)
+        input_error(text)
     }
 }
 
 /// Converts another exception to an `InputError`, with the exception as its cause. Those that are to end the program,
 /// such as that of Ctrl-C, stay what they are.
-pub(crate) fn caused(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
+pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
         return cause;
     }
@@ -105,7 +110,7 @@ pub(crate) fn caused(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
 }
 
 /// Converts an error of a file to an `OSError` of the same kind, with its number and the file.
-pub(crate) fn of_file(error: &std::io::Error, path: &std::path::Path) -> PyErr {
+pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyErr {
     match error.raw_os_error() {
         // OSError chooses the class by the number.
         Some(number) => {
@@ -136,8 +141,8 @@ pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved)
     with_attribute(py, error, "upper", upper)
 }
 
-/// Converts a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged. Either has what is
-/// done.
+/// Converts the exception of a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged.
+/// Either has what is done.
 pub(crate) fn interrupted<'py>(
     py: Python<'py>,
     cause: PyErr,
@@ -153,8 +158,8 @@ pub(crate) fn interrupted<'py>(
     with_attribute(py, error, "results", results)
 }
 
-/// Warns of input that is valid, but probably a mistake. The warning is about the line of Python that is so many calls
-/// up; Python shows one of each text for a line, so that numbers would make it many.
+/// Warns the Python program of input that is valid, but probably a mistake. The warning is about the line of Python
+/// that is so many calls up; Python shows one of each text for a line, so that numbers would make it many.
 pub(crate) fn warn(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = Remark>,
@@ -167,7 +172,7 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Makes the error of an object with the wrong type.
+/// Makes the error for an object of the wrong type.
 pub(crate) fn wrong_type(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type();
     let name = kind

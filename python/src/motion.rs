@@ -1,14 +1,14 @@
-//! Motions, and the accepted forms of poses and rotations.
+//! The Python class `Motion`, and the accepted forms of poses and rotations.
 
 use crate::arrays::{finite, shape};
-use crate::errors::{input, warn};
+use crate::errors::{input_error, warn};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
-/// The allowed deviation of a rotation matrix from orthonormal: a few products in float32 reach it. The rotation is
-/// that of the quaternion that fits it.
+/// The allowed deviation of a rotation matrix from an orthonormal one: a few products in float32 reach it. The rotation
+/// is that of the quaternion that fits it.
 const ORTHONORMAL: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
@@ -26,11 +26,11 @@ const ORTHONORMAL: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
-    made: Made,
+    made: PickleData,
 }
 
 /// The data from which pickle makes the motion again, to the same bits.
-enum Made {
+enum PickleData {
     Moving {
         start: GivenPose,
         velocity: [f64; 3],
@@ -61,7 +61,7 @@ impl PyMotion {
             None => Ok([0.0; 3]),
         };
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
-        PyMotion::from_parts(Made::Moving {
+        PyMotion::from_parts(PickleData::Moving {
             start: GivenPose(given(position, "position")?, turned),
             velocity: given(velocity, "velocity")?,
             spin: given(spin, "spin")?,
@@ -72,7 +72,7 @@ impl PyMotion {
     /// Makes the motion of a body at rest; the pose has the forms of `Motion.between`.
     #[classmethod]
     fn still(_class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyMotion::from_parts(Made::Moving {
+        PyMotion::from_parts(PickleData::Moving {
             start: given_pose(pose, "pose")?,
             velocity: [0.0; 3],
             spin: [0.0; 3],
@@ -93,7 +93,7 @@ impl PyMotion {
         duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyMotion::from_parts(Made::Between {
+        PyMotion::from_parts(PickleData::Between {
             start: given_pose(start, "start")?,
             end: given_pose(end, "end")?,
             duration,
@@ -101,7 +101,7 @@ impl PyMotion {
         })
     }
 
-    /// The pose at a time, as a matrix of shape (4, 4).
+    /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, numpy::PyArray2<f64>> {
         matrix_of(py, &self.motion.pose(time))
     }
@@ -111,7 +111,7 @@ impl PyMotion {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, class) = (slf.py(), slf.get_type().into_any());
         Ok(match slf.get().made {
-            Made::Moving {
+            PickleData::Moving {
                 start: GivenPose(place, turned),
                 velocity,
                 spin,
@@ -120,7 +120,7 @@ impl PyMotion {
                 let parts = (place, wxyz(turned), velocity, spin, center);
                 (class, parts.into_pyobject(py)?)
             }
-            Made::Between {
+            PickleData::Between {
                 start,
                 end,
                 duration,
@@ -146,40 +146,40 @@ impl PyMotion {
 }
 
 impl PyMotion {
-    fn from_parts(made: Made) -> PyResult<Self> {
+    fn from_parts(made: PickleData) -> PyResult<Self> {
         let motion = match &made {
-            Made::Moving {
+            PickleData::Moving {
                 start,
                 velocity,
                 spin,
                 center,
             } => Motion::about(start.pose("pose")?, *velocity, *spin, *center),
-            Made::Between {
+            PickleData::Between {
                 start,
                 end,
                 duration,
                 center,
             } => Motion::between(start.pose("start")?, end.pose("end")?, *center, *duration),
         };
-        let motion = motion.map_err(input)?;
+        let motion = motion.map_err(input_error)?;
         Ok(PyMotion { motion, made })
     }
 }
 
-/// A position and an orientation before normalisation, which may change even a normalised quaternion.
+/// A position and an orientation as given, before normalisation, which may change even a normalised quaternion.
 #[derive(Clone, Copy)]
 pub(crate) struct GivenPose([f64; 3], DQuat);
 
 impl GivenPose {
     pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
 
-    /// Returns the pose.
+    /// Returns the normalised pose; `what` names it in errors.
     pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
-        Pose::new(self.0, self.1).map_err(|error| input(format!("{what}: {error}")))
+        Pose::new(self.0, self.1).map_err(|error| input_error(format!("{what}: {error}")))
     }
 }
 
-/// Converts a pose to a position and a quaternion in Python.
+/// Converts a pose to a tuple of a position and a quaternion in Python.
 impl<'py> IntoPyObject<'py> for GivenPose {
     type Target = PyTuple;
     type Output = Bound<'py, PyTuple>;
@@ -210,7 +210,7 @@ pub(crate) fn matrix_of<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy::
     numpy::PyArray2::from_vec2(py, &matrix).unwrap_or_else(|_| unreachable!("rows of four numbers"))
 }
 
-/// Reads a rotation.
+/// Reads a rotation from a quaternion, a matrix or a SciPy rotation.
 fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     if value.hasattr("as_matrix")? {
         return matrix(&value.call_method0("as_matrix")?, "rotation");
@@ -224,7 +224,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
             Ok(DQuat::from_xyzw(x, y, z, w))
         }
         [3, 3] => matrix(value, "rotation"),
-        _ => Err(input(
+        _ => Err(input_error(
             "rotation: a matrix of shape (3, 3), four numbers (w, x, y, z) or a scipy Rotation is needed",
         )),
     }
@@ -243,7 +243,7 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     if is_rotation {
         Ok(DQuat::from_mat3(&matrix))
     } else {
-        Err(input(format!(
+        Err(input_error(format!(
             "{what}: the matrix is no rotation: its product with its transpose is off by {:.1e}, and its determinant \
          is {:.1}",
             error.max_by(f64::total_cmp).unwrap_or_default(),
@@ -252,24 +252,24 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     }
 }
 
-/// Reads a pose.
+/// Reads a pose from any of its accepted forms; `what` names it in errors.
 pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
     given_pose(value, what)?.pose(what)
 }
 
-/// Reads a pose without normalising it.
+/// Reads a pose as given, without normalising it.
 pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(finite(&place, what)?, rotation_of(&turned)?));
     }
     if shape(value, what)?[..] != [4, 4] {
-        return Err(input(format!(
+        return Err(input_error(format!(
             "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));
     }
     let m: [f64; 16] = finite(value, what)?;
     if m[12..] != [0.0, 0.0, 0.0, 1.0] {
-        return Err(input(format!(
+        return Err(input_error(format!(
             "{what}: the last row of the matrix is not 0, 0, 0, 1"
         )));
     }

@@ -1,14 +1,14 @@
-//! The movement of a body: a motion, a link of an arm, or a path.
+//! The movement of a body in a query: a motion, a link of an arm, or a path.
 
 use crate::chain::PyLink;
-use crate::errors::{input, wrong_type};
+use crate::errors::{input_error, wrong_type};
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Link, Poses, Trajectory};
 use rigid_ccd::{Body, Motion, Moving, Remark};
 
-/// The movement of a body.
+/// The movement of a body as a Python argument gives it.
 pub(crate) enum GivenMovement<'c> {
     Motion(Motion),
     Link(Link<'c>, f64),
@@ -16,7 +16,7 @@ pub(crate) enum GivenMovement<'c> {
 }
 
 impl<'c> GivenMovement<'c> {
-    /// Extracts a movement from the argument `motion_a` or `motion_b`; None is at rest.
+    /// Extracts a movement from the argument `motion_a` or `motion_b`; None means at rest.
     pub(crate) fn extract(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
         let Some(given) = given.filter(|given| !given.is_none()) else {
             return Ok(GivenMovement::Motion(Motion::STILL));
@@ -40,7 +40,7 @@ impl<'c> GivenMovement<'c> {
         ))
     }
 
-    /// Returns the end of the movement; `None` for a motion, which has no end.
+    /// Returns the time at which the movement ends; `None` for a motion, which has no end.
     fn end(&self) -> Option<f64> {
         match self {
             GivenMovement::Motion(_) => None,
@@ -58,14 +58,15 @@ impl<'c> GivenMovement<'c> {
     }
 }
 
-/// Two bodies with their movements.
+/// The two bodies of a query with their movements.
 pub(crate) struct Pair<'c> {
     pub(crate) a: (&'c Body, GivenMovement<'c>),
     pub(crate) b: (&'c Body, GivenMovement<'c>),
 }
 
 impl Pair<'_> {
-    /// Returns the duration of a query. The default is that of links and paths, which must be equal for both, or 1.
+    /// Returns the duration of a query: the given one, or the movements' end. The default is that of links and paths,
+    /// which must be equal for both, or 1.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
         let courses = [&self.a.1, &self.b.1];
         let ends = courses.iter().filter_map(|course| course.end());
@@ -77,7 +78,7 @@ impl Pair<'_> {
                 if ends.all(|end| end == first) {
                     first
                 } else {
-                    return Err(input(
+                    return Err(input_error(
                         "duration: the two bodies' motions end at different times; give one",
                     ));
                 }
@@ -87,7 +88,7 @@ impl Pair<'_> {
             if let GivenMovement::Link(_, end) = course
                 && duration > *end
             {
-                return Err(input(format!(
+                return Err(input_error(format!(
                     "duration: {duration} is later than {end}, the end of the link's motion: its joints would go on"
                 )));
             }
@@ -95,7 +96,7 @@ impl Pair<'_> {
         Ok(duration)
     }
 
-    /// Returns remarks about the rotation of a body over a duration.
+    /// Returns remarks if a body seems to rotate in degrees per unit of time.
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {

@@ -1,10 +1,10 @@
-//! Pages of rows, as `ccd view` writes them.
+//! Writes pages for rows of a table, as `ccd view` writes them.
 
 use crate::body::body_of;
-use crate::errors::{input as refuse, of_file};
-use crate::polled::polled;
-use crate::settings::{OF_CONTACTS, read};
-use crate::table::answering::{TableQuestion, each};
+use crate::errors::{file_error, input_error as refuse};
+use crate::interruptible::run_interruptibly;
+use crate::settings::{CONTACT_SETTINGS, read};
+use crate::table::answering::{TableQuestion, answer_rows};
 use crate::table::input::{self, Reader};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -28,7 +28,7 @@ pub(crate) fn write_pages(
     folder: PathBuf,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<PathBuf>> {
-    let settings = read(settings, OF_CONTACTS)?;
+    let settings = read(settings, CONTACT_SETTINGS)?;
     let asked = TableQuestion {
         bodies: Bodies {
             a: body_of(a, "a")?,
@@ -41,12 +41,12 @@ pub(crate) fn write_pages(
     };
     let reader = input::open(motions)?;
     let work = |stop: &Arc<_>| write(asked, reader, &rows, &folder, stop);
-    let (written, seen) = polled(py, work, |_| Ok(()))?;
+    let (written, seen) = run_interruptibly(py, work, |_| Ok(()))?;
     seen?;
     Ok(written?)
 }
 
-/// A page cannot be made.
+/// The error of a page that cannot be made.
 enum Fault {
     Table(TableError),
     Folder(PathBuf, std::io::Error),
@@ -71,7 +71,7 @@ fn write(
         .map_err(|error| Fault::Folder(folder.to_owned(), error))?;
     let mut paths = Vec::new();
     let mut fault = None;
-    each(asked, reader, rows, stop, |course, row| {
+    answer_rows(asked, reader, rows, stop, |course, row| {
         match pages.write(course, row) {
             Ok(path) => paths.push(path),
             Err(error) => {
@@ -90,9 +90,9 @@ impl From<Fault> for PyErr {
     fn from(fault: Fault) -> Self {
         match fault {
             Fault::Table(error) => refuse(error),
-            Fault::Folder(path, error) => of_file(&error, &path),
+            Fault::Folder(path, error) => file_error(&error, &path),
             Fault::Page(PagesError::Page(PageError::Write { path, source })) => {
-                of_file(&source, &path)
+                file_error(&source, &path)
             }
             Fault::Page(error) => refuse(error),
         }

@@ -1,7 +1,7 @@
-//! Paths through poses.
+//! The Python class of paths through poses.
 
 use crate::arrays::{any_numbers, finite, rows};
-use crate::errors::input;
+use crate::errors::input_error;
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
@@ -30,11 +30,11 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
-    /// The arguments, kept for pickle.
+    /// The arguments of the constructor, kept for pickle.
     made: Parts,
 }
 
-/// Times, poses, a center and angular velocities.
+/// The times, poses, centre and angular velocities of a path.
 type Parts = (Vec<f64>, Vec<GivenPose>, [f64; 3], Option<Vec<[f64; 3]>>);
 
 #[pymethods]
@@ -53,7 +53,7 @@ impl PyPath {
             .map(|(k, pose)| given_pose(&pose?, &format!("pose {k}")))
             .collect::<PyResult<_>>()?;
         if given.len() != times.len() {
-            return Err(input(format!(
+            return Err(input_error(format!(
                 "poses: there are {}, but {} times",
                 given.len(),
                 times.len()
@@ -62,11 +62,11 @@ impl PyPath {
         let center = center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?;
         let timed = times.iter().zip(&given).enumerate();
         let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
-        let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input)?;
-        let mut poses = poses.about(center).map_err(input)?;
+        let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input_error)?;
+        let mut poses = poses.about(center).map_err(input_error)?;
         let spins = spins.map(|spins| rows::<3>(spins, "spins")).transpose()?;
         if let Some(spins) = &spins {
-            poses = poses.turning(spins.clone()).map_err(input)?;
+            poses = poses.turning(spins.clone()).map_err(input_error)?;
         }
         Ok(PyPath {
             poses,
@@ -78,18 +78,18 @@ impl PyPath {
         (slf.get_type(), slf.get().made.clone())
     }
 
-    /// The time of the last pose.
+    /// The time of the last pose of the path.
     #[getter]
     fn end(&self) -> f64 {
         self.poses.end()
     }
 
-    /// The pose at a time, as a matrix of shape (4, 4).
+    /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         if time.is_nan() {
-            return Err(input("time: NaN is no time"));
+            return Err(input_error("time: NaN is no time"));
         }
-        Ok(matrix_of(py, &self.poses.pose(time).map_err(input)?))
+        Ok(matrix_of(py, &self.poses.pose(time).map_err(input_error)?))
     }
 
     fn __repr__(&self) -> String {

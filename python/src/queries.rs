@@ -1,12 +1,12 @@
-//! Single queries.
+//! The Python functions that answer single queries.
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
-use crate::errors::{fault, input, unresolved, unresolved_distance, warn};
+use crate::errors::{input_error, panic_error, unresolved, unresolved_distance, warn};
+use crate::interruptible::run_interruptibly;
 use crate::motion::pose_of;
 use crate::movement::{GivenMovement, Pair};
-use crate::polled::polled;
-use crate::settings::{OF_APPROACHES, OF_CONTACTS, OF_DISTANCES, read};
+use crate::settings::{APPROACH_SETTINGS, CONTACT_SETTINGS, DISTANCE_SETTINGS, read};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::batch::Question;
@@ -18,19 +18,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The budget of about a tenth of a second of work. A query with more to do is asked again on a thread of its own,
-/// while this one looks for Ctrl-C.
-const SHORT: u64 = 100_000;
+/// The work limit of a first attempt, about a tenth of a second. A query with more to do is asked again on a thread of
+/// its own, while this one looks for Ctrl-C.
+const FIRST_BUDGET: u64 = 100_000;
 
-/// The deadline of a first attempt, since a path has a budget for each of its segments.
-const MOMENT: Duration = Duration::from_millis(200);
+/// The time limit of a first attempt, needed because a path has a work limit for each of its segments.
+const FIRST_DEADLINE: Duration = Duration::from_millis(200);
 
 thread_local! {
     /// The solver of this thread, whose memory is reused from query to query. A panic leaves a new one.
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// Two moving bodies, and what is asked about them.
+/// Two moving bodies, and the question about them.
 struct Asked<'a> {
     question: Question,
     bodies: [Moving<'a>; 2],
@@ -44,7 +44,7 @@ impl Asked<'_> {
         solver.answer(self.question, &query)
     }
 
-    /// Compares what two answers without a result prove: the larger number is the better bound.
+    /// Returns the number that an unresolved answer proves, of which a larger one is the better bound.
     fn proven(&self, known: &Unresolved) -> f64 {
         match self.question {
             Question::GreatestDistance => -known.upper,
@@ -53,13 +53,15 @@ impl Asked<'_> {
         }
     }
 
-    /// Answers the question, without the GIL. Ctrl-C ends it.
+    /// Answers the question without the GIL, so that other Python threads run. Ctrl-C ends it.
     fn run(&self, py: Python<'_>, settings: &Settings) -> PyResult<Answer> {
         let begin = Instant::now();
         let deadline = settings.deadline;
         let short = Settings {
-            budget: settings.budget.min(SHORT),
-            deadline: Some(deadline.map_or(MOMENT, |deadline| deadline.min(MOMENT))),
+            budget: settings.budget.min(FIRST_BUDGET),
+            deadline: Some(
+                deadline.map_or(FIRST_DEADLINE, |deadline| deadline.min(FIRST_DEADLINE)),
+            ),
             ..settings.clone()
         };
         let first = py.detach(|| {
@@ -71,13 +73,13 @@ impl Asked<'_> {
             }))
         });
         let first = first
-            .map_err(|panic| fault(panic.as_ref()))?
-            .map_err(input)?;
+            .map_err(|panic| panic_error(panic.as_ref()))?
+            .map_err(input_error)?;
         let until = match &first.outcome {
             Outcome::Unresolved(known)
-                if known.limit == Limit::Budget && settings.budget > SHORT
+                if known.limit == Limit::Budget && settings.budget > FIRST_BUDGET
                     || known.limit == Limit::Deadline
-                        && deadline.is_none_or(|deadline| deadline > MOMENT) =>
+                        && deadline.is_none_or(|deadline| deadline > FIRST_DEADLINE) =>
             {
                 self.proven(known)
             }
@@ -92,9 +94,9 @@ impl Asked<'_> {
             };
             self.answer(&mut Solver::new(), &settings)
         };
-        let (found, seen) = polled(py, work, |_| Ok(()))?;
+        let (found, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen?;
-        let found = found.map_err(input)?;
+        let found = found.map_err(input_error)?;
         // If little time is left, the first answer may be better.
         Ok(match &found.outcome {
             Outcome::Unresolved(known) if until > self.proven(known) => first,
@@ -103,7 +105,7 @@ impl Asked<'_> {
     }
 }
 
-/// A body and its motion, as arguments.
+/// A body and its motion, as a Python caller passes them.
 type Given<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
 /// Asks a question about two moving bodies.
@@ -138,12 +140,12 @@ fn ask(
     asked.run(py, settings)
 }
 
-/// Returns the contact of an answer.
+/// Returns the contact in an answer; `None` if the bodies stay apart.
 fn hit(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
     answer.hit().map_err(|known| unresolved(py, &known))
 }
 
-/// Returns the distance of an answer.
+/// Returns the distance in an answer, as a Python object.
 fn measured<'py>(
     py: Python<'py>,
     answer: &Answer,
@@ -190,7 +192,7 @@ pub(crate) fn first_contact<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let settings = read(settings, OF_CONTACTS)?;
+    let settings = read(settings, CONTACT_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::FirstContact, bodies, duration, &settings)?;
     let hit = hit(py, answer)?;
@@ -212,7 +214,7 @@ pub(crate) fn is_free(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
-    let settings = read(settings, OF_CONTACTS)?;
+    let settings = read(settings, CONTACT_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::IsFree, bodies, duration, &settings)?;
     Ok(hit(py, answer)?.is_none())
@@ -243,7 +245,7 @@ pub(crate) fn closest_approach<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = read(settings, OF_APPROACHES)?;
+    let settings = read(settings, APPROACH_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::ClosestApproach, bodies, duration, &settings)?;
     measured(py, &answer, &settings)
@@ -269,7 +271,7 @@ pub(crate) fn greatest_distance<'py>(
     duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = read(settings, OF_DISTANCES)?;
+    let settings = read(settings, DISTANCE_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::GreatestDistance, bodies, duration, &settings)?;
     measured(py, &answer, &settings)
@@ -296,7 +298,7 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let settings = read(settings, OF_DISTANCES)?;
+    let settings = read(settings, DISTANCE_SETTINGS)?;
     warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (body_of(a, "a")?, body_of(b, "b")?);
     let asked = Asked {

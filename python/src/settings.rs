@@ -1,28 +1,28 @@
-//! The settings of queries, given as keyword arguments.
+//! Reads the settings of queries from Python keyword arguments.
 
-use crate::errors::{caused, input};
+use crate::errors::{input_error, input_error_from};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Settings;
 use std::time::Duration;
 
-/// The settings of a query about contacts.
-pub(crate) const OF_CONTACTS: &[&str] = &["tolerance", "margin", "budget", "deadline"];
+/// The names of the settings of a query about contacts.
+pub(crate) const CONTACT_SETTINGS: &[&str] = &["tolerance", "margin", "budget", "deadline"];
 
-/// The settings of a query about distances.
-pub(crate) const OF_DISTANCES: &[&str] = &["tolerance", "budget", "deadline"];
+/// The names of the settings of a query about distances.
+pub(crate) const DISTANCE_SETTINGS: &[&str] = &["tolerance", "budget", "deadline"];
 
-/// The settings of a query about the least distance.
-pub(crate) const OF_APPROACHES: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
+/// The names of the settings of a query about the least distance.
+pub(crate) const APPROACH_SETTINGS: &[&str] = &["tolerance", "clearance", "budget", "deadline"];
 
-/// The further settings of a table query, which are in its signature.
-pub(crate) const OF_TABLES: &[&str] = &["threads", "progress", "micros"];
+/// The names of the further settings of a table query, which are in its signature.
+pub(crate) const TABLE_SETTINGS: &[&str] = &["threads", "progress", "micros"];
 
-/// The maximum number of threads, as in the command.
+/// The maximum number of threads, the same as in the command.
 const MOST_THREADS: u16 = 1024;
 
-/// Reads the settings of a query; only the names in `known` are accepted.
+/// Reads the settings of a query; a keyword that is not in `known` is an error.
 pub(crate) fn read(
     given: Option<&Bound<'_, PyDict>>,
     known: &[&'static str],
@@ -51,7 +51,8 @@ pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
     let in_range = |&threads: &u16| (1..=MOST_THREADS).contains(&threads);
     let threads = |given: i64| {
         let threads = u16::try_from(given).ok().filter(in_range);
-        threads.ok_or_else(|| input(format!("threads: {given} is not from 1 to {MOST_THREADS}")))
+        threads
+            .ok_or_else(|| input_error(format!("threads: {given} is not from 1 to {MOST_THREADS}")))
     };
     given.map(threads).transpose()
 }
@@ -65,17 +66,17 @@ where
         if error.is_instance_of::<PyTypeError>(py) {
             PyTypeError::new_err(format!("{name}: {}", error.value(py)))
         } else {
-            caused(py, name, error)
+            input_error_from(py, name, error)
         }
     })
 }
 
-/// Reads a time in seconds; infinity gives `None`.
+/// Reads a time limit in seconds; infinity gives `None`.
 fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let finite = seconds.filter(|&seconds| seconds != f64::INFINITY);
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();
     deadline.map_err(|_| {
-        input(format!(
+        input_error(format!(
             "deadline: {} is no number of seconds from 0",
             seconds.unwrap_or_default()
         ))

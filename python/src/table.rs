@@ -1,4 +1,4 @@
-//! Tables in Arrow columns.
+//! The Python class `Table`, whose columns are Arrow arrays.
 
 pub(crate) mod answering;
 mod batch;
@@ -10,8 +10,8 @@ mod results;
 mod stored;
 
 use crate::arrays::row_numbers;
-use crate::errors::{guarded, input as refuse, of_table};
-use crate::polled::polled;
+use crate::errors::{catching_panics, error_of_table, input_error as refuse};
+use crate::interruptible::run_interruptibly;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
 use arrow_schema::Field;
@@ -43,24 +43,24 @@ impl PyTable {
         if reader.schema().fields().is_empty() {
             return Err(refuse("table: there is no column"));
         }
-        let (found, seen) = polled(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
+        let (found, seen) = run_interruptibly(py, |stop| batch::whole(reader, stop), |_| Ok(()))?;
         seen?;
-        let batch = found.map_err(|error| of_table(format!("table: {error}")))?;
+        let batch = found.map_err(|error| error_of_table(format!("table: {error}")))?;
         Ok(PyTable { batch })
     }
 
-    /// The names of the columns, in order.
+    /// The names of the table's columns, in order.
     #[getter]
     fn column_names(&self) -> Vec<String> {
         batch::header(&self.batch.schema())
     }
 
-    /// The names of the columns, like the keys of a dict.
+    /// Returns the names of the columns, like the keys of a dict.
     fn keys(&self) -> Vec<String> {
         self.column_names()
     }
 
-    /// The rows with these indices, in that order, as a table; or those for which a boolean array is true.
+    /// Returns the rows with these indices, in that order, as a table; or those for which a boolean array is true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
         let rows = row_numbers(rows, all)?;
@@ -68,7 +68,7 @@ impl PyTable {
             return Err(refuse(format!("row {wrong}: the table has {all} rows")));
         }
         let rows = arrow_array::Int64Array::from(rows);
-        let batch = guarded("rows", || {
+        let batch = catching_panics("rows", || {
             arrow_select::take::take_record_batch(&self.batch, &rows).map_err(refuse)
         })?;
         Ok(PyTable { batch })
@@ -82,13 +82,13 @@ impl PyTable {
         checksum: u32,
     ) -> PyResult<Self> {
         let (py, stored) = (class.py(), stored.as_bytes());
-        let batch = guarded("table", || py.detach(|| stored::read(stored, checksum)))?;
+        let batch = catching_panics("table", || py.detach(|| stored::read(stored, checksum)))?;
         Ok(PyTable { batch })
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
         let (py, batch) = (slf.py(), &slf.get().batch);
-        let stored = guarded("table", || py.detach(|| stored::write(batch)))?;
+        let stored = catching_panics("table", || py.detach(|| stored::write(batch)))?;
         let make = slf.get_type().getattr("_from_bytes")?;
         Ok((make, (PyBytes::new(py, &stored), stored::checksum(&stored))))
     }
@@ -107,7 +107,7 @@ impl PyTable {
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         match self.batch.column_by_name(name) {
-            Some(column) => guarded(&format!("column {name}"), || {
+            Some(column) => catching_panics(&format!("column {name}"), || {
                 numpy_column::to_numpy(py, column)
             }),
             None => {
@@ -136,7 +136,7 @@ impl PyTable {
         format!("Table({rows} rows, {columns} columns{})", self.counts())
     }
 
-    /// The names and types of the columns, as an Arrow schema.
+    /// Returns the names and types of the columns, as an Arrow schema.
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         Ok(to_schema_pycapsule(py, self.batch.schema().as_ref())?)
     }
@@ -164,7 +164,7 @@ impl PyTable {
     }
 }
 
-/// The pickled form of a table, and its checksum.
+/// The pickled form of a table, with its checksum.
 type Stored<'py> = (Bound<'py, PyBytes>, u32);
 
 impl PyTable {
@@ -175,7 +175,7 @@ impl PyTable {
         (Arc::new(field.with_metadata(metadata)), columns)
     }
 
-    /// Returns the number of rows of each status, in words.
+    /// Describes in words how many rows have each status.
     fn counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {

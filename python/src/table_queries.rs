@@ -1,9 +1,11 @@
-//! A question about each row of a table.
+//! The Python functions that answer a question about each row of a table.
 
 use crate::body::{body_of, warn_of_tolerance};
-use crate::errors::{input as refuse, interrupted, of_table, warn, with_attribute, wrong_type};
-use crate::polled::polled;
-use crate::settings::{self, OF_APPROACHES, OF_CONTACTS, OF_TABLES};
+use crate::errors::{
+    error_of_table, input_error as refuse, interrupted, warn, with_attribute, wrong_type,
+};
+use crate::interruptible::run_interruptibly;
+use crate::settings::{self, APPROACH_SETTINGS, CONTACT_SETTINGS, TABLE_SETTINGS};
 use crate::table::answering::{Answered, TableQuestion, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -30,10 +32,10 @@ pub(crate) fn answer_table(
     micros: bool,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
-    let question = self::question(question)?;
+    let question = self::question_named(question)?;
     let settings = Settings {
         clearance,
-        ..settings::read(settings, &known(question))?
+        ..settings::read(settings, &known_settings(question))?
     };
     let asked = TableQuestion {
         bodies: Bodies {
@@ -64,7 +66,7 @@ pub(crate) fn answer_table(
         }
     };
     let work = |stop: &_| answer(asked, reader, stop, &done);
-    let (found, interruption) = polled(py, work, &mut report)?;
+    let (found, interruption) = run_interruptibly(py, work, &mut report)?;
     let found = found.map_err(|error| table_error(&error))?;
     let Answered {
         results,
@@ -81,17 +83,17 @@ pub(crate) fn answer_table(
             error => with_attribute(py, error, "results", table),
         }),
         (Ok(()), None) => {
-            warn(py, remarks, CALLS_UP)?;
-            warn_of_tolerance([a, b], settings.tolerance, CALLS_UP)?;
+            warn(py, remarks, FRAMES_TO_CALLER)?;
+            warn_of_tolerance([a, b], settings.tolerance, FRAMES_TO_CALLER)?;
             Ok(table)
         }
     }
 }
 
 /// The number of stack frames from `answer_table` to the caller of `rigid_ccd.first_contacts`.
-const CALLS_UP: i32 = 3;
+const FRAMES_TO_CALLER: i32 = 3;
 
-fn question(name: &str) -> PyResult<Question> {
+fn question_named(name: &str) -> PyResult<Question> {
     let found = Question::ALL
         .into_iter()
         .find(|question| question.name() == name);
@@ -104,13 +106,13 @@ fn question(name: &str) -> PyResult<Question> {
     })
 }
 
-fn known(question: Question) -> Vec<&'static str> {
+fn known_settings(question: Question) -> Vec<&'static str> {
     let of_query = if question.is_for_a_distance() {
-        OF_APPROACHES
+        APPROACH_SETTINGS
     } else {
-        OF_CONTACTS
+        CONTACT_SETTINGS
     };
-    [of_query, OF_TABLES].concat()
+    [of_query, TABLE_SETTINGS].concat()
 }
 
 /// Refuses settings that are invalid for every query.
@@ -134,7 +136,7 @@ fn check(asked: TableQuestion<'_>) -> PyResult<()> {
 }
 
 fn table_error(error: &TableError) -> PyErr {
-    of_table(match error {
+    error_of_table(match error {
         TableError::Empty => "motions: there is no column".to_owned(),
         TableError::Unreadable(why) => format!("motions: {why}"),
         other => format!("motions: {other}"),

@@ -1,12 +1,12 @@
-//! A cast in double precision, converted to a query of the engine.
+//! Converts a cast in double precision to a query of the engine.
 
 use crate::half_space::HalfSpace;
-use crate::horizon::{Horizon, Reaching, relative_displacement};
+use crate::horizon::{Horizon, MotionWithExtent, relative_displacement};
 use crate::interval::Interval;
-use crate::leaving::parting;
+use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{BEYOND, RELATIVE, SHARE_OF_SIZE};
+use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDED_UP, SHARE_OF_SIZE};
 use crate::{CastError, Options, Prepared, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
@@ -17,27 +17,27 @@ use std::sync::Arc;
 /// A cast of two shapes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cast<'a> {
-    pub(crate) shapes: [&'a Ready; 2],
+    pub(crate) shapes: [&'a PreparedShape; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) interval: Interval,
-    /// The distance at which they are in contact.
+    /// The distance at which the two shapes are in contact, in the scene's unit of length.
     pub(crate) target: f64,
     pub(crate) start: StartPolicy,
     pub(crate) options: Options,
-    /// The default tolerance.
+    /// The default tolerance, in the scene's unit of length.
     pub(crate) contact: f64,
 }
 
 /// A shape prepared for casts.
 #[derive(Clone, Debug)]
-pub(crate) enum Ready {
+pub(crate) enum PreparedShape {
     Body(Arc<Prepared>),
     HalfSpace(HalfSpace),
 }
 
-impl Ready {
-    /// Prepares both shapes of a cast; an error names its shape.
-    pub(crate) fn both<S>(
+impl PreparedShape {
+    /// Prepares both shapes of a cast; an error says which shape it is about.
+    pub(crate) fn prepare_both<S>(
         [g1, g2]: [S; 2],
         mut ready: impl FnMut(S) -> Result<Self, ShapeError>,
     ) -> Result<[Self; 2], CastError> {
@@ -47,48 +47,52 @@ impl Ready {
     }
 }
 
-/// A motion that starts at the start of the interval.
+/// A motion whose time 0 is the start of the cast's interval.
 #[derive(Clone, Copy, Debug)]
-struct Started {
+struct ShiftedMotion {
     motion: Motion,
     /// A bound on the motion's deviation due to rounding.
     stray: Stray,
 }
 
 impl Cast<'_> {
-    /// Finds the first contact in the interval.
+    /// Finds the first contact in the interval of the cast.
     pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
-        self.posed(|scene| self.hit(scene, solver))
+        self.with_scene(|scene| self.hit(scene, solver))
     }
 
-    /// Builds the engine's scene for a cast.
-    pub(crate) fn posed<T>(
+    /// Builds the engine's scene for a cast, and calls a function with it.
+    pub(crate) fn with_scene<T>(
         &self,
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
-        let started = self.started()?;
+        let shifted = self.motions_from_start()?;
         match self.shapes {
-            [Ready::Body(a), Ready::Body(b)] => then(&self.of_bodies([a, b], started)?),
-            [Ready::HalfSpace(plane), Ready::Body(body)] => {
-                self.on_plane(plane, 0, body, started, then)
+            [PreparedShape::Body(a), PreparedShape::Body(b)] => {
+                then(&self.scene_of_bodies([a, b], shifted)?)
             }
-            [Ready::Body(body), Ready::HalfSpace(plane)] => {
-                self.on_plane(plane, 1, body, started, then)
+            [PreparedShape::HalfSpace(plane), PreparedShape::Body(body)] => {
+                self.with_plane_scene(plane, 0, body, shifted, then)
             }
-            [Ready::HalfSpace(_), Ready::HalfSpace(_)] => Err(CastError::HalfSpaces),
+            [PreparedShape::Body(body), PreparedShape::HalfSpace(plane)] => {
+                self.with_plane_scene(plane, 1, body, shifted, then)
+            }
+            [PreparedShape::HalfSpace(_), PreparedShape::HalfSpace(_)] => {
+                Err(CastError::HalfSpaces)
+            }
         }
     }
 
-    fn of_bodies<'b>(
+    fn scene_of_bodies<'b>(
         &self,
         bodies: [&'b Prepared; 2],
-        started: [Started; 2],
+        shifted: [ShiftedMotion; 2],
     ) -> Result<Scene<'b>, CastError> {
-        let frames = started.map(|started| started.motion);
-        let started = [0, 1].map(|k| started[k].without_spin_of(bodies[k]));
-        let sides = [0, 1].map(|k| started[k].reaching(bodies[k]));
-        let slack = |k: usize| bodies[k].slack() + slack(started[k].stray, &sides[k]);
-        let rounded = self.rounded(relative_displacement(
+        let frames = shifted.map(|shifted| shifted.motion);
+        let shifted = [0, 1].map(|k| shifted[k].without_spin_of(bodies[k]));
+        let sides = [0, 1].map(|k| shifted[k].motion_with_extent(bodies[k]));
+        let slack = |k: usize| bodies[k].slack() + point_deviation(shifted[k].stray, &sides[k]);
+        let rounded = self.velocity_rounding(relative_displacement(
             &sides,
             self.target + self.tolerance(&bodies),
         ));
@@ -105,20 +109,20 @@ impl Cast<'_> {
         })
     }
 
-    /// Builds the engine's scene for a half-space, shape number `k`, and a body.
-    fn on_plane<T>(
+    /// Builds the engine's scene for a cast of a body against the half-space that is shape number `k`.
+    fn with_plane_scene<T>(
         &self,
         plane: &HalfSpace,
         index: usize,
         body: &Prepared,
-        started: [Started; 2],
+        shifted: [ShiftedMotion; 2],
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
-        let frames = started.map(|started| started.motion);
-        let side = started[1 - index].without_spin_of(body);
+        let frames = shifted.map(|shifted| shifted.motion);
+        let side = shifted[1 - index].without_spin_of(body);
         let stray = side.stray;
-        let side = side.reaching(body);
-        let of_plane = started[index].reaching_plane(&side);
+        let side = side.motion_with_extent(body);
+        let of_plane = shifted[index].plane_with_extent(&side);
         let within = self.settings(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
         let wanted = self.interval.length();
@@ -127,10 +131,11 @@ impl Cast<'_> {
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
         let away = length(of_plane.about - of_plane.motion.centre());
-        let off = started[index].stray.at(4.0 * reach + away);
-        let slack = body.slack() + slack(stray, &side) + off + self.rounded(reach);
+        let off = shifted[index].stray.at(4.0 * reach + away);
+        let slack =
+            body.slack() + point_deviation(stray, &side) + off + self.velocity_rounding(reach);
         let settings = self.settings(&[body], slack)?;
-        let stand_in = plane.stand_in(of_plane, 2.0 * reach).map_err(|error| {
+        let stand_in = plane.box_within(of_plane, 2.0 * reach).map_err(|error| {
             let which = index as u8 + 1;
             CastError::Shape { which, error }
         })?;
@@ -150,7 +155,7 @@ impl Cast<'_> {
         })
     }
 
-    /// Returns the hit; overlapping bodies that begin to part are ignored until they are apart.
+    /// Returns the first contact; overlapping bodies that begin to part are ignored until they are apart.
     fn hit(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let found = scene.first_contact(solver)?;
         match found {
@@ -159,32 +164,32 @@ impl Cast<'_> {
                     && self.start == StartPolicy::Leave
                     && scene.may_part() =>
             {
-                parting(scene, found, solver)
+                first_contact_unless_parting(scene, found, solver)
             }
             _ => Ok(found),
         }
     }
 
-    /// Returns the motions from the start of the interval on, relative to the second body's velocity: a common velocity
-    /// loses no digits.
-    fn started(&self) -> Result<[Started; 2], CastError> {
+    /// Returns the motions from the start of the interval on, without the velocity of the second body: a common
+    /// velocity loses no digits.
+    fn motions_from_start(&self) -> Result<[ShiftedMotion; 2], CastError> {
         let along = self.motions[1].velocity();
-        let started = |k: usize| {
+        let shifted = |k: usize| {
             let named = |error| {
                 let which = k as u8 + 1;
                 CastError::Motion { which, error }
             };
-            Started::new(&self.motions[k], self.interval.start(), along).map_err(named)
+            ShiftedMotion::new(&self.motions[k], self.interval.start(), along).map_err(named)
         };
-        Ok([started(0)?, started(1)?])
+        Ok([shifted(0)?, shifted(1)?])
     }
 
-    /// Bounds the deviation due to that subtraction, for bodies that move `displacement` past each other.
-    fn rounded(&self, displacement: f64) -> f64 {
+    /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.
+    fn velocity_rounding(&self, displacement: f64) -> f64 {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
         } else {
-            RELATIVE * displacement
+            DIFFERENCE_ROUNDING * displacement
         }
     }
 
@@ -199,7 +204,7 @@ impl Cast<'_> {
         asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
     }
 
-    /// Returns the engine's settings for bodies with a deviation of at most `slack`.
+    /// Returns the engine's settings for bodies whose points deviate by at most `slack`.
     fn settings(&self, bodies: &[&Prepared], slack: f64) -> Result<Settings, CastError> {
         let margin = self.target + slack;
         if !(self.target >= 0.0 && margin.is_finite()) {
@@ -220,7 +225,7 @@ impl Cast<'_> {
     }
 }
 
-impl Started {
+impl ShiftedMotion {
     fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
         // All points of a body that does not rotate move straight; its origin as the centre rounds least.
         let centre = if motion.spin() == DVec3::ZERO {
@@ -231,58 +236,58 @@ impl Started {
         let motion = Motion::about(motion.start(), motion.velocity(), motion.spin(), centre)?;
         let Stretch { motion, stray, .. } = motion.stretch(start, start)?;
         let velocity = motion.velocity() - along;
-        Ok(Started {
+        Ok(ShiftedMotion {
             motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
             stray,
         })
     }
 
-    /// Returns the motion with the extent of a body.
-    fn reaching(&self, body: &Prepared) -> Reaching {
+    /// Returns the motion together with the extent of its body.
+    fn motion_with_extent(&self, body: &Prepared) -> MotionWithExtent {
         let (middle, radius) = body.ball();
         let about = if self.motion.spin() == DVec3::ZERO {
             middle
         } else {
             self.motion.centre()
         };
-        Reaching {
+        MotionWithExtent {
             motion: self.motion,
             about,
-            reach: (length(middle - about) + radius) * BEYOND,
+            reach: (length(middle - about) + radius) * END_ROUNDED_UP,
         }
     }
 
     /// Returns the motion of a half-space, about its point nearest to the other body.
-    fn reaching_plane(&self, other: &Reaching) -> Reaching {
+    fn plane_with_extent(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
         let about = if self.motion.spin() == DVec3::ZERO {
-            start.inverse().transform_point(other.place())
+            start.inverse().transform_point(other.start_position())
         } else {
             self.motion.centre()
         };
-        Reaching {
+        MotionWithExtent {
             motion: self.motion,
             about,
             reach: 0.0,
         }
     }
 
-    /// Returns the motion without an angular velocity that leaves a ball unchanged.
+    /// Returns the motion with the angular velocity removed if the body is a ball that rotates about its centre.
     fn without_spin_of(self, body: &Prepared) -> Self {
         if body.point() != Some(self.motion.centre()) {
             return self;
         }
         let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];
         let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, centre);
-        Started {
+        ShiftedMotion {
             motion: slides.unwrap_or(self.motion),
             ..self
         }
     }
 }
 
-/// Bounds the deviation of a body's points.
-fn slack(stray: Stray, side: &Reaching) -> f64 {
+/// Bounds the deviation of all points of a body, as a length.
+fn point_deviation(stray: Stray, side: &MotionWithExtent) -> f64 {
     stray.at(side.reach + length(side.about - side.motion.centre()))
 }
 

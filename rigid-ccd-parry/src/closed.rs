@@ -1,4 +1,4 @@
-//! The test for closed meshes.
+//! Tests whether a mesh is closed.
 
 use ccd_core::glam::DVec3;
 use std::collections::HashMap;

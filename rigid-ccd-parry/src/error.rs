@@ -1,8 +1,8 @@
-//! Errors: shapes and casts that are refused.
+//! The errors of shapes and casts that are refused.
 
 use ccd_core::InputError;
 
-/// The error of a cast.
+/// The reason why a cast has no answer.
 ///
 /// parry's error, `Unsupported`, tells nothing. It is made from this one, by the functions with parry's signatures.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -13,7 +13,7 @@ pub enum CastError {
     Shape {
         /// The number of the shape: 1 or 2.
         which: u8,
-        /// The error of the shape.
+        /// The reason why the shape is refused.
         #[source]
         error: ShapeError,
     },
@@ -22,16 +22,16 @@ pub enum CastError {
     Motion {
         /// The number of the motion: 1 or 2.
         which: u8,
-        /// The error of the motion.
+        /// The reason why the motion is refused.
         #[source]
         error: InputError,
     },
-    /// A time or a distance is invalid.
+    /// A number given as a time or a distance is invalid.
     #[error("{what} is {value}, but must be {allowed}")]
     Number {
-        /// The name of the argument.
+        /// The name of the argument in the function's signature.
         what: &'static str,
-        /// The value.
+        /// The given number.
         value: f64,
         /// The accepted values, in words.
         allowed: &'static str,
@@ -39,7 +39,7 @@ pub enum CastError {
     /// Both shapes are half-spaces, which have no nearest points in general.
     #[error("both shapes are half-spaces")]
     HalfSpaces,
-    /// An interval without time cannot be recorded.
+    /// The interval contains no time, so that no cast can be recorded.
     #[error("the interval holds no time: its end is before its start")]
     NoTime,
     /// The engine refuses the scene, for example because it is too large.
@@ -51,18 +51,18 @@ pub enum CastError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShapeError {
-    /// The shape has an unknown type.
+    /// The type of the shape is not known to this crate.
     #[error("the shape is of a custom type, whose points are not known")]
     Custom,
     /// A half-space is a part of a compound, or is given where a bounded body is required.
     #[error("a half-space is served alone only, and not as a body")]
     HalfSpace,
-    /// A size is negative, NaN or infinite.
+    /// A size of the shape is negative, NaN or infinite.
     #[error("its {what} is {value}, but must be at least 0 and finite")]
     Size {
-        /// The name of the size.
+        /// The name of the size, such as a radius.
         what: &'static str,
-        /// The value.
+        /// The given size.
         value: f64,
     },
     /// A polytope around a round shape would need too many corners.
@@ -70,9 +70,9 @@ pub enum ShapeError {
         "a polytope about it that exceeds it by only {asked} would have too many corners; {least} can be had"
     )]
     Excess {
-        /// The excess that was requested.
+        /// The excess that the options allow, in the scene's unit of length.
         asked: f64,
-        /// The least possible excess for this shape.
+        /// The least possible excess for this shape, in the same unit.
         least: f64,
     },
     /// The shape is a cylinder or a cone, which the [options](crate::Excess::Refuse) refuse.
@@ -91,15 +91,15 @@ pub enum ShapeError {
     /// Voxels have sizes or positions that parry itself cannot distinguish.
     #[error("its voxels are too far from the origin, or of a size that is not positive")]
     Grid,
-    /// Compounds are nested too deeply.
+    /// The shape is a compound of compounds that is nested too deeply.
     #[error("its parts are nested more than {} deep", crate::limits::DEEPEST)]
     Nested,
-    /// A part of a compound is refused.
+    /// A part of the compound is refused.
     #[error("part {part}: {error}")]
     Part {
-        /// The index of the part.
+        /// The index of the part in the compound.
         part: u32,
-        /// The error of the part.
+        /// The reason why the part is refused.
         #[source]
         error: Box<ShapeError>,
     },
@@ -108,7 +108,7 @@ pub enum ShapeError {
     Piece {
         /// The index of the triangle, segment or part; 0 for shapes without indices.
         number: u32,
-        /// The error of the piece.
+        /// The reason why the engine refuses the piece.
         #[source]
         error: InputError,
     },

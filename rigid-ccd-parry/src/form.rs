@@ -1,8 +1,8 @@
-//! The geometry of a shape in double precision, from which a body is made.
+//! Describes the geometry of a shape in double precision, from which a body is made.
 
 use crate::closed::open_edge;
 use crate::order::{greater, length};
-use crate::tolerance::PLACED;
+use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
@@ -24,15 +24,15 @@ pub(crate) struct Form {
     /// A cylinder or a cone, grown by a radius, if the form consists of it alone.
     round: Option<(Round, f64, Excess)>,
     volume: Volume,
-    /// A bound on the rounding error of points.
+    /// A bound on the rounding error of points, as a length.
     slack: f64,
-    /// A bound on the excess of polytopes over the shapes that they enclose.
+    /// A bound on how far polytopes extend beyond the round shapes that they enclose.
     excess: f64,
-    /// If the form is one exact part, its boundary as triangles, and the sub-shape indices of these.
+    /// The boundary as triangles, and the triangles' sub-shape indices, if the form is one exact part.
     surface: Option<(Vec<[u32; 3]>, Vec<u32>)>,
 }
 
-/// A convex part.
+/// A convex part of a form: the hull of points, grown by a radius.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     polytope: Polytope,
@@ -41,7 +41,7 @@ struct Part {
 }
 
 impl Form {
-    /// An empty form.
+    /// The form without any points.
     pub(crate) const EMPTY: Form = Form {
         vertices: Vec::new(),
         triangles: Vec::new(),
@@ -62,12 +62,12 @@ impl Form {
         }
     }
 
-    /// Returns the form with a polytope in place of a cylinder or a cone.
-    pub(crate) fn expanded(&self) -> Result<Cow<'_, Form>, ShapeError> {
+    /// Returns the form with a polytope in place of a cylinder or a cone, if it is one.
+    pub(crate) fn with_polytope(&self) -> Result<Cow<'_, Form>, ShapeError> {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
         };
-        let about = enclosed(round, *excess)?;
+        let about = polytope_around(round, *excess)?;
         let (triangles, numbers) = about.triangles();
         let has_surface = *radius == 0.0 && !triangles.is_empty();
         let turned = |point: &DVec3| DVec3::new(point.y, point.z, point.x);
@@ -88,7 +88,7 @@ impl Form {
         }))
     }
 
-    /// Adds the hull of points, grown by a radius.
+    /// Adds the hull of some points, grown by a radius, as a part.
     pub(crate) fn push_hull(&mut self, points: Vec<DVec3>, radius: f64, loops: &[Vec<u32>]) {
         let facet = |(id, corners): (usize, &Vec<u32>)| Facet {
             origin: Origin::Face(id as u32),
@@ -105,7 +105,7 @@ impl Form {
         });
     }
 
-    /// Adds a box between two corners.
+    /// Adds the box between its lowest and its highest corner, grown by a radius.
     pub(crate) fn push_box(&mut self, low: DVec3, high: DVec3, radius: f64) {
         let pick = |corner: u32, bit: u32| [low, high][(corner >> bit & 1) as usize];
         let corner = |k| DVec3::new(pick(k, 0).x, pick(k, 1).y, pick(k, 2).z);
@@ -127,7 +127,7 @@ impl Form {
         }
     }
 
-    /// Adds a segment.
+    /// Adds a segment as a part, with its sub-shape index.
     pub(crate) fn push_segment(&mut self, ends: [DVec3; 2], number: u32) {
         let polytope = Polytope {
             points: ends.to_vec(),
@@ -136,7 +136,7 @@ impl Form {
         self.parts.push(Part { polytope, number });
     }
 
-    /// Adds a triangle.
+    /// Adds a triangle with its sub-shape index.
     pub(crate) fn push_triangle(&mut self, corners: [DVec3; 3], number: u32) {
         let first = self.vertices.len() as u32;
         self.vertices.extend(corners);
@@ -153,16 +153,16 @@ impl Form {
         self.triangle_numbers.extend(0..faces.len() as u32);
     }
 
-    /// Increases the bound on the rounding error of points.
+    /// Adds to the bound on the rounding error of points.
     pub(crate) fn add_slack(&mut self, slack: f64) {
         self.slack = greater(self.slack, slack);
     }
 
-    /// Returns the form with the triangles as the surface of a solid.
+    /// Returns the form in which the triangles are the surface of a solid.
     ///
     /// # Errors
     /// [`ShapeError::Open`] unless they are closed.
-    pub(crate) fn filled(self) -> Result<Self, ShapeError> {
+    pub(crate) fn as_solid(self) -> Result<Self, ShapeError> {
         match open_edge(&self.vertices, &self.triangles) {
             Some([from, to]) => Err(ShapeError::Open { from, to }),
             None => Ok(Form {
@@ -179,13 +179,13 @@ impl Form {
         inner: &Form,
         number: u32,
     ) -> Result<(), ShapeError> {
-        let inner = inner.expanded()?;
+        let inner = inner.with_polytope()?;
         let place = |point: &DVec3| pose.transform_point(*point);
         let reach = (inner.points()).fold(0.0, |most, point| greater(most, length(*point)));
         let moved = if *pose == Pose::IDENTITY {
             0.0
         } else {
-            PLACED * (reach + length(pose.translation()))
+            POSE_ROUNDING * (reach + length(pose.translation()))
         };
         let first = self.vertices.len() as u32;
         self.vertices.extend(inner.vertices.iter().map(place));
@@ -205,12 +205,12 @@ impl Form {
         Ok(())
     }
 
-    /// Returns a bound on the rounding error of points.
+    /// Returns the bound on the rounding error of points, as a length.
     pub(crate) fn slack(&self) -> f64 {
         self.slack
     }
 
-    /// Returns a bound on the excess of polytopes over the shapes that they enclose.
+    /// Returns the bound on how far polytopes extend beyond the round shapes that they enclose.
     pub(crate) fn excess(&self) -> f64 {
         self.excess
     }
@@ -241,10 +241,10 @@ impl Form {
             |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, farthest(self.vertices.iter(), middle));
-        (middle, radius * crate::tolerance::BEYOND)
+        (middle, radius * crate::tolerance::END_ROUNDED_UP)
     }
 
-    /// Returns the centre if the form is a ball.
+    /// Returns the centre if the form is a single ball; `None` for other forms.
     pub(crate) fn point(&self) -> Option<DVec3> {
         match &self.parts[..] {
             [part] if self.triangles.is_empty() => match part.polytope.points[..] {
@@ -260,7 +260,7 @@ impl Form {
         self.vertices.iter().chain(parts)
     }
 
-    /// Returns the body and the sub-shape index of each of its pieces, in the body's order.
+    /// Makes the body, and returns it with the sub-shape index of each of its pieces, in the body's order.
     ///
     /// # Errors
     /// [`ShapeError::Piece`] that names the sub-shape, [`ShapeError::Body`].
@@ -271,10 +271,10 @@ impl Form {
                 Pieces::triangles(&self.vertices, &self.triangles, &self.triangle_numbers)
                     .and_then(|pieces| Body::new(&pieces, self.volume))
             }
-            (parts, false) => self.of_parts(&self.all_parts(parts)),
+            (parts, false) => self.of_parts(&self.parts_and_triangles(parts)),
         };
-        let body = made.map_err(|error| self.named(error))?;
-        let numbers = (0..body.pieces().len()).map(|k| self.number(&body, k));
+        let body = made.map_err(|error| self.with_sub_shape(error))?;
+        let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_of_piece(&body, k));
         let numbers = numbers.collect();
         Ok((body, numbers))
     }
@@ -300,8 +300,8 @@ impl Form {
         Body::new(&pieces, Volume::Surface)
     }
 
-    /// Returns the parts, with each triangle as a part.
-    fn all_parts(&self, parts: &[Part]) -> Vec<Part> {
+    /// Returns the given parts followed by each triangle as a part of its own.
+    fn parts_and_triangles(&self, parts: &[Part]) -> Vec<Part> {
         // A vertex that does not exist is refused as a point that is not finite.
         let corner = |v: &u32| *self.vertices.get(*v as usize).unwrap_or(&DVec3::NAN);
         let of_face = |(face, number): (&[u32; 3], &u32)| Part {
@@ -320,7 +320,7 @@ impl Form {
     }
 
     /// Returns the sub-shape index of a piece of the body.
-    fn number(&self, body: &Body, piece: usize) -> u32 {
+    fn sub_shape_of_piece(&self, body: &Body, piece: usize) -> u32 {
         let inside = match body.pieces().all_triangles() {
             true => {
                 let mut inside = Combination::segment([0, 1], 0.5);
@@ -338,8 +338,8 @@ impl Form {
         }
     }
 
-    /// Returns the error with the sub-shape index in place of the piece's index.
-    fn named(&self, error: InputError) -> ShapeError {
+    /// Returns the error with the sub-shape index in place of the index of the body's piece.
+    fn with_sub_shape(&self, error: InputError) -> ShapeError {
         let piece = match error {
             InputError::BadPoint { piece, .. }
             | InputError::BadRadius { piece, .. }
@@ -360,8 +360,8 @@ impl Form {
     }
 }
 
-/// Returns a polytope around a cylinder or a cone.
-fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
+/// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
+fn polytope_around(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
         Excess::Fine => round.usual_excess(),
         Excess::Length(length) => length,
@@ -382,7 +382,7 @@ fn enclosed(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
     }
 }
 
-/// The face loops of a box: bits 0, 1 and 2 of `k` are set if corner `k` is high in x, y and z.
+/// The corners of each face of a box: bits 0, 1 and 2 of `k` are set if corner `k` is high in x, y and z.
 const BOX: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],

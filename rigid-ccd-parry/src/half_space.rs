@@ -1,12 +1,12 @@
-//! Half-spaces, each replaced by a box large enough for one cast.
+//! Replaces a half-space by a box that is large enough for one cast.
 //!
 //! The other body stays within a ball about a point of the half-space, in the half-space's frame. A box that holds the
 //! part of the half-space in that ball, and hardly more, has the same contacts.
 
 use crate::form::Form;
-use crate::horizon::{Horizon, Reaching};
+use crate::horizon::{Horizon, MotionWithExtent};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{BEYOND, FACE, FARTHEST_ALONG};
+use crate::tolerance::{END_ROUNDED_UP, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
 use crate::{Prepared, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 /// All points on one side of a plane through the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HalfSpace {
-    /// The outward unit normal.
+    /// The unit normal that points out of the half-space.
     normal: DVec3,
 }
 
@@ -38,23 +38,23 @@ impl HalfSpace {
         }
     }
 
-    /// Returns the horizon of a cast of a body with contact distance `within`, for the time `wanted`.
+    /// Returns the duration that decides the cast of a body with contact distance `within`, for the time `wanted`.
     ///
     /// `plane` is the half-space's motion, about any point of it.
     pub(crate) fn horizon(
         &self,
-        plane: Reaching,
-        body: Reaching,
+        plane: MotionWithExtent,
+        body: MotionWithExtent,
         within: f64,
         wanted: f64,
     ) -> Horizon {
-        let needed = self.decided(plane, body, within);
+        let needed = self.time_when_decided(plane, body, within);
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
-        let horizon = Horizon::needed([plane, body], needed);
+        let horizon = Horizon::for_duration([plane, body], needed);
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
-        let size = body.reach + within + length(body.place() - plane.place());
+        let size = body.reach + within + length(body.start_position() - plane.start_position());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let most = FARTHEST_ALONG * size / speed;
+        let most = LARGEST_PLANE_EXTENT * size / speed;
         if speed > 0.0 && horizon.duration() > most {
             Horizon::Part(most)
         } else {
@@ -62,18 +62,22 @@ impl HalfSpace {
         }
     }
 
-    /// Returns a time after which the body is inside forever, is outside forever, or repeats its motion; `None` without
-    /// one.
-    fn decided(&self, plane: Reaching, body: Reaching, within: f64) -> Option<f64> {
+    /// Returns a time after which the body stays inside, stays outside or repeats its motion; `None` without one.
+    fn time_when_decided(
+        &self,
+        plane: MotionWithExtent,
+        body: MotionWithExtent,
+        within: f64,
+    ) -> Option<f64> {
         let [p, b] = [plane.motion, body.motion];
         let (still, spin) = (p.spin() == DVec3::ZERO, b.spin());
         if p.velocity() == b.velocity() {
             // In the plane's frame the body rotates in place, or goes around.
             return match (still, spin == DVec3::ZERO) {
                 (true, true) => Some(0.0),
-                (true, false) => Some(TAU / length(spin) * BEYOND),
-                (false, true) => Some(TAU / length(p.spin()) * BEYOND),
-                (false, false) => (spin == p.spin()).then(|| TAU / length(spin) * BEYOND),
+                (true, false) => Some(TAU / length(spin) * END_ROUNDED_UP),
+                (false, true) => Some(TAU / length(p.spin()) * END_ROUNDED_UP),
+                (false, false) => (spin == p.spin()).then(|| TAU / length(spin) * END_ROUNDED_UP),
             };
         }
         if !still {
@@ -86,44 +90,55 @@ impl HalfSpace {
             return Some(if spin == DVec3::ZERO {
                 0.0
             } else {
-                TAU / length(spin) * BEYOND
+                TAU / length(spin) * END_ROUNDED_UP
             });
         }
         let normal = p.start().rotation() * self.normal;
-        let (from, to) = (p.start().translation(), body.place());
+        let (from, to) = (p.start().translation(), body.start_position());
         let rate = normal.dot(velocity);
-        let rounding = FACE * length(velocity);
-        let spread = plane.spread() + body.spread();
+        let rounding = PLANE_ROUNDING * length(velocity);
+        let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         let height = normal.dot(to - from);
-        let reach = (body.reach + within + FACE * spread) * BEYOND;
+        let reach = (body.reach + within + PLANE_ROUNDING * spread) * END_ROUNDED_UP;
         let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, needed) / rate * BEYOND)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * END_ROUNDED_UP)
     }
 
     /// Bounds the distance from `plane.about` of all points of the half-space that the body may touch.
-    pub(crate) fn reach(&self, plane: Reaching, body: Reaching, within: f64, duration: f64) -> f64 {
-        let [p, b] = [plane.place(), body.place()];
+    pub(crate) fn reach(
+        &self,
+        plane: MotionWithExtent,
+        body: MotionWithExtent,
+        within: f64,
+        duration: f64,
+    ) -> f64 {
+        let [p, b] = [plane.start_position(), body.start_position()];
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let spread = plane.spread() + body.spread();
-        (length(b - p) + speed * duration + body.reach + within + FACE * spread) * BEYOND
+        let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
+        (length(b - p) + speed * duration + body.reach + within + PLANE_ROUNDING * spread)
+            * END_ROUNDED_UP
     }
 
-    /// Returns a box that contains all points of the half-space within `reach` of `plane.about`.
-    pub(crate) fn stand_in(&self, plane: Reaching, reach: f64) -> Result<Prepared, ShapeError> {
+    /// Returns a box that contains all points of the half-space within the distance `reach` of `plane.about`.
+    pub(crate) fn box_within(
+        &self,
+        plane: MotionWithExtent,
+        reach: f64,
+    ) -> Result<Prepared, ShapeError> {
         let normal = self.normal;
         let height = normal.dot(plane.about);
         let middle = plane.about - height * normal;
         let across = normal.any_orthonormal_vector();
         let along = normal.cross(across);
         // The face is above the plane, whatever rounding does to the corners.
-        let above = FACE * (reach + length(plane.about));
+        let above = PLANE_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
-        let wide = reach * BEYOND + above;
+        let wide = reach * END_ROUNDED_UP + above;
         let corner = |k: u32| {
             let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
             let high = if k & 4 == 4 { above } else { below };
@@ -131,7 +146,7 @@ impl HalfSpace {
         };
         let mut form = Form::EMPTY;
         form.push_corners((0..8).map(corner).collect(), 0.0);
-        Prepared::new(&form)?.exceeding(2.0 * above)
+        Prepared::new(&form)?.with_excess(2.0 * above)
     }
 }
 

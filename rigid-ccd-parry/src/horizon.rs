@@ -1,18 +1,18 @@
-//! The horizon of a cast: a finite duration that decides it, since casts allow any time and queries are finite.
+//! Replaces the unlimited duration of a cast by a finite one that decides it.
 //!
 //! Each body stays within a ball about its centre, and centres move straight. Contact is over for good once the balls
 //! have passed each other, and a motion that repeats itself need be looked at once.
 
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{BEYOND, LONGEST, USED};
+use crate::tolerance::{END_ROUNDED_UP, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
 use std::f64::consts::TAU;
 
-/// A motion with the extent of its body.
+/// The motion of a body together with the extent of the body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reaching {
+pub(crate) struct MotionWithExtent {
     pub(crate) motion: Motion,
     /// A point of the body, in its frame, that moves in a straight line.
     pub(crate) about: DVec3,
@@ -20,24 +20,24 @@ pub(crate) struct Reaching {
     pub(crate) reach: f64,
 }
 
-impl Reaching {
-    /// Returns the position of `about` at the start.
-    pub(crate) fn place(&self) -> DVec3 {
+impl MotionWithExtent {
+    /// Returns the position of the point `about` at the start, in the world frame.
+    pub(crate) fn start_position(&self) -> DVec3 {
         self.motion.start().transform_point(self.about)
     }
 
-    /// Returns the sum of the magnitudes that enter the position, for its rounding error.
-    pub(crate) fn spread(&self) -> f64 {
+    /// Returns the sum of the lengths from which the position is computed, for a bound on its rounding error.
+    pub(crate) fn sum_of_magnitudes(&self) -> f64 {
         length(self.motion.start().translation()) + length(self.about)
     }
 }
 
-/// The duration of the query for a cast.
+/// The duration of the query that stands for a cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Horizon {
-    /// The whole cast: bodies that stay apart for this duration stay apart for the whole requested time.
+    /// The duration decides the whole cast: bodies that are apart for so long stay apart for the whole requested time.
     Whole(f64),
-    /// A part of the cast: the longest duration that the engine accepts.
+    /// The duration is a part of the cast: the longest that the engine accepts.
     Part(f64),
 }
 
@@ -48,15 +48,15 @@ impl Horizon {
         }
     }
 
-    /// Returns the horizon for bodies with contact distance `within`, for the time `wanted`.
-    pub(crate) fn new(bodies: [Reaching; 2], within: f64, wanted: f64) -> Self {
-        let needed = [passed(bodies, within), repeated(bodies)];
-        Horizon::needed(bodies, needed.into_iter().flatten().fold(wanted, lesser))
+    /// Returns the duration for a cast of two bodies with contact distance `within`, for the time `wanted`.
+    pub(crate) fn new(bodies: [MotionWithExtent; 2], within: f64, wanted: f64) -> Self {
+        let needed = [time_when_passed(bodies, within), repetition_time(bodies)];
+        Horizon::for_duration(bodies, needed.into_iter().flatten().fold(wanted, lesser))
     }
 
-    /// Returns the horizon for a duration that is known to decide the cast.
-    pub(crate) fn needed(bodies: [Reaching; 2], needed: f64) -> Self {
-        let possible = possible(bodies);
+    /// Returns the duration for a cast that is known to be decided at the time `needed`.
+    pub(crate) fn for_duration(bodies: [MotionWithExtent; 2], needed: f64) -> Self {
+        let possible = longest_duration(bodies);
         if needed <= possible {
             Horizon::Whole(needed)
         } else {
@@ -66,22 +66,22 @@ impl Horizon {
 }
 
 /// Returns a time after which the bodies can no longer meet; `None` if they do not pass each other.
-fn passed(bodies: [Reaching; 2], within: f64) -> Option<f64> {
+fn time_when_passed(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * BEYOND)
+    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * END_ROUNDED_UP)
 }
 
 /// Bounds the relative displacement of the bodies while they may be in contact.
-pub(crate) fn relative_displacement([a, b]: &[Reaching; 2], within: f64) -> f64 {
-    let rounding = (BEYOND - 1.0) * (a.spread() + b.spread());
-    length(b.place() - a.place()) + rounding + a.reach + b.reach + within
+pub(crate) fn relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
+    let rounding = (END_ROUNDED_UP - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
+    length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
 }
 
 /// Returns a time after which the bodies repeat their relative poses, if they do not move on.
-fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
+fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion);
-    let turn = |spin: DVec3| TAU / length(spin) * BEYOND;
+    let turn = |spin: DVec3| TAU / length(spin) * END_ROUNDED_UP;
     if a.velocity() != b.velocity() {
         return None;
     }
@@ -96,28 +96,28 @@ fn repeated(bodies: [Reaching; 2]) -> Option<f64> {
 }
 
 /// Returns the longest duration for which the engine accepts both motions.
-fn possible(bodies: [Reaching; 2]) -> f64 {
+fn longest_duration(bodies: [MotionWithExtent; 2]) -> f64 {
     // The engine's origin is at one of the bodies.
     let origins = bodies.map(|body| body.motion.start().translation());
-    let of = |body: &Reaching| {
+    let of = |body: &MotionWithExtent| {
         let motion = &body.motion;
         let centre = motion.start().transform_point(motion.centre());
         let far = origins.map(|origin| length(centre - origin));
-        let left = MAX_COORDINATE * USED - greater(far[0], far[1]);
+        let left = MAX_COORDINATE * USED_SHARE_OF_LIMITS - greater(far[0], far[1]);
         let (speed, rate) = (length(motion.velocity()), length(motion.spin()));
         let travel = if speed > 0.0 {
             greater(left, 0.0) / speed
         } else {
-            LONGEST
+            LONGEST_DURATION
         };
         let turn = if rate > 0.0 {
-            MAX_TURN * USED / rate
+            MAX_TURN * USED_SHARE_OF_LIMITS / rate
         } else {
-            LONGEST
+            LONGEST_DURATION
         };
         lesser(travel, turn)
     };
-    bodies.iter().map(of).fold(LONGEST, lesser)
+    bodies.iter().map(of).fold(LONGEST_DURATION, lesser)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::CastError;
 use crate::order::{greater, lesser};
 
-/// A time interval.
+/// The time interval of a cast, in parry's unit of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Interval {
     start: f64,
@@ -30,12 +30,12 @@ impl Interval {
         Ok((start <= end).then_some(Interval { start, end }))
     }
 
-    /// Returns the start.
+    /// Returns the time at which the interval starts.
     pub(crate) fn start(self) -> f64 {
         self.start
     }
 
-    /// Returns the length, rounded up.
+    /// Returns the length of the interval, rounded up.
     pub(crate) fn length(self) -> f64 {
         if self.start == 0.0 {
             self.end
@@ -44,7 +44,7 @@ impl Interval {
         }
     }
 
-    /// Returns the time `after` past the start, rounded down.
+    /// Returns the time that is `after` past the start, rounded down.
     pub(crate) fn time_after(self, after: f64) -> f64 {
         let time = if self.start == 0.0 {
             after

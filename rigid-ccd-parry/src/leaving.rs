@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start of a linear cast and are ignored as long as they part, as in parry.
+//! Ignores bodies that overlap at the start of a linear cast as long as they part, as parry does.
 //!
 //! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
 //! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
@@ -8,29 +8,30 @@ mod direction;
 use crate::form::Form;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{ALONG, BEYOND};
+use crate::tolerance::{END_ROUNDED_UP, LARGEST_SLIDING_RATE};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
 use direction::direction;
 use rigid_ccd::Solver;
 
-/// The maximum number of pairs of pieces that are left out. Beyond it the bodies are in contact at the start.
+/// The maximum number of pairs of pieces that are ignored because they part. Beyond it the bodies are in contact at the
+/// start.
 const MOST_PAIRS: usize = 256;
 
-/// Some pieces of both bodies, by index; all pairs of them are examined.
-struct Task {
+/// Two sets of pieces, one of each body, all pairs of which are to be examined.
+struct PiecePairs {
     pieces: [Vec<u32>; 2],
 }
 
-/// Returns the first contact of all pairs that do not begin to part; `overlap` is the hit at the start.
-pub(crate) fn parting(
+/// Returns the first contact of all pairs of pieces that do not begin to part; `overlap` is the hit at the start.
+pub(crate) fn first_contact_unless_parting(
     scene: &Scene<'_>,
     overlap: CastHit,
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
-    let mut tasks = vec![Task {
-        pieces: [0, 1].map(|k| near(scene, k)),
+    let mut tasks = vec![PiecePairs {
+        pieces: [0, 1].map(|k| pieces_near_other(scene, k)),
     }];
     let (mut first, mut left_out) = (None, 0);
     while let Some(task) = tasks.pop() {
@@ -38,7 +39,7 @@ pub(crate) fn parting(
             continue;
         }
         match examine(scene, &task, solver)? {
-            TaskOutcome::Overlap([a, b]) => {
+            PairsOutcome::Overlap([a, b]) => {
                 left_out += 1;
                 if left_out > MOST_PAIRS || !begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
@@ -51,16 +52,16 @@ pub(crate) fn parting(
                         .filter(|piece| *piece != left)
                         .collect()
                 };
-                tasks.push(Task {
+                tasks.push(PiecePairs {
                     pieces: [vec![a], without(&of_b, b)],
                 });
-                tasks.push(Task {
+                tasks.push(PiecePairs {
                     pieces: [without(&of_a, a), of_b],
                 });
             }
-            TaskOutcome::Inside => return Ok(Some(overlap)),
-            TaskOutcome::Hit(None) => {}
-            TaskOutcome::Hit(Some(found)) => {
+            PairsOutcome::Inside => return Ok(Some(overlap)),
+            PairsOutcome::Hit(None) => {}
+            PairsOutcome::Hit(Some(found)) => {
                 let earlier = first.is_none_or(|first: CastHit| found.time < first.time);
                 first = if earlier { Some(found) } else { first };
             }
@@ -69,21 +70,25 @@ pub(crate) fn parting(
     Ok(first)
 }
 
-/// The outcome of a task.
-enum TaskOutcome {
-    /// These two pieces overlap at the start.
+/// The result of examining two sets of pieces.
+enum PairsOutcome {
+    /// The two pieces with these indices overlap at the start.
     Overlap([u32; 2]),
     /// One body is inside the other at the start.
     Inside,
     Hit(Option<CastHit>),
 }
 
-/// Finds the first contact of all pairs of a task.
-fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOutcome, CastError> {
+/// Finds the first contact of all pairs of two sets of pieces.
+fn examine(
+    scene: &Scene<'_>,
+    task: &PiecePairs,
+    solver: &mut Solver,
+) -> Result<PairsOutcome, CastError> {
     let some = |k: usize| {
         let which = k as u8 + 1;
         let named = |error| CastError::Shape { which, error };
-        some_pieces(scene.bodies[k], &task.pieces[k]).map_err(named)
+        body_of_pieces(scene.bodies[k], &task.pieces[k]).map_err(named)
     };
     let (a, b) = (some(0)?, some(1)?);
     let part = Scene {
@@ -91,21 +96,21 @@ fn examine(scene: &Scene<'_>, task: &Task, solver: &mut Solver) -> Result<TaskOu
         ..scene.clone()
     };
     let Some(found) = part.first_contact(solver)? else {
-        return Ok(TaskOutcome::Hit(None));
+        return Ok(PairsOutcome::Hit(None));
     };
     let numbers = found.numbers;
     Ok(match found.ending {
-        Ending::Overlap => TaskOutcome::Overlap(numbers),
-        Ending::Inside => TaskOutcome::Inside,
-        Ending::Near | Ending::Contact | Ending::Limit => TaskOutcome::Hit(Some(CastHit {
+        Ending::Overlap => PairsOutcome::Overlap(numbers),
+        Ending::Inside => PairsOutcome::Inside,
+        Ending::Near | Ending::Contact | Ending::Limit => PairsOutcome::Hit(Some(CastHit {
             numbers: [0, 1].map(|k| scene.bodies[k].sub_shape(numbers[k])),
             ..found
         })),
     })
 }
 
-/// Returns the body of some pieces, with the pieces' indices as sub-shape indices.
-fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
+/// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
+fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
     let mut form = Form::EMPTY;
     for &number in pieces {
         let piece = body.body().pieces().get(number as usize);
@@ -114,8 +119,8 @@ fn some_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Shape
     Prepared::new(&form)
 }
 
-/// Returns the pieces of body `k` that the other body may reach.
-fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
+/// Returns the indices of the pieces of body `k` that the other body may reach.
+fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
@@ -126,10 +131,11 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
-        let rounding = (BEYOND - 1.0) * (length(place) + length(from) + length(displacement));
+        let rounding =
+            (END_ROUNDED_UP - 1.0) * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * BEYOND + rounding)
+        !(apart > (within + radius) * END_ROUNDED_UP + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces
@@ -138,7 +144,7 @@ fn near(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         .collect()
 }
 
-/// Returns the distance of a point from the segment between the origin and `displacement`.
+/// Returns the distance of `point` from the segment between the origin and `displacement`.
 fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
     let square = displacement.dot(displacement);
     let share = if square > 0.0 {
@@ -149,20 +155,20 @@ fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
     length(point - share * displacement)
 }
 
-/// Returns an enclosing ball of a piece.
+/// Returns a ball around a piece: its centre and its radius.
 fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
     let reach = piece.points.iter().map(|p| length(*p - first));
     (first, reach.fold(0.0, greater) + piece.radius)
 }
 
-/// Returns whether two pieces that overlap at the start begin to part.
+/// Returns whether two pieces that overlap at the start begin to move apart.
 fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
     // The comparison is false for NaN, which does not part.
-    let least = -ALONG * length(velocity);
+    let least = -LARGEST_SLIDING_RATE * length(velocity);
     direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
 }
 

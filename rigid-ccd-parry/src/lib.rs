@@ -110,6 +110,7 @@
 // Without a precision nothing is asked.
 #![cfg_attr(not(any(feature = "f32", feature = "f64")), allow(dead_code))]
 
+mod body_cache;
 mod cast;
 mod closed;
 mod error;
@@ -125,7 +126,6 @@ mod prepared;
 #[cfg(feature = "record")]
 mod recording;
 mod scene;
-mod shelf;
 mod tolerance;
 
 pub use error::{CastError, ShapeError};

@@ -3,7 +3,7 @@
 use crate::limits::DEFAULT_BUDGET;
 use std::time::Duration;
 
-/// Options beyond parry's arguments.
+/// The options of a cast that parry's arguments do not have.
 ///
 /// ```
 /// use rigid_ccd_parry::{Excess, Options};
@@ -12,13 +12,13 @@ use std::time::Duration;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The tolerance: a contact is reported at the target distance plus at most this, in the scene's unit of length.
+    /// The distance added to the target distance at which a contact may be reported, in the scene's unit of length.
     ///
     /// None is 1e-6 in single and 1e-9 in double precision, and at most a millionth of the smaller body's radius.
     pub tolerance: Option<f64>,
     /// The allowed excess of polytopes around cylinders and cones.
     pub excess: Excess,
-    /// Whether a mesh is a surface or a solid.
+    /// Whether a triangle mesh is a surface or a solid.
     pub meshes: Meshes,
     /// The maximum work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). By
     /// default it is a quarter of the engine's, about a second.
@@ -46,23 +46,23 @@ impl Default for Options {
 /// The polytope touches its shape along the axes, so that a cylinder that stands, or lies along an axis, is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Excess {
-    /// 1/4000 of the radius.
+    /// The polytope may exceed the shape by 1/4000 of the radius.
     #[default]
     Fine,
-    /// A length.
+    /// The polytope may exceed the shape by this length.
     Length(f64),
     /// Cylinders and cones are refused.
     Refuse,
 }
 
-/// The interior of a triangle mesh.
+/// Whether the interior of a triangle mesh belongs to the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Meshes {
-    /// Empty: only the triangles can be touched, as in all of parry's queries on two shapes. A room is a mesh around
-    /// its visitors.
+    /// The interior is empty: only the triangles can be touched, as in all of parry's queries on two shapes. A room is
+    /// a mesh around its visitors.
     #[default]
     Surfaces,
-    /// Solid if the mesh has the flag `ORIENTED`, as in parry's point queries: a body inside is in contact. Such a mesh
-    /// is refused unless it is closed. Meshes in compounds stay surfaces.
+    /// The interior is solid if the mesh has the flag `ORIENTED`, as in parry's point queries: a body inside is in
+    /// contact. Such a mesh is refused unless it is closed. Meshes in compounds stay surfaces.
     SolidIfOriented,
 }

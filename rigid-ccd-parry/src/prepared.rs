@@ -1,4 +1,4 @@
-//! Bodies of shapes, prepared for casts.
+//! Bodies made from shapes, with what casts need to know about them.
 
 use crate::ShapeError;
 use crate::form::Form;
@@ -18,20 +18,20 @@ pub struct Prepared {
     numbers: Vec<u32>,
     middle: DVec3,
     radius: f64,
-    /// The centre, for a ball.
+    /// The centre in the shape's frame if the body is a ball.
     point: Option<DVec3>,
     slack: f64,
     excess: f64,
 }
 
 impl Prepared {
-    /// Makes the body of a form.
+    /// Makes the body from the geometry of a shape.
     pub(crate) fn new(form: &Form) -> Result<Self, ShapeError> {
-        let form = form.expanded()?;
+        let form = form.with_polytope()?;
         let (body, numbers) = form.body()?;
         let (middle, radius) = form.ball();
         Ok(Prepared {
-            body: exceeding(body, form.slack(), form.excess())?,
+            body: with_excess(body, form.slack(), form.excess())?,
             numbers,
             middle,
             radius,
@@ -70,8 +70,8 @@ impl Prepared {
     ///
     /// # Errors
     /// [`ShapeError::Body`] for what is no length.
-    pub(crate) fn exceeding(self, excess: f64) -> Result<Self, ShapeError> {
-        let body = exceeding(self.body, self.slack, excess)?;
+    pub(crate) fn with_excess(self, excess: f64) -> Result<Self, ShapeError> {
+        let body = with_excess(self.body, self.slack, excess)?;
         Ok(Prepared {
             body,
             excess,
@@ -84,7 +84,7 @@ impl Prepared {
         self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
     }
 
-    /// Returns the centre of a ball, in the shape's frame; `None` for other shapes.
+    /// Returns the centre in the shape's frame if the body is a ball; `None` for other shapes.
     pub(crate) fn point(&self) -> Option<DVec3> {
         self.point
     }
@@ -96,7 +96,7 @@ impl Prepared {
 }
 
 /// Returns a body whose excess is the sum of `slack` and `excess`.
-fn exceeding(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
+fn with_excess(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
     let together = if slack > 0.0 {
         (slack + excess).next_up()
     } else {

@@ -1,4 +1,4 @@
-//! Recordings of casts as files for the command `ccd`.
+//! Records casts as files for the command `ccd`.
 
 use crate::scene::Scene;
 use ccd_core::{Body, Motion, Settings, StartPolicy};
@@ -20,7 +20,7 @@ pub struct Recording {
     settings: Settings,
 }
 
-/// A recording cannot be saved.
+/// The error of a recording that cannot be saved.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
@@ -33,15 +33,15 @@ pub enum RecordError {
     /// The folder or the table cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// The folder or the file.
+        /// The path of the folder or the file.
         path: PathBuf,
-        /// The error of the system.
+        /// The error of the operating system.
         source: io::Error,
     },
 }
 
 impl Recording {
-    /// Records a scene.
+    /// Records the bodies and motions of a scene.
     pub(crate) fn new(scene: &Scene<'_>) -> Self {
         Recording {
             bodies: scene.bodies.map(|body| body.body().clone()),
@@ -85,7 +85,7 @@ impl Recording {
         ))
     }
 
-    /// Returns the table of motions, with one row.
+    /// Returns the text of the table of motions, which has one row.
     fn table(&self) -> String {
         let (mut names, mut cells) = (String::from("duration"), self.duration.to_string());
         for (body, motion) in ["a", "b"].iter().zip(&self.motions) {

@@ -3,57 +3,57 @@
 use crate::horizon::Horizon;
 use crate::interval::Interval;
 use crate::order::lesser;
-use crate::tolerance::LOOK;
+use crate::tolerance::BUDGET_AT_LIMIT;
 use crate::{CastError, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, Motion, Outcome, Overlap, Pose, Settings, Volume};
 use rigid_ccd::Solver;
 
-/// Two moving bodies.
+/// Two moving bodies and the distance at which they are in contact.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: [&'a Prepared; 2],
     /// The motions from the start of the interval on, without rotations that have no effect.
     pub(crate) motions: [Motion; 2],
-    /// The full motions, rotation included. Hits are reported in these frames.
+    /// The full motions, rotation included, in whose frames hits are reported. Hits are reported in these frames.
     pub(crate) frames: [Motion; 2],
     pub(crate) horizon: Horizon,
     pub(crate) interval: Interval,
-    /// The distance at which the bodies are in contact.
+    /// The distance at which the bodies are in contact, in the scene's unit of length.
     pub(crate) target: f64,
     pub(crate) settings: Settings,
 }
 
-/// The hit of a cast.
+/// The result of a cast that found a contact or reached a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CastHit {
     pub(crate) time: f64,
-    /// The nearest points, each in its body's frame.
+    /// The nearest points of the shapes, each in its body's frame.
     pub(crate) witnesses: [DVec3; 2],
-    /// The directions to the other body, each in its body's frame.
+    /// The unit vectors towards the other body, each in its body's frame.
     pub(crate) normals: [DVec3; 2],
     /// The indices of the nearest sub-shapes.
     pub(crate) numbers: [u32; 2],
     pub(crate) ending: Ending,
 }
 
-/// The way in which a cast ended.
+/// Why a cast ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// A contact after the start.
+    /// The bodies come into contact after the start.
     Contact,
-    /// An overlap of two pieces at the start.
+    /// Two pieces overlap at the start.
     Overlap,
-    /// One body inside the other at the start.
+    /// One body is inside the other at the start.
     Inside,
-    /// A distance below the target distance at the start.
+    /// The distance at the start is below the target distance.
     Near,
-    /// A limit of work or time, with no contact before it.
+    /// A limit of work or time was reached, with no contact before.
     Limit,
 }
 
 impl Scene<'_> {
-    /// Finds the first contact.
+    /// Finds the first contact of the two bodies.
     pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
         solver.set_settings(self.settings.clone());
@@ -102,7 +102,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns a contact as a hit in the bodies' frames.
+    /// Returns a contact at the time `after` as a hit in the bodies' frames.
     fn hit_of(&self, after: f64, contact: &Contact, ending: Ending) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
@@ -131,10 +131,10 @@ impl Scene<'_> {
         }
     }
 
-    /// Returns the hit at a limit, with the nearest points if they can be found.
+    /// Returns the hit for a limit reached at the time `after`, with the nearest points if they can be found.
     fn hit_at_limit(&self, after: f64, solver: &mut Solver) -> CastHit {
         solver.set_settings(Settings {
-            budget: lesser(self.settings.budget, LOOK),
+            budget: lesser(self.settings.budget, BUDGET_AT_LIMIT),
             deadline: self.settings.deadline,
             ..Settings::DEFAULT
         });
@@ -160,7 +160,7 @@ impl Scene<'_> {
 }
 
 impl CastHit {
-    /// Returns a hit without nearest points, with parry's values in their place.
+    /// Returns a hit without nearest points, for which parry's placeholders stand.
     fn without_points(time: f64, ending: Ending) -> Self {
         CastHit {
             time,

@@ -17,8 +17,8 @@ pub(crate) const CONTACT_F32: f64 = 1e-6;
 #[cfg(feature = "f64")]
 pub(crate) const CONTACT_F64: f64 = 1e-9;
 
-/// The largest default tolerance, as a share of the smaller body's radius: bodies of a micrometre, in metres, are not
-/// in contact at their own size.
+/// The largest default tolerance, as a share of the smaller body's radius, so that tiny bodies are not in contact at a
+/// distance of their own size.
 pub(crate) const SHARE_OF_SIZE: f64 = 1.0 / (1 << 20) as f64;
 
 /// A bound on the rounding error of a point to which a pose is applied in f64, relative to the lengths of the point and
@@ -27,40 +27,40 @@ pub(crate) const SHARE_OF_SIZE: f64 = 1.0 / (1 << 20) as f64;
 /// In units of `u`: the given quaternion is normalised with an error of 2 in direction, which turns by 4, and of 4.5
 /// in length, which scales by up to 9; products and sums of the rotation add 15, the translation 1. That is 29; 64
 /// are taken.
-pub(crate) const PLACED: f64 = 64.0 * U64;
+pub(crate) const POSE_ROUNDING: f64 = 64.0 * U64;
 
 /// A bound on the rounding error of a voxel's corner, relative to its coordinates: one product, and two of it in sums
 /// that bound it.
-pub(crate) const GRID: f64 = 4.0 * U64;
+pub(crate) const VOXEL_ROUNDING: f64 = 4.0 * U64;
 
-/// A bound on the distances from the plane of corners of a box that stands for a half-space, relative to the corners'
-/// distances, and on the rounding of heights, relative to their summands.
+/// A bound on two rounding errors: the distance of a half-space's box corners from the plane, relative to the corners'
+/// distances, and that of heights, relative to their summands.
 ///
 /// In units of `u`: a normal made a unit is off by 3, an axis across it by 6 and not at a right angle by 6, the other one
 /// by 10; products and sums add 8. That is 33; 64 are taken.
-pub(crate) const FACE: f64 = 64.0 * U64;
+pub(crate) const PLANE_ROUNDING: f64 = 64.0 * U64;
 
-/// The maximum distance along a half-space, in units of the body's size and of its distance from the other one at the
+/// The maximum extent of the box that stands for a half-space, in units of the body's size and of its distance at the
 /// start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
-pub(crate) const FARTHEST_ALONG: f64 = (1 << 26) as f64;
+pub(crate) const LARGEST_PLANE_EXTENT: f64 = (1 << 26) as f64;
 
-/// A bound on the rounding of the difference of two velocities, relative to the bodies' relative displacement: one
-/// operation, and as much for the displacement.
-pub(crate) const RELATIVE: f64 = 2.0 * U64;
+/// A bound on the rounding error of the difference of two velocities, relative to the bodies' relative displacement.
+/// The subtraction is one operation; the displacement's own rounding adds as much.
+pub(crate) const DIFFERENCE_ROUNDING: f64 = 2.0 * U64;
 
-/// A factor on lengths and times that end an interval, to cover their rounding: the sums and quotients that they come
-/// from have an error of less than a thousand `u`. A longer interval costs nothing.
-pub(crate) const BEYOND: f64 = 1.0 + 1024.0 * U64;
+/// The factor on lengths and times at the end of an interval that covers their rounding: the sums and quotients that
+/// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
+pub(crate) const END_ROUNDED_UP: f64 = 1.0 + 1024.0 * U64;
 
-/// The used share of the engine's limits of displacement and rotation; the rest covers rounding.
-pub(crate) const USED: f64 = 0.999;
+/// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
+pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;
 
 /// The longest duration of a cast: products with it stay finite.
-pub(crate) const LONGEST: f64 = 1e250;
+pub(crate) const LONGEST_DURATION: f64 = 1e250;
 
-/// The budget for the nearest points of a cast that reached a limit.
-pub(crate) const LOOK: u64 = 1 << 16;
+/// The work limit of the search for the nearest points of a cast that reached a limit.
+pub(crate) const BUDGET_AT_LIMIT: u64 = 1 << 16;
 
 /// The largest approach rate of overlapping bodies that counts as sliding, relative to their speed: the direction of
 /// least overlap is known to some thousand `u`.
-pub(crate) const ALONG: f64 = 1.0 / (1u64 << 40) as f64;
+pub(crate) const LARGEST_SLIDING_RATE: f64 = 1.0 / (1u64 << 40) as f64;

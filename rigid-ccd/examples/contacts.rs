@@ -1,4 +1,4 @@
-//! A cube falls flat onto a slab: all features in contact when it lands.
+//! Lists all features in contact when a cube falls flat onto a slab.
 
 use rigid_ccd::{Body, Motion, Pose, Query, Settings, first_contact};
 use std::error::Error;

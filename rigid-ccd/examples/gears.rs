@@ -1,4 +1,4 @@
-//! Two involute gears over a full turn: the proven least clearance of their teeth over the angle.
+//! Computes the proven least clearance between the teeth of two involute gears over a full turn.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example gears -- [OUT.svg]
@@ -30,7 +30,7 @@ impl Gear {
         0.5 * self.module * f64::from(self.teeth)
     }
 
-    /// Returns the outline, counterclockwise, starting at the root of the tooth at angle 0.
+    /// Returns the outline as points, counterclockwise, starting at the root of the tooth at angle 0.
     fn outline(&self) -> Vec<[f64; 2]> {
         let pitch = self.pitch_radius();
         let base = pitch * PRESSURE.cos();
@@ -83,20 +83,20 @@ impl Gear {
     }
 }
 
-/// The number of segments of a flank.
+/// The number of straight segments of a tooth's flank.
 const STEPS: u32 = 8;
 
-/// The angle of a window, in degrees of the first gear.
+/// The angle of rotation, in degrees of the first gear, over which one clearance is computed.
 const WINDOW: u32 = 1;
 
-/// A bracket of the least clearance in a window.
+/// Bounds on the least clearance over one interval of the rotation.
 struct Window {
     angle: u32,
     lower: f64,
     upper: f64,
 }
 
-/// Rotates both gears by a full turn of the first one, window by window.
+/// Returns the least clearance in each interval of a full turn of the first gear.
 fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Error>> {
     let [a, b] = gears;
     let bodies = [a.body()?, b.body()?];

@@ -1,4 +1,4 @@
-//! A custom distance backend: nearest points of balls and capsules, with GJK for other pieces.
+//! Shows a custom distance backend: nearest points of balls and capsules, with GJK for other pieces.
 //!
 //! The engine checks each result: with a wrong backend, a query is slow or unresolved, never late.
 
@@ -35,7 +35,7 @@ impl DistanceOracle for Segments {
     }
 }
 
-/// Clamps to 0..1. NaN becomes 0: the segment of a ball has length 0.
+/// Clamps a number to the range from 0 to 1. NaN becomes 0: the segment of a ball has length 0.
 fn clamped(share: f64) -> f64 {
     if share.is_nan() {
         return 0.0;

@@ -1,5 +1,5 @@
-//! A planner's roadmap for a bracket that has to pass a slot in a wall: edges are certified, and compared with checks
-//! at equal steps.
+//! Builds a planner's roadmap for a bracket that has to pass a slot in a wall: edges are certified, and compared with
+//! checks at equal steps.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example planner -- [OUT.svg]
@@ -43,7 +43,7 @@ impl Room {
     }
 }
 
-/// Returns whether a motion from pose to pose is free.
+/// Returns whether the motion from one pose to another is free, with a proof.
 fn edge_is_free(
     solver: &mut Solver,
     room: &Room,
@@ -62,7 +62,7 @@ fn edge_is_free(
 /// The approximate middle of the bracket, which is not its origin.
 const MIDDLE: [f64; 3] = [0.8, 0.5, 0.4];
 
-/// Returns whether the body is free at equal steps of a motion.
+/// Returns whether the body is free at equal steps of a motion, which is no proof.
 fn steps_are_free(
     solver: &mut Solver,
     room: &Room,
@@ -107,7 +107,7 @@ fn places(solver: &mut Solver, room: &Room, body: &Body) -> Result<Vec<Pose>, Er
     Ok(places)
 }
 
-/// Connects each place with its nearest ones.
+/// Returns the edges of the roadmap, which connect each place with its nearest ones.
 fn edges(places: &[Pose]) -> Vec<[usize; 2]> {
     let middle = |pose: &Pose| pose.transform_point(MIDDLE.into());
     let apart = |a: &Pose, b: &Pose| {

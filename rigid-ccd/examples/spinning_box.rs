@@ -1,4 +1,4 @@
-//! A box flies at a ball and rotates at 20 radians per unit of time: when and where do they touch?
+//! Finds when and where a box that rotates at 20 radians per unit of time hits a ball.
 
 use rigid_ccd::{Body, Motion, Pose, first_contact};
 use std::error::Error;

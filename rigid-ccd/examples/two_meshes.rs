@@ -1,4 +1,5 @@
-//! A wedge drops onto a bracket and rotates as it falls. Give two mesh files to use them instead.
+//! Finds the first contact of a wedge that drops onto a bracket and rotates as it falls. Give two mesh files to use
+//! them instead.
 //!
 //! `cargo run -p rigid-ccd --example two_meshes -- part.stl other.obj`
 

@@ -15,7 +15,7 @@ pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{Timed, Timing, time};
+pub(crate) use timed::{TimedAnswer, Timing, time};
 
 use crate::ParallelSolver;
 use crate::table::courses::Course;
@@ -26,14 +26,14 @@ use std::num::NonZeroUsize;
 /// The two bodies of a query; both may be the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Bodies<'a> {
-    /// Body A.
+    /// The body that the first motion of a row moves.
     pub a: &'a Body,
-    /// Body B.
+    /// The body that the second motion of a row moves.
     pub b: &'a Body,
 }
 
 impl<'q> Bodies<'q> {
-    /// Poses a question about the bodies on the courses of a row. The distance is asked for at the start.
+    /// Builds the query of both bodies on the motions or paths of a row. The distance is asked for at the start.
     ///
     /// # Errors
     /// Those of [`Query::new`].
@@ -54,7 +54,7 @@ impl<'q> Bodies<'q> {
 }
 
 impl Bodies<'_> {
-    /// Returns what distances of the bodies are compared with.
+    /// Returns the clearance and the bodies' excess, against which the table of results compares distances.
     pub fn compared(self, clearance: Option<f64>) -> Compared {
         Compared {
             clearance,

@@ -108,8 +108,8 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for
-/// bad input, 3 for an audit or a check that finds something.
+/// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for bad input, 3
+/// for an audit or a check that finds something.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
@@ -130,7 +130,7 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
 
 /// Writes a message to standard error, after the program's name.
 pub fn complain(message: &str) {
-    print_line(&format!("{}: {message}", program()));
+    print_line(&format!("{}: {message}", program_name()));
 }
 
 /// Writes a line to standard error. Cells and names of files in it may hold anything: nothing of it moves the cursor,
@@ -141,14 +141,14 @@ pub(crate) fn print_line(line: &str) {
 }
 
 /// Prints the remarks about a question, one line for each.
-fn complain_of(remarks: impl IntoIterator<Item = Remark>) {
+fn print_remarks(remarks: impl IntoIterator<Item = Remark>) {
     for remark in remarks {
         complain(&remark.to_string());
     }
 }
 
 /// Returns the name of this program without its folder and extension.
-fn program() -> String {
+fn program_name() -> String {
     let path = std::env::args_os().next().map(PathBuf::from);
     let name = path.as_deref().and_then(Path::file_stem);
     name.map_or("ccd".into(), |name| name.to_string_lossy().into_owned())

@@ -1,10 +1,10 @@
-//! Errors of a query.
+//! The error type of single queries.
 
 use ccd_core::{InputError, Unresolved};
 #[cfg(feature = "meshes")]
 use ccd_decomp::{BodyError, PrepareError};
 
-/// The error of a query.
+/// The error of a query: invalid input, an invalid body, or a limit that was reached.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -15,7 +15,7 @@ pub enum Error {
     #[cfg(feature = "meshes")]
     #[error(transparent)]
     Body(#[from] BodyError),
-    /// A limit was reached first.
+    /// A limit of work or time was reached before the query had an answer.
     #[error(transparent)]
     Unresolved(#[from] Unresolved),
 }

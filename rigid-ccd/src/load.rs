@@ -1,4 +1,4 @@
-//! Bodies from files.
+//! Loads bodies from files.
 
 use ccd_core::Body;
 use ccd_decomp::{

@@ -1,4 +1,4 @@
-//! Distance backends: those to choose from, and what one of your own takes and claims.
+//! Distance backends: those of this library, and the traits and types for a backend of your own.
 
 pub use ccd_core::{Claim, DistanceOracle, Effort, Frame, GiveUp, OrElse, PiecePair, Separation};
 pub use ccd_distance_gjk::{ClosedForm, Direct, Gjk};

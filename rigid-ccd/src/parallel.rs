@@ -1,4 +1,4 @@
-//! Many queries in parallel.
+//! Answers many queries on all cores.
 
 use crate::Solver;
 use ccd_core::{Answer, DistanceOracle, InputError, Moving};
@@ -45,9 +45,9 @@ where
 #[derive(Debug, thiserror::Error)]
 #[error("query {query}: {error}")]
 pub struct QueryError {
-    /// The index of the query, counted from 0.
+    /// The index of the query among the given ones, counted from 0.
     pub query: usize,
-    /// What is wrong with it.
+    /// The invalid input of the query.
     #[source]
     pub error: InputError,
 }
@@ -88,7 +88,7 @@ pub struct QueryError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct ParallelSolver<S = Solver> {
-    /// The solvers, at least one.
+    /// The solvers, one for each thread, and at least one.
     solvers: Vec<CachePadded<S>>,
 }
 
@@ -110,7 +110,7 @@ impl<S> ParallelSolver<S> {
         ParallelSolver { solvers }
     }
 
-    /// Returns the number of threads.
+    /// Returns the number of threads, each of which has a solver.
     pub fn threads(&self) -> usize {
         self.solvers.len()
     }
@@ -180,7 +180,7 @@ impl<S: Send> ParallelSolver<S> {
             let index = counter.0.fetch_add(1, Ordering::Relaxed);
             Some((queries.get(index)?, results.get(index)?))
         };
-        self.share(queries.len(), next, |solver, (query, result)| {
+        self.call_on_each(queries.len(), next, |solver, (query, result)| {
             // Only this thread has this index, so the cell is empty.
             let _ = result.set(answer(solver, query));
         });
@@ -221,7 +221,7 @@ impl<S: Send> ParallelSolver<S> {
         let results = Mutex::new(Vec::new());
         // The lock is poisoned if the iterator panicked; no work is left then.
         let next = || queries.lock().ok()?.next();
-        self.share(most, next, |solver, (index, query)| {
+        self.call_on_each(most, next, |solver, (index, query)| {
             let result = answer(solver, query);
             let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);
             results.push((index, result));
@@ -232,7 +232,7 @@ impl<S: Send> ParallelSolver<S> {
     }
 
     /// Calls a function on each query, on up to `most` threads.
-    fn share<Q>(
+    fn call_on_each<Q>(
         &mut self,
         most: usize,
         next: impl Fn() -> Option<Q> + Sync,
@@ -240,7 +240,7 @@ impl<S: Send> ParallelSolver<S> {
     ) {
         let panicked = CachePadded(AtomicBool::new(false));
         let work = |own: &mut CachePadded<S>| {
-            let _tells = TellsOfPanic(&panicked.0);
+            let _tells = SetOnPanic(&panicked.0);
             while !panicked.0.load(Ordering::Relaxed)
                 && let Some(query) = next()
             {
@@ -262,9 +262,9 @@ impl<S: Send> ParallelSolver<S> {
 }
 
 /// Sets a flag when this thread panics, so that the other threads stop.
-struct TellsOfPanic<'f>(&'f AtomicBool);
+struct SetOnPanic<'f>(&'f AtomicBool);
 
-impl Drop for TellsOfPanic<'_> {
+impl Drop for SetOnPanic<'_> {
     fn drop(&mut self) {
         if thread::panicking() {
             self.0.store(true, Ordering::Relaxed);

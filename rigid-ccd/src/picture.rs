@@ -1,4 +1,4 @@
-//! Answers drawn as views of a page; see `ccd-view`.
+//! Draws answers as views of a page; see `ccd-view`.
 //!
 //! Public only because the pages of `ccd-bench` and the Python package share it; no stable interface.
 
@@ -28,9 +28,9 @@ use crate::table::results::{ResultRow, Status};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, InputError, Pose};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
-use drawn::lit;
+use drawn::feature_corners;
 
-/// The colours of both bodies.
+/// The colours of body A and body B, in CSS.
 pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
 /// Draws answers about two bodies as views.
@@ -42,23 +42,23 @@ pub struct Painter<'a> {
     solver: Solver,
 }
 
-/// A row cannot be shown.
+/// The error of a row that cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
-    /// The motions are out of range.
+    /// The motions of the row are out of range.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The bodies do not match the row.
+    /// The bodies are farther apart than the row says, so that the row must be about others.
     #[error(
         "at {time} the bodies are at least {measured} apart, but the row says at most {told}: it is the answer about \
          other bodies, or other motions"
     )]
     OtherBodies {
-        /// The time of the row.
+        /// The time at which the distances are compared.
         time: f64,
-        /// The distance of the bodies.
+        /// The distance of the given bodies at that time.
         measured: f64,
-        /// The distance in the row.
+        /// The upper bound of the distance according to the row.
         told: f64,
     },
 }
@@ -77,7 +77,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Makes a page of views.
+    /// Makes a page of the given views.
     pub fn page<'t>(&self, title: &'t str, views: Vec<View>) -> Page<'t> {
         let name = String::new();
         Page {
@@ -87,7 +87,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Makes the view of a row.
+    /// Draws the motions and the answer of a row.
     ///
     /// # Errors
     /// [`ViewError`].
@@ -97,7 +97,7 @@ impl<'a> Painter<'a> {
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
         if self.asked.claim == Claim::Told {
-            self.compare(row, [a, b])?;
+            self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
         let name = match (self.asked.claim, row.time) {
@@ -145,8 +145,8 @@ impl<'a> Painter<'a> {
         })
     }
 
-    /// Checks a distance from a table of results against the bodies' distance.
-    fn compare(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
+    /// Checks that the bodies are no farther apart than the row of a table of results says.
+    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
         let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
             return Ok(());
         };
@@ -163,15 +163,15 @@ impl<'a> Painter<'a> {
         Ok(())
     }
 
-    /// Returns the nearest or touching points with their features.
+    /// Returns the touching or nearest points of a row, with their features.
     fn contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
         let point = |cells: [Option<f64>; 3]| {
             let [x, y, z] = cells;
             Some(DVec3::new(x?, y?, z?))
         };
         let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
-        let lit = |k: usize, body: &Body, feature: &Option<String>| {
-            lit(
+        let feature_corners = |k: usize, body: &Body, feature: &Option<String>| {
+            feature_corners(
                 body,
                 &poses[k],
                 feature.as_deref().unwrap_or_default(),
@@ -183,8 +183,8 @@ impl<'a> Painter<'a> {
             words: verdict::contact(row),
             witnesses: Some(witnesses),
             normal: point(row.normal),
-            lit_a: lit(0, self.bodies.a, &row.feature_a),
-            lit_b: lit(1, self.bodies.b, &row.feature_b),
+            lit_a: feature_corners(0, self.bodies.a, &row.feature_a),
+            lit_b: feature_corners(1, self.bodies.b, &row.feature_b),
         })
     }
 }

@@ -1,4 +1,4 @@
-//! Remarks: input that is valid, but probably a mistake.
+//! Remarks on input that is valid, but probably a mistake.
 
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
@@ -27,51 +27,53 @@ use std::fmt;
 pub enum Remark {
     /// The tolerance is more than a tenth of the smaller body.
     CoarseTolerance {
-        /// The tolerance.
+        /// The tolerance of the query, in the scene's unit of length.
         tolerance: f64,
-        /// The largest side of the smaller body's box.
+        /// The largest side of the smaller body's bounding box, in the same unit.
         size: f64,
     },
     /// An angular velocity seems to be in degrees.
     SpinInDegrees {
-        /// The angular velocity.
+        /// The angular velocity, in radians per unit of time.
         spin: DVec3,
-        /// The rotation over the duration, in radians.
+        /// The angle of the rotation over the duration, in radians.
         turn: f64,
     },
     /// A revolute joint's position seems to be in degrees.
     JointInDegrees {
-        /// The position.
+        /// The position of the joint, in radians.
         position: f64,
     },
     /// A quaternion is far from unit length.
     LongQuaternion {
-        /// The components w, x, y, z.
+        /// The components w, x, y, z as given.
         parts: [f64; 4],
-        /// The length of the quaternion.
+        /// The length of the quaternion, which should be 1.
         length: f64,
     },
 }
 
-/// The largest unremarkable tolerance, as a share of the smaller body's size. With the default tolerance, a part of a
-/// centimetre in metres is not remarked upon, and one of a millimetre is.
-const COARSE: f64 = 0.1;
+/// The tolerance above which a remark is made, as a share of the smaller body's size. With the default tolerance, a
+/// part of a centimetre in metres is not remarked upon, and one of a millimetre is.
+const COARSE_TOLERANCE: f64 = 0.1;
 
-/// The rotation above which an angle may be meant in degrees. Four turns in radians are 25; as degrees, that is a small
-/// angle. Robots' joints and parts that are thrown or assembled turn less.
+/// The rotation in radians above which an angle may be meant in degrees. Four turns in radians are 25; as degrees, that
+/// is a small angle. Robots' joints and parts that are thrown or assembled turn less.
 const MANY_TURNS: f64 = 4.0 * TAU;
 
-/// The largest angle that may be meant in degrees: two turns. More is a shaft that spins.
+/// The largest angle, in degrees, that a mistaken input is assumed to mean: two turns. More is a shaft that spins.
 const MOST_DEGREES: f64 = 720.0;
 
-/// The step of typical angles in degrees. In radians, 50, 100, 200, 500 and multiples of π are none of them.
-const STEP: f64 = 15.0;
+/// The angle in degrees of which typical angles are multiples. In radians, 50, 100, 200, 500 and multiples of π are
+/// none of them.
+const DEGREE_STEP: f64 = 15.0;
 
-/// The relative deviation from a multiple that is attributed to rounding.
+/// The relative deviation from a multiple of that angle that is attributed to rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The largest unremarkable deviation of a quaternion's length from 1. One that is printed with two digits is nearer.
-const UNIT: f64 = 0.1;
+/// The deviation of a quaternion's length from 1 above which a remark is made. One that is printed with two digits is
+/// nearer.
+const UNIT_DEVIATION: f64 = 0.1;
 
 impl Remark {
     /// Returns the largest side of the box about a body, in its frame.
@@ -89,7 +91,7 @@ impl Remark {
     /// [sizes](Remark::size). A point has none.
     pub fn of_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
         let size = lesser(sizes[0], sizes[1]);
-        let is_coarse = size > 0.0 && tolerance > COARSE * size;
+        let is_coarse = size > 0.0 && tolerance > COARSE_TOLERANCE * size;
         is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
     }
 
@@ -114,7 +116,7 @@ impl Remark {
     pub fn of_quaternion(parts: [f64; 4]) -> Option<Self> {
         let [w, x, y, z] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
-        let is_unit = (length - 1.0).abs() <= UNIT;
+        let is_unit = (length - 1.0).abs() <= UNIT_DEVIATION;
         (!is_unit).then_some(Remark::LongQuaternion { parts, length })
     }
 
@@ -170,7 +172,7 @@ fn may_be_degrees(angle: f64) -> bool {
 }
 
 fn is_multiple(angle: f64) -> bool {
-    (angle - (angle / STEP).round() * STEP).abs() <= ROUNDING * angle.abs()
+    (angle - (angle / DEGREE_STEP).round() * DEGREE_STEP).abs() <= ROUNDING * angle.abs()
 }
 
 impl fmt::Display for Remark {

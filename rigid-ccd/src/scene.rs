@@ -1,12 +1,12 @@
 //! Many moving bodies: which of them touch, and in which order.
 
 mod clock;
-mod due;
 mod event;
 mod goal;
 mod groups;
+mod pair_queue;
 mod pairs;
-mod race;
+mod queue_entry;
 mod shifted;
 mod stops;
 
@@ -18,7 +18,7 @@ use event::Event;
 pub use event::{Impact, PairError};
 use goal::Goal;
 pub use groups::Groups;
-use race::{Race, Worker};
+use pair_queue::{PairQueue, Worker};
 use std::num::NonZeroUsize;
 pub use stops::Stop;
 
@@ -70,21 +70,22 @@ enum Mobility {
     Moving,
 }
 
-/// A fixed body cannot move.
+/// The error of a fixed body that is given a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "body {index} is fixed and cannot move; add it with Scene::add, or give it a motion at rest"
 )]
 pub struct FixedBody {
-    /// The index of the body.
+    /// The index of the fixed body.
     pub index: usize,
 }
 
-/// The number of pairs that justifies another thread. To start one takes as long as a few tens of pairs do.
+/// The number of pairs for which it pays to start one more thread. To start one takes as long as a few tens of pairs
+/// do.
 const PAIRS_A_THREAD: usize = 32;
 
 /// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
-const EVERYWHERE: SweptBox = SweptBox {
+const EVERYWHERE_BOX: SweptBox = SweptBox {
     min: DVec3::splat(-1e15),
     max: DVec3::splat(1e15),
 };
@@ -182,7 +183,7 @@ impl<'a> Scene<'a> {
         self.members[index].movement
     }
 
-    /// Changes the groups of a body.
+    /// Changes the groups that decide which other bodies a body is checked against.
     ///
     /// # Panics
     /// No body has the index.
@@ -249,39 +250,39 @@ impl<'a> Scene<'a> {
         events.iter().map(Event::impact).collect()
     }
 
-    /// Returns the contacts and errors of the pairs, as far as the goal needs them, in any order.
+    /// Returns the contacts and errors of the pairs in any order, as far as `goal` needs them.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        self.race(&pairs, &clock, goal)
+        self.run_pair_queue(&pairs, &clock, goal)
     }
 
-    fn race(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
+    fn run_pair_queue(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
         let (members, settings) = (&self.members, &self.settings);
         let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
             let [a, b] = pair.map(|index| members[index].moving());
             Ok(Query::new(a, b, clock.duration, settings)?.with_deadline(clock.left()))
         };
-        let race = Race::new(pairs, &query, clock.duration, goal);
+        let pair_queue = PairQueue::new(pairs, &query, clock.duration, goal);
         let threads = self
             .workers
             .threads()
             .min(pairs.len().div_ceil(PAIRS_A_THREAD));
         let events = self
             .workers
-            .map(&vec![(); threads], |worker, ()| worker.run(&race));
+            .map(&vec![(); threads], |worker, ()| worker.run(&pair_queue));
         events.into_iter().flatten().collect()
     }
 
-    /// Returns the pairs that are accepted and whose swept boxes meet.
+    /// Returns the pairs that the filters accept and whose swept boxes meet.
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
         let swept = |member: &Member<'_>| {
             let swept = member.moving().swept_box(duration, &self.settings);
             // Each pair of such a body reports its error.
-            swept.unwrap_or(EVERYWHERE)
+            swept.unwrap_or(EVERYWHERE_BOX)
         };
         let boxes: Vec<SweptBox> = self.members.iter().map(swept).collect();
-        pairs::meeting(&boxes, |[a, b]| {
+        pairs::meeting_pairs(&boxes, |[a, b]| {
             let pair = [&self.members[a], &self.members[b]];
             pair.iter()
                 .any(|member| member.mobility == Mobility::Moving)

@@ -1,4 +1,4 @@
-//! Tables: motions and paths are read from CSV or from columns in memory; results and contacts are written.
+//! Reads motions and paths from CSV or from columns in memory, and writes tables of results and contacts.
 //!
 //! Public only because `ccd-bench` and the Python package share them; no stable interface.
 
@@ -11,11 +11,11 @@ mod error;
 mod foreign;
 mod lines;
 pub mod motions;
-mod oddities;
 pub mod paths;
 mod position;
 mod quotes;
 pub mod records;
+mod remark_collector;
 pub mod results;
 
 pub use lines::Lines;

@@ -1,4 +1,4 @@
-//! Formatting for messages.
+//! Formats numbers and texts for messages.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! The public interface gives the same answers as the engine.
+//! Tests that the public interface gives the same answers as the engine.
 
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::{Direct, DistanceOracle, Gjk};

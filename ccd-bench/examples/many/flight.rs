@@ -1,4 +1,4 @@
-//! Bodies in free flight over a level, step by step.
+//! Makes scenes of bodies in free flight over a level, step by step.
 
 use anyhow::Result;
 use ccd_bench::scene::model::TorusKnot;
@@ -9,13 +9,13 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::{Body, Motion, Pose};
 
-/// A body, and the peer's shape of it.
+/// A body, and the same shape for the peer library.
 pub(crate) struct Shape {
     pub(crate) body: Body,
     pub(crate) peer: SharedShape,
 }
 
-/// The start of the bodies.
+/// The way in which the bodies start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
     /// The bodies fall onto the level from above.
@@ -38,13 +38,13 @@ pub(crate) const KINDS: [Kind; 5] = [
     Kind::Bullets,
 ];
 
-/// The duration of a step.
+/// The duration of a step, in seconds.
 pub(crate) const STEP: f64 = 1.0 / 60.0;
 
-/// The number of cells along each side of the level, with two triangles each.
+/// The number of squares along each side of the level, with two triangles each.
 const CELLS: u32 = 119;
 
-/// Half a side of the level.
+/// Half the length of a side of the level.
 const HALF: f64 = 30.0;
 
 /// Returns the level, hills of 28,322 triangles, followed by one shape of each kind of body.
@@ -95,7 +95,7 @@ fn height(x: f64, y: f64) -> f64 {
     1.5 * (0.31 * x).sin() * (0.27 * y).cos() + 0.3 * (1.7 * x + 0.9 * y).sin()
 }
 
-/// Bodies at constant velocities, each with the index of its shape.
+/// Bodies at constant velocities: the index of the shape, position, orientation, velocity and angular velocity of each.
 pub(crate) struct Flight(Vec<(usize, DVec3, DQuat, DVec3, DVec3)>);
 
 impl Flight {

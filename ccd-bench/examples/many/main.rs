@@ -1,5 +1,5 @@
-//! Two hundred bodies in free flight over a level of 28,322 triangles and among each other, at 60 steps a second,
-//! compared with parry's nonlinear casts of the same pairs.
+//! Compares the cost of two hundred bodies in free flight over a level of 28,322 triangles with parry's nonlinear casts
+//! of the same pairs, at 60 steps a second.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example many -- [STEPS [BODIES]]
@@ -42,10 +42,10 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The measurements of a scene.
+/// The measurements of one scene.
 #[derive(Default)]
 struct Row {
-    /// The milliseconds of each step, for the first contact, that of each body, and that of each pair.
+    /// The milliseconds of each step, for the first contact of all, that of each body, and that of each pair.
     first: Vec<f64>,
     each: Vec<f64>,
     all: Vec<f64>,
@@ -91,7 +91,7 @@ impl Row {
         Ok(row)
     }
 
-    /// Runs the peer's casts for all pairs of a step whose boxes meet.
+    /// Runs the peer library's casts for all pairs of a step whose boxes meet.
     fn cast(
         &mut self,
         step: &[(usize, Motion)],

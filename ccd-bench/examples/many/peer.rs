@@ -1,4 +1,4 @@
-//! The peer's nonlinear casts of the same pairs, and their errors.
+//! Runs the peer library's nonlinear casts of the same pairs, and counts their errors.
 
 use crate::flight::{STEP, Shape};
 use ccd_bench::method::peer::parry::double::shapes::{pose, rigid_motion};
@@ -9,29 +9,30 @@ use rigid_ccd::scene::Impact;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-/// The time limit of a cast by the peer.
+/// The time limit of a cast by the peer library.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// The comparison of both answers over many pairs.
+/// The comparison of the peer library's answers with ours over many pairs.
 #[derive(Default)]
 pub(crate) struct Tally {
     pub(crate) pairs: usize,
     pub(crate) agree: usize,
-    /// The number of times of the peer that are later than a contact confirmed by its own distance.
+    /// The number of the peer's times that are later than a contact confirmed by the peer's own distance.
     pub(crate) late: usize,
-    /// The number of casts of the peer without a contact, or without an answer, where its own distance confirms one.
+    /// The number of the peer's casts without a contact or an answer where its own distance confirms a contact.
     pub(crate) missed: usize,
-    /// The number of contacts of the peer at which its own distance exceeds the tolerance.
+    /// The number of the peer's contacts at which its own distance exceeds the tolerance.
     pub(crate) early: usize,
     /// The number of our contacts that the peer's distance does not confirm.
     pub(crate) unconfirmed: usize,
-    /// The number of the peer's contacts that its own distance confirms, and for which we have no earlier contact.
+    /// The number of the peer's contacts that its own distance confirms, and before which we have no contact.
     pub(crate) later_than_peer: usize,
     pub(crate) hung: usize,
     pub(crate) time: Duration,
 }
 
-/// Runs a cast in its own thread, because some casts do not return. Returns the time of the contact, if there is one.
+/// Runs a cast on its own thread, because some casts do not return; `None` at the time limit. Returns the time of the
+/// contact, if there is one.
 fn cast(motions: [&Motion; 2], shapes: [&SharedShape; 2]) -> Option<(Duration, Option<f64>)> {
     let (sender, receiver) = channel();
     let motions = motions.map(rigid_motion);
@@ -48,7 +49,7 @@ fn cast(motions: [&Motion; 2], shapes: [&SharedShape; 2]) -> Option<(Duration, O
 }
 
 impl Tally {
-    /// Runs a cast on a pair, and compares the answer with ours. Contacts are within `tolerance`.
+    /// Runs the peer's cast on a pair, and compares its answer with ours. Contacts are within `tolerance`.
     pub(crate) fn add(
         &mut self,
         motions: [&Motion; 2],

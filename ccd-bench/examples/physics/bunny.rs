@@ -1,4 +1,4 @@
-//! A stand-in for the bunny made of convex parts, the same for rapier and for this engine.
+//! Makes a stand-in for the Stanford bunny from convex parts, the same for rapier and for this engine.
 
 use anyhow::Result;
 use ccd_bench::scene::model::Blob;
@@ -7,7 +7,7 @@ use rigid_ccd::Body;
 use rigid_ccd_parry::Options;
 use rigid_ccd_parry::f64::body;
 
-/// The bounding radius.
+/// The bounding radius of the bunny, in metres.
 const RADIUS: f64 = 0.25;
 
 pub(crate) fn bunny() -> Result<(SharedShape, Body)> {

@@ -1,4 +1,4 @@
-//! A chart of the penetration depth of bodies over the steps.
+//! Draws a chart of the bodies' penetration depth over the steps.
 
 use crate::{METHODS, Method};
 use anyhow::Result;
@@ -7,16 +7,16 @@ use plotters::prelude::*;
 use std::ops::Range;
 use std::path::Path;
 
-/// The depths after each step of a world, for each of [`METHODS`].
+/// The penetration depths of a world after each step, for each of [`METHODS`].
 pub(crate) struct Depths {
     pub(crate) world: &'static str,
     pub(crate) methods: Vec<Vec<f64>>,
 }
 
-/// The least depth of the axis, in metres; smaller depths are drawn there.
-const LEAST: f64 = 1e-6;
+/// The least depth on the chart's axis, in metres; smaller depths are drawn there.
+const LEAST_DEPTH: f64 = 1e-6;
 
-/// The maximum number of values of a line: each is the deepest of several steps.
+/// The maximum number of values of a line, each of which is the deepest of several steps.
 const MOST_VALUES: usize = 300;
 
 /// Draws one panel for each world.
@@ -26,7 +26,7 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
     sheet.fill(&WHITE)?;
     for (panel, depths) in sheet.split_evenly((worlds.len(), 1)).iter().zip(worlds) {
         let steps = depths.methods.first().map_or(0, Vec::len);
-        let range: Range<f64> = LEAST..1.0;
+        let range: Range<f64> = LEAST_DEPTH..1.0;
         let mut chart = ChartBuilder::on(panel)
             .caption(depths.world, ("sans-serif", 18))
             .margin(10)
@@ -45,7 +45,7 @@ pub(crate) fn draw(worlds: &[Depths], path: &Path) -> Result<()> {
             let style = style(*method);
             let line = deepest(values)
                 .into_iter()
-                .map(|(step, depth)| (step, greater(LEAST, depth)));
+                .map(|(step, depth)| (step, greater(LEAST_DEPTH, depth)));
             let drawn = chart.draw_series(LineSeries::new(line, style))?;
             drawn
                 .label(method.name())
@@ -69,7 +69,7 @@ fn style(method: Method) -> ShapeStyle {
     }
 }
 
-/// Returns the greatest depth of each group of steps.
+/// Returns the greatest depth in each group of consecutive steps, with the number of the step.
 fn deepest(values: &[f64]) -> Vec<(usize, f64)> {
     let few = values.len().div_ceil(MOST_VALUES).max(1);
     let chunks = values.chunks(few).enumerate();

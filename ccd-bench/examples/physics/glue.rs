@@ -1,4 +1,4 @@
-//! A step of a rapier world in which no body passes through another: all the code that a program needs.
+//! Steps a rapier world so that no body passes through another: all the code that a program needs.
 
 use anyhow::Result;
 use ccd_core::Trajectory;
@@ -37,7 +37,7 @@ pub(crate) fn step(
     Ok(stops)
 }
 
-/// Returns the pose of a body.
+/// Converts the pose of a rapier body to this engine's type.
 pub(crate) fn pose(body: &RigidBody) -> Result<Pose> {
     let at = body.position();
     Ok(Pose::new(
@@ -46,7 +46,7 @@ pub(crate) fn pose(body: &RigidBody) -> Result<Pose> {
     )?)
 }
 
-/// Converts a pose to rapier's.
+/// Converts a pose to rapier's type.
 pub(crate) fn at(pose: Pose) -> At {
     At::from_parts(
         Vector::from_array(pose.translation().to_array()),

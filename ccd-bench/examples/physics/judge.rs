@@ -1,4 +1,4 @@
-//! Counts passages of bodies through each other and measures penetration depths, with the peer's own tests.
+//! Counts passages of bodies through each other and measures penetration depths, with parry's own tests.
 
 use crate::glue::at;
 use crate::worlds::World;
@@ -9,30 +9,35 @@ use parry3d_f64::query::{contact, intersection_test};
 use parry3d_f64::shape::Shape;
 use rigid_ccd::{Motion, Moving};
 
-/// The measurements so far.
+/// The passages and penetration depths measured so far.
 #[derive(Default)]
 pub(crate) struct Tally {
-    /// The pairs that were apart before and after a step, and overlapped between.
+    /// The number of pairs that were apart before and after a step, and overlapped between.
     pub(crate) passed: usize,
-    /// The deepest penetration after each step.
+    /// The deepest penetration after each step, in metres.
     pub(crate) depths: Vec<f64>,
-    /// The number of steps of moving bodies, and the number of those that were stopped.
+    /// The number of steps of single moving bodies, and how many of these were stopped.
     moves: usize,
     stops: usize,
 }
 
-/// A body's motion in a step, and the time at which it stops.
-pub(crate) type Moved = (Motion, f64);
+/// The motion of a body in a step, and the time at which the body stops.
+pub(crate) type StoppedMotion = (Motion, f64);
 
 impl Tally {
-    /// Measures one step of all bodies of a world.
-    pub(crate) fn step(&mut self, world: &World, moved: &[Moved], duration: f64) -> Result<()> {
+    /// Measures one step of all bodies in a world.
+    pub(crate) fn step(
+        &mut self,
+        world: &World,
+        moved: &[StoppedMotion],
+        duration: f64,
+    ) -> Result<()> {
         let mut deepest = 0.0;
         for (body, &(_, stop)) in world.bodies.iter().zip(moved) {
             self.moves += usize::from(!body.is_fixed);
             self.stops += usize::from(stop < duration);
         }
-        for [a, b] in near(world, moved, duration)? {
+        for [a, b] in pairs_that_may_meet(world, moved, duration)? {
             deepest = greater(deepest, depth(world, moved, [a, b], duration));
             self.passed += usize::from(passes(world, moved, [a, b], duration));
         }
@@ -40,7 +45,7 @@ impl Tally {
         Ok(())
     }
 
-    /// Returns the share of the bodies' steps that were stopped.
+    /// Returns the share of the bodies' steps in which the body was stopped.
     pub(crate) fn stopped(&self) -> f64 {
         self.stops as f64 / self.moves as f64
     }
@@ -51,8 +56,12 @@ impl Tally {
 }
 
 /// Returns the pairs whose swept boxes meet, except joined pairs and pairs at rest.
-fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>> {
-    let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &Moved)| {
+fn pairs_that_may_meet(
+    world: &World,
+    moved: &[StoppedMotion],
+    duration: f64,
+) -> Result<Vec<[usize; 2]>> {
+    let swept = |(body, &(motion, _)): (&crate::worlds::Simulated, &StoppedMotion)| {
         let moving = Moving::from((&body.body, motion));
         moving.swept_box(duration, &rigid_ccd::Settings::DEFAULT)
     };
@@ -66,8 +75,13 @@ fn near(world: &World, moved: &[Moved], duration: f64) -> Result<Vec<[usize; 2]>
     Ok(asked.collect())
 }
 
-/// Returns the place and the shape of two bodies at a time.
-fn placed<'w>(world: &'w World, moved: &[Moved], pair: [usize; 2], time: f64) -> [Placed<'w>; 2] {
+/// Returns the poses and the shapes of two bodies at a time.
+fn pose_and_shape_at<'w>(
+    world: &'w World,
+    moved: &[StoppedMotion],
+    pair: [usize; 2],
+    time: f64,
+) -> [Placed<'w>; 2] {
     pair.map(|k| {
         let (motion, stop) = &moved[k];
         (
@@ -79,20 +93,20 @@ fn placed<'w>(world: &'w World, moved: &[Moved], pair: [usize; 2], time: f64) ->
 
 type Placed<'w> = (At, &'w dyn Shape);
 
-fn depth(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> f64 {
-    let [a, b] = placed(world, moved, pair, time);
+fn depth(world: &World, moved: &[StoppedMotion], pair: [usize; 2], time: f64) -> f64 {
+    let [a, b] = pose_and_shape_at(world, moved, pair, time);
     let found = contact(&a.0, a.1, &b.0, b.1, 0.0).ok().flatten();
     found.map_or(0.0, |contact| greater(0.0, -contact.dist))
 }
 
-fn overlap(world: &World, moved: &[Moved], pair: [usize; 2], time: f64) -> bool {
-    let [a, b] = placed(world, moved, pair, time);
+fn overlap(world: &World, moved: &[StoppedMotion], pair: [usize; 2], time: f64) -> bool {
+    let [a, b] = pose_and_shape_at(world, moved, pair, time);
     intersection_test(&a.0, a.1, &b.0, b.1).is_ok_and(|found| found.intersecting)
 }
 
 /// Returns whether bodies that are apart at both ends overlap between them, at samples dense enough for the thinnest
 /// part.
-fn passes(world: &World, moved: &[Moved], pair: [usize; 2], duration: f64) -> bool {
+fn passes(world: &World, moved: &[StoppedMotion], pair: [usize; 2], duration: f64) -> bool {
     if overlap(world, moved, pair, 0.0) || overlap(world, moved, pair, duration) {
         return false;
     }

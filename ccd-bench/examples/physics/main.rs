@@ -1,5 +1,5 @@
-//! Fast bodies in rapier, stepped without continuous collision detection, with rapier's own, and with certified times:
-//! passages through each other, and penetration depths.
+//! Compares three ways of stepping fast bodies in rapier by their passages through each other and penetration depths:
+//! without continuous collision detection, with rapier's own, and with certified times.
 //!
 //! ```sh
 //! cargo run --release -p ccd-bench --example physics -- [STEPS [CHART.svg]]
@@ -14,7 +14,7 @@ mod worlds;
 use anyhow::Result;
 use chart::{Depths, draw};
 use glue::pose;
-use judge::{Moved, Tally};
+use judge::{StoppedMotion, Tally};
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
@@ -23,14 +23,14 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use worlds::{Simulated, World};
 
-/// The method of stepping a world.
+/// The way in which a world is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Method {
-    /// No continuous collision detection.
+    /// Steps without continuous collision detection.
     Plain,
-    /// rapier's continuous collision detection, for all bodies and also between moving ones.
+    /// Steps with rapier's continuous collision detection, for all bodies and also between moving ones.
     Rapier,
-    /// Certified times.
+    /// Steps in which each body stops at its certified first contact.
     Certified,
 }
 
@@ -86,7 +86,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Steps a world; returns the measurements and the duration of the steps.
+/// Steps a world many times; returns the measurements and the duration of the steps.
 fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration)> {
     let duration = world.physics.integration_parameters.dt;
     let bodies: Vec<_> = world.bodies.iter().map(|body| body.body.clone()).collect();
@@ -106,7 +106,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration
     }
     let (mut tally, mut time) = (Tally::default(), Duration::ZERO);
     for step in 0..steps {
-        world.act(step);
+        world.apply_forces(step);
         let starts = poses(world)?;
         let begun = Instant::now();
         let stops = match method {
@@ -125,7 +125,7 @@ fn run(world: &mut World, method: Method, steps: u32) -> Result<(Tally, Duration
                     (motion.expect("a step is a motion"), stop.time)
                 })
                 .collect(),
-            None => moved(world, &starts, duration)?,
+            None => motions_without_stops(world, &starts, duration)?,
         };
         tally.step(world, &moved, duration)?;
     }
@@ -140,8 +140,12 @@ fn poses(world: &World) -> Result<Vec<Pose>> {
     poses.collect()
 }
 
-/// Returns the motion of each body in a step without stops.
-fn moved(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<Moved>> {
+/// Returns the motion that each body has in a step without stops.
+fn motions_without_stops(
+    world: &World,
+    starts: &[Pose],
+    duration: f64,
+) -> Result<Vec<StoppedMotion>> {
     let between = |(body, start): (&Simulated, &Pose)| {
         let rigid = &world.physics.bodies[body.handle];
         let centre = rigid.mass_properties().local_mprops.local_com.to_array();

@@ -13,14 +13,14 @@ use rapier3d_f64::prelude::{
 use rigid_ccd::Body;
 use std::f64::consts::FRAC_PI_2;
 
-/// A world, its bodies, and the forces on them.
+/// A rapier world with its bodies, and the forces on them.
 pub(crate) struct World {
     pub(crate) name: &'static str,
     pub(crate) physics: PhysicsWorld,
     pub(crate) bodies: Vec<Simulated>,
-    /// The joined pairs, which may overlap.
+    /// The pairs of bodies joined to each other, which may overlap.
     pub(crate) joined: Vec<[usize; 2]>,
-    /// The length of the thinnest part of a body.
+    /// The length of the thinnest part of any body, in metres.
     pub(crate) thinnest: f64,
     act: fn(&mut World, u32),
     rng: Pcg64,
@@ -33,15 +33,15 @@ pub(crate) struct Simulated {
     pub(crate) is_fixed: bool,
 }
 
-/// The distance that rapier keeps around each body. Bodies that rest on each other are farther apart than those that
-/// are stopped.
-const SKIN: f64 = 0.002;
+/// The distance that rapier keeps around each body, in metres. Bodies that rest on each other are farther apart than
+/// those that are stopped.
+const CONTACT_SKIN: f64 = 0.002;
 
-/// The number of steps after which bodies are thrown again.
-const ROUND: u32 = 60;
+/// The number of steps after which the bodies are thrown again.
+const STEPS_PER_ROUND: u32 = 60;
 
 impl World {
-    /// The number of worlds.
+    /// The number of different worlds.
     pub(crate) const COUNT: usize = 3;
 
     /// Creates a world by its number.
@@ -53,8 +53,8 @@ impl World {
         }
     }
 
-    /// Applies forces to the bodies before a step.
-    pub(crate) fn act(&mut self, step: u32) {
+    /// Applies forces to the bodies, or throws them again, before a step.
+    pub(crate) fn apply_forces(&mut self, step: u32) {
         (self.act)(self, step);
     }
 
@@ -76,7 +76,7 @@ impl World {
     }
 
     fn add(&mut self, builder: RigidBodyBuilder, shape: SharedShape, body: Body) -> usize {
-        let collider = ColliderBuilder::new(shape.clone()).contact_skin(SKIN);
+        let collider = ColliderBuilder::new(shape.clone()).contact_skin(CONTACT_SKIN);
         let (handle, _) = self.physics.insert(builder, collider);
         self.bodies.push(Simulated {
             handle,
@@ -127,7 +127,7 @@ fn bullets(method: Method) -> Result<World> {
     let mut world = World::empty("bullets and paper", method, 0.001, |world, step| {
         for index in SHEETS..world.bodies.len() {
             // One after the other.
-            if step % ROUND == 3 * (index - SHEETS) as u32 {
+            if step % STEPS_PER_ROUND == 3 * (index - SHEETS) as u32 {
                 let aside = 0.4 * world.any();
                 let speed = world.rng.random_range(100.0..390.0);
                 let place = DVec3::new(-2.0, aside.y, aside.z);
@@ -152,7 +152,7 @@ fn bullets(method: Method) -> Result<World> {
 /// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
 fn bunnies(method: Method) -> Result<World> {
     let mut world = World::empty("bunnies onto bunnies", method, 0.01, |world, step| {
-        if step % ROUND != 0 {
+        if step % STEPS_PER_ROUND != 0 {
             return;
         }
         for index in 5..world.bodies.len() {
@@ -195,16 +195,16 @@ fn bunnies(method: Method) -> Result<World> {
 
 /// The number of links of the chain.
 const LINKS: usize = 14;
-/// Half the length of a link.
+/// Half the length of a link, in metres.
 const HALF: f64 = 0.06;
 
-/// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and laid out anew.
+/// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and then placed anew.
 fn chain(method: Method) -> Result<World> {
     let mut world = World::empty("chain through a slot", method, 0.004, |world, step| {
-        if step.is_multiple_of(4 * ROUND) {
+        if step.is_multiple_of(4 * STEPS_PER_ROUND) {
             (0..LINKS).for_each(|link| world.lay_out(link));
         }
-        let is_back = !(step / ROUND).is_multiple_of(2);
+        let is_back = !(step / STEPS_PER_ROUND).is_multiple_of(2);
         let towards = if is_back { -1.0 } else { 1.0 };
         let aside = 3.0 * world.any();
         let first = &mut world.physics.bodies[world.bodies[2].handle];

@@ -101,17 +101,17 @@ fn unwritten(source: io::Error) -> CannotWrite {
     }
 }
 
-/// The time that this process may outlive its parent.
+/// How long this process may outlive its parent.
 #[cfg(unix)]
-const WITHOUT_PARENT: Duration = Duration::from_secs(1);
+const MOST_TIME_WITHOUT_PARENT: Duration = Duration::from_secs(1);
 
-/// Ends this process, in any call, after its parent has ended.
+/// Watches for the end of the parent process, and then ends this process, whatever it is doing.
 #[cfg(unix)]
 fn end_with_parent() {
     let parent = parent_id();
     thread::spawn(move || {
         while parent_id() == parent {
-            thread::sleep(WITHOUT_PARENT);
+            thread::sleep(MOST_TIME_WITHOUT_PARENT);
         }
         std::process::exit(1);
     });

@@ -7,7 +7,7 @@ use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
 use crate::run::evaluation::{Evaluated, Plan};
-use crate::run::joined::{self, Foreign};
+use crate::run::joined::{self, ForeignTrial};
 use crate::scene::listings;
 use crate::show::presentation::Presentation;
 use crate::show::splice::splice;
@@ -98,21 +98,21 @@ Examples:
   ccd-bench chart --scenes santa --tolerances 1e-3,1e-6
   ccd-bench chart --export scenes           # meshes and motions, for other programs";
 
-/// The tolerances from coarse to fine, as fractions of a body of size 1.
+/// The tolerances at which methods are measured, from coarse to fine, for bodies of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// The tolerances at which methods are compared at equal accuracy.
 const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
 
-/// The allowance for everything in half an hour.
-const AT_LENGTH: Allowance = Allowance {
+/// The limits of measurements for a comparison of everything in half an hour.
+const FULL_ALLOWANCE: Allowance = Allowance {
     cell: Duration::from_millis(600),
     patience: Duration::from_secs(4),
     rows: usize::MAX,
     least_rows: 10,
     preparation: Duration::from_secs(20),
 };
-/// The allowance for a few rows of everything in a minute.
-const AT_A_GLANCE: Allowance = Allowance {
+/// The limits of measurements for a comparison of a few rows of everything in a minute.
+const QUICK_ALLOWANCE: Allowance = Allowance {
     cell: Duration::from_millis(40),
     patience: Duration::from_millis(200),
     rows: 40,
@@ -123,11 +123,11 @@ const AT_A_GLANCE: Allowance = Allowance {
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     let mut plan = plan(&args.common, args.full)?;
     if args.programs.script.is_some() {
-        plan.methods.extend(Method::of_scripts());
+        plan.methods.extend(Method::script_methods());
         plan.programs = args.programs.clone();
     }
-    plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
-    plan.methods = chosen(plan.methods, &args.methods, "method", Method::to_string)?;
+    plan.listings = select_by_name(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
+    plan.methods = select_by_name(plan.methods, &args.methods, "method", Method::to_string)?;
     if !args.tolerances.is_empty() {
         for tolerance in &args.tolerances {
             ensure!(
@@ -170,7 +170,7 @@ pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
 fn present(
     common: &CommonArgs,
     mut evaluated: Evaluated,
-    joined: Vec<Foreign>,
+    joined: Vec<ForeignTrial>,
     readmes: &[PathBuf],
 ) -> Result<Exit> {
     joined::join(&mut evaluated, joined)?;
@@ -202,7 +202,7 @@ fn present(
     Ok(Exit::AllAnswered)
 }
 
-/// Returns the plan for everything, or for a few rows with the fast methods.
+/// Returns the plan to measure everything, or a few rows with the fast methods.
 fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
     if let Some(directory) = &common.models {
         ensure!(
@@ -212,9 +212,9 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
         );
     }
     let (allowance, tolerances) = if full {
-        (AT_LENGTH, &TOLERANCES[..])
+        (FULL_ALLOWANCE, &TOLERANCES[..])
     } else {
-        (AT_A_GLANCE, &FEW_TOLERANCES[..])
+        (QUICK_ALLOWANCE, &FEW_TOLERANCES[..])
     };
     let methods = Method::all().into_iter();
     let methods = methods.filter(|method| full || is_fast_to_run(*method));
@@ -229,8 +229,8 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
     })
 }
 
-/// Returns true if a method runs a few rows fast. Peers take time to start, since they run in other processes, so only
-/// one of them is included.
+/// Returns true if the method answers a few rows within seconds. Peers take time to start, since they run in other
+/// processes, so only one of them is included.
 fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::Ours(..) | Method::Rival(_) => true,
@@ -240,7 +240,7 @@ fn is_fast_to_run(method: Method) -> bool {
 }
 
 /// Returns the items with the given names, or all items if no names are given.
-pub(super) fn chosen<T>(
+pub(super) fn select_by_name<T>(
     all: Vec<T>,
     names: &[String],
     what: &str,

@@ -77,7 +77,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         let truth = referee.first_contact(&query);
         let asked = guarded.ask(&query, Duration::from_secs(args.patience.get().into()))?;
         let verdict = judge_outcome(&asked, |reply| {
-            let tolerance = reply.judged_by(args.tolerance);
+            let tolerance = reply.judging_tolerance(args.tolerance);
             judge(&referee, &query, truth, reply.claim, tolerance)
         });
         let verdict = verdict.verdict.to_string();

@@ -1,6 +1,6 @@
 //! The command `ccd-bench stability`: finds where each method fails.
 
-use super::chart::chosen;
+use super::chart::select_by_name;
 use super::print_summary;
 use crate::method::Method;
 use crate::method::guarded::Programs;
@@ -57,13 +57,13 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-/// Returns all methods that answer queries; FAST as published comes after its sound forms.
+/// Returns all methods that answer queries; FAST as published comes after its variants with a sound bound.
 fn known_methods() -> Vec<Method> {
     let mut methods = Method::all();
     let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
     let last = methods.iter().rposition(is_fast);
-    methods.insert(last.map_or(0, |last| last + 1), Method::published());
-    methods.extend(Method::of_scripts());
+    methods.insert(last.map_or(0, |last| last + 1), Method::fast_as_published());
+    methods.extend(Method::script_methods());
     methods.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
     methods
 }
@@ -79,8 +79,8 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         |method: &Method| args.programs.script.is_some() || !matches!(method, Method::Script(_));
     let methods = drawn.iter().copied().filter(has_program).collect();
     let survey = Survey {
-        families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
-        methods: chosen(methods, &args.methods, "method", Method::to_string)?,
+        families: select_by_name(families(), &args.families, "family", |f| f.name.to_owned())?,
+        methods: select_by_name(methods, &args.methods, "method", Method::to_string)?,
         full: args.full,
         programs: args.programs.clone(),
         folder: args.out.clone(),

@@ -141,7 +141,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     })
 }
 
-/// Returns both surfaces. B is `None` if it comes from the same file as A.
+/// Reads the surfaces of both bodies; B is `None` if it comes from the same file as A.
 fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
     let surface = |option: &str, path: &Path| -> Result<(Surface, Size)> {
         let progress = Progress::of(&format!("reading {}", path.display()), args.quiet);
@@ -161,7 +161,7 @@ fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
     Ok((a, Some(b)))
 }
 
-/// Returns the truth of every row, `None` for invalid ones.
+/// Returns the truth of every row; `None` for rows that are not valid.
 fn judge(
     referees: &mut ParallelSolver<&Referee<'_>>,
     batch: &[MotionRow],
@@ -177,7 +177,7 @@ fn judge(
     })
 }
 
-/// Counts the truths of each kind; gives the widest bracket of a hit.
+/// Describes how many rows have each kind of truth, and the widest bracket of a first contact.
 fn summary(counts: &HashMap<Status, usize>, widest: f64) -> String {
     let kinds = Status::value_variants().iter().map(|kind| {
         let count = counts.get(kind).unwrap_or(&0);

@@ -16,31 +16,31 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Runs a method on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
+/// A method that runs on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
 pub struct Guarded {
     program: PathBuf,
     setting: Setting,
-    meshes: Meshes,
-    /// `None` after the last process was stopped, until the next one starts.
+    meshes: MeshFiles,
+    /// The running process; `None` after the last one was stopped, until the next one starts.
     process: Option<Process>,
 }
 
-/// A method and its settings.
+/// A method with its tolerance, its margin and its time limit.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
-    /// The method.
+    /// The method that the process runs.
     pub method: Method,
     /// The tolerance, for methods that take one.
     pub tolerance: f64,
-    /// The distance to keep; a method without margins refuses any other than 0.
+    /// The distance to keep between the bodies; a method without margins refuses any other than 0.
     pub margin: f64,
     /// The time limit for preparing the bodies.
     pub preparation: Duration,
 }
 
 impl Setting {
-    /// Returns the default setting of a method at a tolerance: no margin, two minutes of preparation.
+    /// Returns the default setting of a method at a tolerance: no margin, and two minutes of preparation.
     pub fn new(method: Method, tolerance: f64) -> Self {
         Setting {
             method,
@@ -51,14 +51,14 @@ impl Setting {
     }
 }
 
-/// The outcome of a query.
+/// How a query to a guarded process ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum QueryOutcome {
-    /// The method answered.
+    /// The method answered the query.
     Answered(TimedReply),
     /// The call exceeded the time limit, and the process was stopped.
     CutOff,
-    /// The process ended: a panic, or out of memory.
+    /// The process ended by itself: a panic, or out of memory.
     Died,
 }
 
@@ -104,7 +104,7 @@ impl Programs {
 }
 
 impl QueryOutcome {
-    /// Returns the claim, if the method answered.
+    /// Returns the method's claim about the query; `None` without an answer.
     pub fn claim(&self) -> Option<Claim> {
         match self {
             QueryOutcome::Answered(timed) => Some(timed.reply.claim),
@@ -112,7 +112,7 @@ impl QueryOutcome {
         }
     }
 
-    /// Returns the time of the query in microseconds: that until it was stopped, NaN if the process ended.
+    /// Returns the time of the query in microseconds: the time limit if it was stopped, NaN if the process ended.
     pub fn micros(&self, patience: Duration) -> f64 {
         match self {
             QueryOutcome::Answered(timed) => timed.micros,
@@ -121,7 +121,7 @@ impl QueryOutcome {
         }
     }
 
-    /// Returns the number of steps in time, 0 without an answer.
+    /// Returns the number of steps in time that the method took; 0 without an answer.
     pub fn steps(&self) -> u64 {
         match self {
             QueryOutcome::Answered(timed) => timed.reply.steps,
@@ -147,7 +147,7 @@ impl Guarded {
         Ok(guarded)
     }
 
-    /// Prepares a method on two meshes. The first query starts it.
+    /// Prepares a method for queries about two meshes. The first query starts it.
     ///
     /// # Errors
     /// If the meshes cannot be written, or the method has no program.
@@ -172,12 +172,12 @@ impl Guarded {
         Ok(Guarded {
             program,
             setting,
-            meshes: Meshes::write(meshes)?,
+            meshes: MeshFiles::create(meshes)?,
             process: None,
         })
     }
 
-    /// Sets the tolerance; the next query restarts the method if it is another one.
+    /// Sets the tolerance; the next query restarts the process if it has changed.
     pub fn set_tolerance(&mut self, tolerance: f64) {
         if self.setting.tolerance != tolerance {
             self.setting.tolerance = tolerance;
@@ -185,7 +185,8 @@ impl Guarded {
         }
     }
 
-    /// Runs one query. A process that was stopped or has died is restarted first; that is not timed.
+    /// Runs one query, and stops the process if it exceeds the time limit `patience`. A process that was stopped or has
+    /// died is restarted first; that is not timed.
     ///
     /// # Errors
     /// Those of [`Guarded::start`].
@@ -219,7 +220,7 @@ impl Guarded {
     }
 }
 
-/// A process that answers lines with lines. It ends when this is dropped.
+/// A running process that answers each line of input with one line. It ends when this is dropped.
 #[derive(Debug)]
 struct Process {
     child: Child,
@@ -286,20 +287,20 @@ impl Drop for Process {
     }
 }
 
-/// Two meshes as files, which are removed when this is dropped.
+/// Two meshes written to files, which are removed when this value is dropped.
 #[derive(Debug)]
-struct Meshes {
+struct MeshFiles {
     directory: PathBuf,
 }
 
-impl Meshes {
-    fn write(meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
+impl MeshFiles {
+    fn create(meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let name = format!("ccd-bench-{}-{count}", std::process::id());
         let directory = std::env::temp_dir().join(name);
         fs::create_dir_all(&directory)?;
-        let written = Meshes { directory };
+        let written = MeshFiles { directory };
         for (k, mesh) in meshes.into_iter().enumerate() {
             write_obj(mesh, File::create(written.path(k))?)?;
         }
@@ -312,7 +313,7 @@ impl Meshes {
     }
 }
 
-impl Drop for Meshes {
+impl Drop for MeshFiles {
     fn drop(&mut self) {
         // A folder left behind does no harm.
         let _ = fs::remove_dir_all(&self.directory);

@@ -1,4 +1,4 @@
-//! Peer libraries behind the interface of solvers.
+//! Peer libraries behind the same interface as all solvers.
 //!
 //! They answer the same queries about the same meshes, each by the call that its makers offer for
 //! that. The docs of each type say which parameters the call takes and which it does not offer.
@@ -21,18 +21,18 @@ use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 
-/// The peer libraries.
+/// The peer libraries, in the ways in which they are called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum PeerKind {
-    /// The method [`parry::double::cast`].
+    /// Nonlinear casts of parry in double precision: [`parry::double::cast`].
     ParryF64,
-    /// The method [`parry::single::cast`].
+    /// Nonlinear casts of parry in single precision: [`parry::single::cast`].
     ParryF32,
-    /// The method [`parry::double::sweep`].
+    /// Swept triangles of parry in double precision: [`parry::double::sweep`].
     ParrySweepF64,
-    /// The method [`parry::single::sweep`].
+    /// Swept triangles of parry in single precision: [`parry::single::sweep`].
     ParrySweepF32,
-    /// The method [`rapier::Simulated`].
+    /// One step of a rapier simulation: [`rapier::Simulated`].
     RapierStepF64,
 }
 
@@ -46,7 +46,7 @@ impl PeerKind {
         }
     }
 
-    /// Returns the peer itself, in this process; its calls may never return.
+    /// Returns a solver that calls the peer in this process; its calls may never return.
     ///
     /// # Errors
     /// If the peer refuses a mesh.
@@ -62,7 +62,7 @@ impl PeerKind {
     }
 }
 
-/// Returns a contact at `time`, clamped to the duration because of rounding. An invalid time is no answer.
+/// Returns the claim of a contact at `time`, clamped to the duration because of rounding. An invalid time is no answer.
 fn contact_at(time: f64, duration: f64) -> Claim {
     if time.is_finite() {
         let time = time.clamp(0.0, duration);

@@ -1,16 +1,16 @@
-//! Peer libraries in other languages, run by a script: `scripts/peers.py answer`.
+//! Peer libraries in other languages, which the script `scripts/peers.py` runs.
 
 use clap::ValueEnum;
 
-/// The methods of the script, by its names.
+/// The methods that the script runs, by its names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum ScriptKind {
-    /// One static distance of Coal at the start, the least cost of any method.
+    /// A single static distance of Coal at the start, the least cost of any method.
     CoalDistance,
-    /// Static tests of Coal at equal steps.
+    /// Static intersection tests of Coal at equal steps.
     CoalSteps,
-    /// FCL's conservative advancement.
+    /// Conservative advancement of FCL.
     FclCa,
-    /// FCL's tests at equal steps.
+    /// Static intersection tests of FCL at equal steps.
     FclNaive,
 }

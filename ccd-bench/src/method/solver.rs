@@ -7,34 +7,34 @@ use std::time::{Duration, Instant};
 
 /// A solver that answers queries about two bodies, one after another.
 pub trait Solver {
-    /// Returns the first contact that the solver finds with a tolerance, a length.
+    /// Returns the first contact that the solver finds with a tolerance, given as a length.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply;
 }
 
-/// A reply and its time.
+/// A solver's reply to a query, with the time that it took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimedReply {
-    /// The reply.
+    /// The solver's reply to the query.
     pub reply: Reply,
-    /// The time in microseconds.
+    /// The median time of the query, in microseconds.
     pub micros: f64,
 }
 
-/// The largest number of answers to one query. The time is the median of all answers except the
+/// The maximum number of times that a query is answered for timing. The time is the median of all answers except the
 /// first, which finds cold caches; clocks and caches make short times uncertain.
-const REPEATS: usize = 4;
-/// The total time of answers after which a query is not repeated.
-const REPEATED_WITHIN: Duration = Duration::from_millis(40);
+const MOST_REPEATS: usize = 4;
+/// The total time after which a query is not answered again for timing.
+const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
 pub fn timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
-    let mut micros = Vec::with_capacity(REPEATS);
+    let mut micros = Vec::with_capacity(MOST_REPEATS);
     let first = Instant::now();
     loop {
         let start = Instant::now();
         let reply = solver.answer(query, tolerance);
         micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if first.elapsed() > REPEATED_WITHIN || micros.len() == REPEATS {
+        if first.elapsed() > REPEAT_TIME_LIMIT || micros.len() == MOST_REPEATS {
             let warm = usize::from(micros.len() > 1);
             let micros = median(&mut micros[warm..]);
             return TimedReply { reply, micros };
@@ -45,11 +45,11 @@ pub fn timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedR
 /// The reply of a solver to one query.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reply {
-    /// The answer.
+    /// What the solver claims about the first contact.
     pub claim: Claim,
     /// The number of steps in time: advancements, halvings or samples, depending on the solver.
     pub steps: u64,
-    /// The tolerance of the answer, if the solver states one.
+    /// The tolerance at which the solver answered, if it states one.
     pub tolerance: Option<f64>,
     /// The reason for an incomplete answer, if the solver gives one.
     pub reason: Option<String>,
@@ -67,22 +67,22 @@ impl Reply {
     }
 
     /// Returns the tolerance by which the reply is judged: that of the query, or a higher one that the solver states.
-    pub fn judged_by(&self, tolerance: f64) -> f64 {
+    pub fn judging_tolerance(&self, tolerance: f64) -> f64 {
         greater(tolerance, self.tolerance.unwrap_or(0.0))
     }
 }
 
-/// The answer of a solver.
+/// What a solver claims about the first contact of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Claim {
-    /// The bodies come within the tolerance at that time, and not before.
+    /// The bodies come within the tolerance at a time, and not before.
     Contact {
-        /// The time, from 0 to the query's duration.
+        /// The time of the claimed contact, from 0 to the query's duration.
         time: f64,
     },
     /// The bodies do not come within the tolerance over the whole duration.
     Free,
-    /// The solver gave up.
+    /// The solver gave up before the end of the duration.
     Unresolved {
         /// The time before which there is no contact, according to the solver.
         safe_until: f64,
@@ -94,7 +94,7 @@ pub enum Claim {
 }
 
 impl Claim {
-    /// Returns the name of the claim's kind.
+    /// Returns the name of the claim's kind in tables.
     pub fn status(self) -> &'static str {
         match self {
             Claim::Contact { .. } => "contact",

@@ -1,4 +1,4 @@
-//! The protocol between a guard and the guarded process: one line for each query, and one for each reply.
+//! The protocol between this program and a process that runs a method: one line for each query, and one for each reply.
 
 use super::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};
@@ -6,13 +6,13 @@ use ccd_core::{Motion, Pose};
 use rigid_ccd::table::motions::Motions;
 use std::io::{self, BufRead, Write};
 
-/// The process's first line after it has prepared its bodies.
+/// The first line that the process writes after it has prepared its bodies.
 pub const READY: &str = "ready";
 
-/// The prefix of its first line if it refuses the bodies or the setting; the reason follows.
+/// The prefix of the first line if the process refuses the bodies or the setting; the reason follows.
 pub const REFUSED: &str = "refused: ";
 
-/// Answers queries until the input ends.
+/// Answers queries from the input until it ends.
 ///
 /// # Errors
 /// If a line is no query, or if the reader of the replies is gone.
@@ -57,8 +57,8 @@ pub fn format_query(query: &Motions) -> String {
     texts.join(" ")
 }
 
-/// The number of values of a motion on the line.
-const OF_MOTION: usize = 16;
+/// The number of values by which a line gives one motion.
+const VALUES_PER_MOTION: usize = 16;
 
 /// Parses a line as a query; returns `None` if it is invalid.
 pub fn parse_query(line: &str) -> Option<Motions> {
@@ -66,8 +66,8 @@ pub fn parse_query(line: &str) -> Option<Motions> {
         .split(' ')
         .map(|text| text.parse().ok())
         .collect::<Option<_>>()?;
-    let (a, rest) = numbers.split_at_checked(OF_MOTION)?;
-    let (b, rest) = rest.split_at_checked(OF_MOTION)?;
+    let (a, rest) = numbers.split_at_checked(VALUES_PER_MOTION)?;
+    let (b, rest) = rest.split_at_checked(VALUES_PER_MOTION)?;
     let &[duration] = rest else {
         return None;
     };

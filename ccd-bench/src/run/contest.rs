@@ -28,27 +28,27 @@ use rigid_ccd::table::motions::Motions;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A scene, prepared for judging answers.
+/// A scene with its surfaces, prepared for running methods and judging their answers.
 pub struct Contest<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
-    /// The same queries with screw motions.
+    /// The queries of the scene with screw motions between the same poses.
     screws: Vec<Motions>,
 }
 
-/// The limits of a measurement.
+/// The limits on time and rows of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
     /// The time for one method on one scene at one tolerance; no more queries are started after it.
     pub cell: Duration,
     /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
-    /// The largest number of queries.
+    /// The largest number of queries to ask.
     pub rows: usize,
     /// The least number of queries, regardless of time.
     pub least_rows: usize,
-    /// The time for preparation, for a method that prepares pieces on first use. Only queries that
-    /// are prepared by then are asked.
+    /// The time limit for preparing the pieces of a method that makes them on first use. Only queries that are prepared
+    /// by then are asked.
     pub preparation: Duration,
 }
 
@@ -56,7 +56,7 @@ pub struct Allowance {
 pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
 impl<'s> Contest<'s> {
-    /// Opens a scene.
+    /// Prepares a scene for running methods on it.
     ///
     /// # Errors
     /// If a motion has no screw between its ends.
@@ -83,13 +83,13 @@ impl<'s> Contest<'s> {
         }
     }
 
-    /// Returns the referee of this scene.
+    /// Returns the referee that judges answers about this scene.
     pub fn referee(&self) -> Referee<'_> {
         Referee::new(&self.surfaces[0], &self.surfaces[1])
     }
 
-    /// Returns the order of the rows to run, of which at most `most` are run. The rows are spread evenly, and so is any
-    /// number of the first ones.
+    /// Returns the order in which rows are run, of which at most `most` are run. The rows are spread evenly, and so is
+    /// any number of the first ones.
     pub fn order(&self, most: usize) -> Vec<usize> {
         let count = self.scene.queries.len();
         let stride = (1..=count)
@@ -152,17 +152,17 @@ impl<'s> Contest<'s> {
                 )
             })
             .collect();
-        Ok(Some((sum_up(&trials), trials)))
+        Ok(Some((summarise(&trials), trials)))
     }
 
-    /// Returns the scene.
+    /// Returns the scene that the methods are run on.
     pub fn scene(&self) -> &'s Scene {
         self.scene
     }
 }
 
-/// Summarises the trials of one method on one scene, at least one.
-pub fn sum_up(trials: &[Trial]) -> Cell {
+/// Summarises the trials of one method on one scene, of which there is at least one.
+pub fn summarise(trials: &[Trial]) -> Cell {
     let count = |verdict: Verdict| {
         let name = verdict.to_string();
         trials.iter().filter(|t| t.verdict == name).count()
@@ -210,7 +210,7 @@ fn coprime(a: usize, b: usize) -> bool {
     }
 }
 
-/// Returns a percentile of sorted values, for a share from 0 to 1; NaN without values.
+/// Returns a percentile of sorted values, given as a share from 0 to 1; NaN without values.
 fn percentile(sorted: &[f64], share: f64) -> f64 {
     let within = (share * sorted.len() as f64).ceil() as usize;
     within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])

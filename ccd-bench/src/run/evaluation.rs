@@ -11,14 +11,14 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The measurements to make.
+/// The measurements to make: scenes, methods, tolerances and limits.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The scenes.
+    /// The scenes to run the methods on.
     pub listings: Vec<Listing>,
-    /// The methods.
+    /// The methods to measure.
     pub methods: Vec<Method>,
-    /// The tolerances.
+    /// The tolerances to measure at.
     pub tolerances: Vec<f64>,
     /// The limits of each method on each scene; a peer may run a single row, and prepares nothing on first use.
     pub allowance: Allowance,
@@ -26,21 +26,21 @@ pub struct Plan {
     pub programs: Programs,
     /// The folder of mesh files that replace the models made by code.
     pub models: Option<PathBuf>,
-    /// The folder of the measurements.
+    /// The folder into which the measurements are written.
     pub folder: PathBuf,
 }
 
-/// The measurements, with their scenes and truths.
+/// The measurements made, with their scenes and exact answers.
 pub struct Evaluated {
-    /// The scenes.
+    /// The scenes that the methods were run on.
     pub scenes: Vec<Scene>,
-    /// The cells and trials.
+    /// The measurements of all cells and trials.
     pub journal: Journal,
-    /// The truths that the answers were compared with.
+    /// The exact answers that the replies were compared with.
     pub truths: Truths,
 }
 
-/// The file of the known truths, in the folder of the measurements.
+/// The name of the file of exact answers, in the folder of the measurements.
 const TRUTHS: &str = "truth.csv";
 
 impl Plan {
@@ -58,7 +58,7 @@ impl Plan {
         })
     }
 
-    /// Measures whatever is missing in the folder.
+    /// Makes the measurements that the folder does not have yet.
     ///
     /// # Errors
     /// If a scene cannot be made, a method cannot be run, or a file cannot be kept; earlier measurements are kept.
@@ -169,7 +169,7 @@ impl Plan {
         });
     }
 
-    /// Returns the tolerances for a method: all, or the usual one if it takes none.
+    /// Returns the tolerances to measure a method at: all, or the usual one if it takes none.
     fn tolerances_of(&self, method: Method) -> impl Iterator<Item = f64> {
         self.tolerances
             .iter()

@@ -2,7 +2,7 @@
 
 use crate::method::solver::Claim;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Contest, Judged, Truths, Verdict, judge, sum_up};
+use crate::run::contest::{Contest, Judged, Truths, Verdict, judge, summarise};
 use crate::run::evaluation::Evaluated;
 use crate::run::measured::{Trial, read};
 use crate::scene::{Listing, Models, Scene};
@@ -14,9 +14,9 @@ use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// A trial measured elsewhere.
+/// A trial that another program measured.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Foreign {
+pub struct ForeignTrial {
     scene: String,
     method: String,
     tolerance: f64,
@@ -64,8 +64,8 @@ pub(crate) fn write_inputs(
 ///
 /// # Errors
 /// If the file is no such table, or names a method of this program.
-pub fn read_trials(file: &Path) -> Result<Vec<Foreign>> {
-    let foreign: Vec<Foreign> = read(file)?;
+pub fn read_trials(file: &Path) -> Result<Vec<ForeignTrial>> {
+    let foreign: Vec<ForeignTrial> = read(file)?;
     let own: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
     for trial in &foreign {
         ensure!(
@@ -73,16 +73,17 @@ pub fn read_trials(file: &Path) -> Result<Vec<Foreign>> {
             "{} is measured here; give it another name",
             trial.method
         );
-        let _ = reported(trial)?;
+        let _ = claim_or_verdict(trial)?;
     }
     Ok(foreign)
 }
 
-/// Judges trials. They replace earlier trials of the same methods.
+/// Judges trials that other programs measured, and adds them to the evaluation. They replace earlier trials of the same
+/// methods.
 ///
 /// # Errors
 /// If a trial names an unknown scene or query.
-pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> {
+pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<ForeignTrial>) -> Result<()> {
     for trial in &foreign {
         if evaluated
             .journal
@@ -102,15 +103,15 @@ pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> 
         let Some(scene) = evaluated.scenes.iter().find(|s| s.name == key.0) else {
             bail!("there is no scene {}, or it was not measured here", key.0);
         };
-        let trials = judged(scene, &group, &mut evaluated.truths)?;
-        evaluated.journal.add(sum_up(&trials), trials)?;
+        let trials = judged_trial(scene, &group, &mut evaluated.truths)?;
+        evaluated.journal.add(summarise(&trials), trials)?;
     }
     Ok(())
 }
 
-fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<Trial>> {
+fn judged_trial(scene: &Scene, group: &[ForeignTrial], truths: &mut Truths) -> Result<Vec<Trial>> {
     let contest = Contest::new(scene)?;
-    let row_of = |foreign: &Foreign| {
+    let row_of = |foreign: &ForeignTrial| {
         let row = scene.queries.iter().position(|q| q.id == foreign.id);
         row.with_context(|| format!("scene {} has no query {}", scene.name, foreign.id))
     };
@@ -120,7 +121,7 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
     let mut trials = Vec::new();
     for (foreign, &row) in group.iter().zip(&rows) {
         let (query, tolerance) = (&scene.queries[row], foreign.tolerance);
-        let judged = reported(foreign)?.map_or_else(Judged::plain, |claim| {
+        let judged = claim_or_verdict(foreign)?.map_or_else(Judged::without_error, |claim| {
             judge(&contest.referee(), query, truth(row), claim, tolerance)
         });
         trials.push(Trial {
@@ -140,8 +141,8 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
     Ok(trials)
 }
 
-/// Returns the claim of a trial, or the verdict on one without a claim.
-fn reported(foreign: &Foreign) -> Result<Result<Claim, Verdict>> {
+/// Returns the claim of a trial, or the verdict on a trial that has no claim.
+fn claim_or_verdict(foreign: &ForeignTrial) -> Result<Result<Claim, Verdict>> {
     let time = || {
         let time = foreign.time.filter(|time| time.is_finite());
         time.with_context(|| format!("{} of {} has no time", foreign.status, foreign.id))

@@ -1,4 +1,4 @@
-//! The table of cells, which the charts show, and the table of trials that it summarises.
+//! The table of cells, which the charts show, and the table of trials, which it summarises.
 
 #[cfg(test)]
 mod tests;
@@ -15,72 +15,72 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 use std::time::Duration;
 
-/// One method on one scene at one tolerance: a row of `chart.csv`.
+/// The measurements of one method on one scene at one tolerance: a row of `chart.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
-    /// The scene's name.
+    /// The name of the scene.
     pub scene: String,
-    /// The method's name.
+    /// The name of the method.
     pub method: String,
-    /// The tolerance, a length.
+    /// The tolerance of the queries, in the scene's unit of length.
     pub tolerance: f64,
-    /// The number of queries.
+    /// The number of queries that the method was asked.
     pub rows: usize,
     /// The median time of a query, in microseconds.
     pub median_us: f64,
-    /// The mean time.
+    /// The mean time of a query, in microseconds.
     pub mean_us: f64,
-    /// The 95th percentile of the times.
+    /// The 95th percentile of the queries' times, in microseconds.
     pub p95_us: f64,
-    /// Contacts reported after the exact first one.
+    /// The number of contacts reported after the exact first one.
     pub late: usize,
-    /// Contacts not reported.
+    /// The number of contacts not reported.
     pub missed: usize,
-    /// Contacts reported although the bodies never come within the tolerance.
+    /// The number of contacts reported although the bodies never come within the tolerance.
     #[serde(rename = "false")]
     pub false_contacts: usize,
-    /// Queries without a complete answer, including those cut off.
+    /// The number of queries without a complete answer, including those cut off.
     pub unresolved: usize,
     /// The mean error of the times of contact, as a fraction of the duration; NaN (an empty cell)
     /// if there are none.
     #[serde(with = "optional")]
     pub mean_error: f64,
-    /// The largest of these errors.
+    /// The largest error of a time of contact, as a fraction of the duration.
     #[serde(with = "optional")]
     pub max_error: f64,
-    /// Contacts reported while the bodies are farther apart than the tolerance.
+    /// The number of contacts reported while the bodies are farther apart than the tolerance.
     pub early: usize,
-    /// Queries that exceeded the time limit and were stopped, or at which the peer died.
+    /// The number of queries that exceeded the time limit and were stopped, or at which the peer died.
     pub cut_off: usize,
-    /// Queries whose truth is not known well enough to judge the answer.
+    /// The number of queries whose truth is not known well enough to judge the answer.
     pub undecided: usize,
     /// The mean number of steps in time of a query, as the method counts them.
     pub mean_steps: f64,
 }
 
-/// One query: a row of `trials.csv`.
+/// The measurement of one query: a row of `trials.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// The scene's name.
+    /// The name of the scene.
     pub scene: String,
-    /// The method's name.
+    /// The name of the method.
     pub method: String,
-    /// The tolerance, a length.
+    /// The tolerance of the query, in the scene's unit of length.
     pub tolerance: f64,
     /// The index of the query in its scene, from 0.
     pub row: usize,
-    /// The query's name.
+    /// The name of the query in the table of motions.
     pub id: String,
-    /// The time of this query, in microseconds.
+    /// The time that the method took for this query, in microseconds.
     pub micros: f64,
-    /// The number of steps in time.
+    /// The number of steps in time that the method took.
     pub steps: u64,
-    /// The verdict on the claim.
+    /// The verdict on the method's claim.
     pub verdict: String,
     /// The error of the time of contact, as a fraction of the duration; NaN if there is no time.
     #[serde(with = "optional")]
     pub error: f64,
-    /// The time of the claimed contact, or until which there is none; NaN without a time.
+    /// The time of the claimed contact, or the time until which there is none; NaN without a time.
     #[serde(with = "optional", default = "no_time")]
     pub time: f64,
     /// The method's remark about its answer: a raised tolerance, or the reason for an incomplete answer.
@@ -112,7 +112,7 @@ impl Trial {
     }
 }
 
-/// Returns the default for earlier tables, which have no times.
+/// Returns NaN, the time for earlier tables, which have no times.
 fn no_time() -> f64 {
     f64::NAN
 }
@@ -124,7 +124,7 @@ impl Cell {
     }
 }
 
-/// Writes a table with a header.
+/// Writes rows as a CSV table with a header.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -139,7 +139,7 @@ pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
     ccd_file::write(path, write).with_context(|| path.display().to_string())
 }
 
-/// Reads a table with a header.
+/// Reads the rows of a CSV table with a header.
 ///
 /// # Errors
 /// If the file cannot be read, or a row does not fit the table.
@@ -158,7 +158,7 @@ pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Er
     }
 }
 
-/// Writes NaN as an empty cell.
+/// Serialises NaN as an empty cell.
 mod optional {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

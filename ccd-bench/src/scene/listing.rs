@@ -8,11 +8,11 @@ use rigid_ccd::table::motions::{MotionTable, Motions};
 use serde::Deserialize;
 use std::ops::Range;
 
-/// The description of a scene.
+/// The description of a scene, from which it can be made.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Listing {
-    /// The name in the tables.
+    /// The name of the scene in tables.
     pub name: String,
     a: String,
     b: String,
@@ -55,7 +55,7 @@ pub fn listings() -> Result<Vec<Listing>> {
 }
 
 impl Listing {
-    /// Makes the scene.
+    /// Makes the scene from its models and its table of motions.
     ///
     /// # Errors
     /// If the data names something unknown, or a model's file is no mesh that a body can be made of.

@@ -22,7 +22,7 @@ use ccd_decomp::{MeshError, TriangleMesh};
 use clap::ValueEnum;
 use std::path::Path;
 
-/// A body of the scenes `[FAST06 §6.2]`.
+/// A mesh of the scenes `[FAST06 §6.2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Model {
     /// A torus knot of 216 triangles, small enough for all pairs.
@@ -33,25 +33,25 @@ pub enum Model {
     Knot11520,
     /// A torus knot of 34,560 triangles.
     Knot34560,
-    /// A ring of 10,000 triangles.
+    /// A torus of 10,000 triangles.
     Ring,
     /// A thin board of 12 triangles.
     Board,
-    /// A stand-in for the bunny with 69,664 triangles.
+    /// A stand-in for the Stanford bunny with 69,664 triangles.
     Bunny70k,
-    /// A stand-in for the bunny with 26,000 triangles.
+    /// A stand-in for the Stanford bunny with 26,000 triangles.
     Bunny26k,
-    /// A stand-in for Santa with 37,888 triangles.
+    /// A stand-in for the Santa model with 37,888 triangles.
     Santa,
 }
 
 impl Model {
-    /// Returns the name of its file, without the extension.
+    /// Returns the name of the model's file, without the extension.
     pub fn name(self) -> String {
         name_of(&self)
     }
 
-    /// Returns the mesh in `NAME.obj` of a directory if that exists, else the one made by code.
+    /// Returns the mesh in the file `NAME.obj` of a directory if that exists, else the one made by code.
     ///
     /// # Errors
     /// If the file exists but is no mesh.
@@ -63,7 +63,7 @@ impl Model {
         }
     }
 
-    /// Returns the mesh made by code.
+    /// Returns the mesh that is made by code.
     ///
     /// # Errors
     /// None, since every model has a valid size.

@@ -72,7 +72,7 @@ fn models_are_made_once() {
     assert_eq!(first.triangles(), 216);
 }
 
-/// The stored shots and drops, drawn again from their seeds, are the same bytes.
+/// Tests that the stored motions are those that the random seeds give.
 #[test]
 fn the_stored_motions_are_those_of_their_seeds() {
     let bunnies = Shots {

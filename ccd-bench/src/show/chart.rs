@@ -1,4 +1,4 @@
-//! Charts of measurements: SVG files drawn from the tables alone.
+//! Draws charts of measurements as SVG files from the tables alone.
 //!
 //! | chart | shows |
 //! |---|---|
@@ -25,14 +25,15 @@ use crate::run::measured::Cell;
 use anyhow::{Result, ensure};
 use plane::Shown;
 
-/// The remark on medians over different rows.
+/// The remark below charts whose medians are over different rows.
 const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on the \
                          rows that both were asked.";
 
-/// The data of all charts.
+/// The measurements that all charts show.
 #[derive(Clone, Copy, Debug)]
 pub struct Charts<'a> {
-    /// Every method on every scene at every tolerance, with medians that [can be compared](super::comparable).
+    /// The measurements of every method on every scene at every tolerance, with medians that [can be
+    /// compared](super::comparable).
     pub cells: &'a [Cell],
     /// The scenes in display order; cells of other scenes are left out.
     pub scenes: &'a [SceneFacts<'a>],
@@ -43,7 +44,7 @@ pub struct Charts<'a> {
 /// The facts about a scene that charts need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneFacts<'a> {
-    /// The name in the tables.
+    /// The name of the scene in the tables.
     pub name: &'a str,
     /// The number of triangles of the moving mesh.
     pub triangles: usize,
@@ -52,36 +53,36 @@ pub struct SceneFacts<'a> {
 /// The facts about a method that charts need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MethodFacts<'a> {
-    /// The name in the tables.
+    /// The name of the method in the tables.
     pub name: &'a str,
-    /// The family.
+    /// Whether the method is this project's, a published one or a library.
     pub family: Family,
 }
 
-/// The origin of a method.
+/// Where a method comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// This project.
+    /// The method is this project's.
     Ours,
-    /// A published method, built here for comparison.
+    /// The method is published, and built here for comparison.
     Rival,
-    /// A library in use.
+    /// The method is that of a library in use.
     Peer,
-    /// This project's method on another model of the same mesh, shown in tables only.
+    /// The method is this project's on other pieces of the same mesh, shown in tables only.
     Model,
 }
 
-/// A chart.
+/// A chart as the content of an SVG file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawing {
-    /// The name of its file, without the extension.
+    /// The name of the chart's file, without the extension.
     pub name: String,
-    /// The content of its file.
+    /// The SVG text of the chart.
     pub svg: String,
 }
 
 impl Charts<'_> {
-    /// Returns every chart that has data.
+    /// Draws every chart for which there are measurements.
     ///
     /// # Errors
     /// If no row of the table is of a known scene and a known method, or the drawing library fails.
@@ -101,7 +102,7 @@ impl Charts<'_> {
             .any(|cell| cell.method == method && cell.is_unsafe())
     }
 
-    /// Returns the scenes that have cells.
+    /// Returns the scenes for which there are measurements.
     fn measured_scenes(&self) -> Vec<&SceneFacts<'_>> {
         let has_cells = |scene: &&SceneFacts<'_>| {
             let of = |method: &MethodFacts<'_>| !self.cells_of(scene.name, method.name).is_empty();
@@ -110,7 +111,7 @@ impl Charts<'_> {
         self.scenes.iter().filter(has_cells).collect()
     }
 
-    /// Returns the cells of a method on a scene, the coarsest tolerance first.
+    /// Returns the measurements of a method on a scene, the coarsest tolerance first.
     fn cells_of(&self, scene: &str, method: &str) -> Vec<&Cell> {
         let mut cells: Vec<_> = self
             .cells
@@ -121,7 +122,7 @@ impl Charts<'_> {
         cells
     }
 
-    /// Returns the methods of some families that have cells, each with its style.
+    /// Returns the measured methods of some families, each with its style.
     fn shown(&self, families: &[Family]) -> Vec<Shown<'_>> {
         let measured = |name: &str| {
             let of = |scene: &SceneFacts<'_>| !self.cells_of(scene.name, name).is_empty();
@@ -136,7 +137,7 @@ impl Charts<'_> {
 }
 
 impl<'a> MethodFacts<'a> {
-    /// Returns the facts about a method with this name; an unknown method was measured elsewhere.
+    /// Returns the facts about the method with this name; an unknown method was measured elsewhere.
     pub fn named(name: &'a str) -> Self {
         let family = match Method::named(name) {
             Some(method @ Method::Ours(..)) if method.is_model() => Family::Model,
@@ -149,8 +150,7 @@ impl<'a> MethodFacts<'a> {
 }
 
 impl SceneFacts<'_> {
-    /// Returns the moving shape and its kind of motion, without size and rotation; a line over the sizes joins scenes of
-    /// the same shape.
+    /// Returns the scene's name without size and rotation, the same for scenes that a line over the sizes joins.
     fn shape(&self) -> String {
         let plain: String = self.name.chars().filter(|c| !c.is_ascii_digit()).collect();
         let plain = plain.trim_end_matches(" translating");
@@ -159,10 +159,10 @@ impl SceneFacts<'_> {
 }
 
 impl Family {
-    /// The families that charts compare.
+    /// The families of methods that the charts compare.
     const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
 
-    /// Returns the heading in the legend.
+    /// Returns the heading of the family in the legend.
     pub(in crate::show) fn title(self) -> &'static str {
         match self {
             Family::Ours => "this project",
@@ -173,7 +173,7 @@ impl Family {
     }
 }
 
-/// Returns true if a tolerance is the paper's, up to its rounding in a table.
+/// Returns true if a tolerance is the one of the paper's benchmarks, up to its rounding in a table.
 fn is_papers(tolerance: f64) -> bool {
     (tolerance / USUAL_TOLERANCE - 1.0).abs() < 1e-9
 }

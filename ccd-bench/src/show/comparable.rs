@@ -1,4 +1,4 @@
-//! Comparable medians of methods that ran on different rows.
+//! Makes medians comparable between methods that ran on different rows.
 //!
 //! A slow method is stopped after a few rows, which may be the easy ones. Its time is then estimated as that of a
 //! reference that was asked more, times the median ratio of both over the rows that both were asked.
@@ -7,29 +7,29 @@ use crate::run::measured::{Cell, Trial};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
 
-/// The key of a row: scene, tolerance, index.
-type Place<'a> = (&'a str, u64, usize);
+/// The key of a row in a table of trials: scene, bits of the tolerance, index of the row.
+type RowKey<'a> = (&'a str, u64, usize);
 
-/// The times of a reference, by row.
+/// The times of the method with which the others are compared, by row.
 #[derive(Debug)]
 pub struct Reference<'a> {
     name: &'a str,
     trials: &'a [Trial],
-    times: HashMap<Place<'a>, f64>,
+    times: HashMap<RowKey<'a>, f64>,
 }
 
 impl<'a> Reference<'a> {
-    /// Collects the times of a method.
+    /// Collects the times of the method with this name.
     pub fn new(name: &'a str, trials: &'a [Trial]) -> Self {
         let own = trials.iter().filter(|trial| trial.method == name);
         Reference {
             name,
             trials,
-            times: own.map(|trial| (place(trial), trial.micros)).collect(),
+            times: own.map(|trial| (row_key(trial), trial.micros)).collect(),
         }
     }
 
-    /// Returns the name of the method.
+    /// Returns the name of the reference method.
     pub fn name(&self) -> &'a str {
         self.name
     }
@@ -43,14 +43,15 @@ impl<'a> Reference<'a> {
                 && trial.tolerance == cell.tolerance
         };
         let ratios = self.trials.iter().filter(of_cell).filter_map(|trial| {
-            let ratio = trial.micros / self.times.get(&place(trial))?;
+            let ratio = trial.micros / self.times.get(&row_key(trial))?;
             ratio.is_finite().then_some(ratio)
         });
         let mut ratios: Vec<f64> = ratios.collect();
         (!ratios.is_empty()).then(|| median(&mut ratios))
     }
 
-    /// Returns the cells with comparable medians. A cell keeps its own where the reference was not asked.
+    /// Returns the cells with their medians replaced by comparable ones: the reference's median times the ratio. A cell
+    /// keeps its own where the reference was not asked.
     pub fn comparable(&self, cells: &[Cell]) -> Vec<Cell> {
         let at = |cell: &&Cell| cell.method == self.name;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))
@@ -73,7 +74,7 @@ impl<'a> Reference<'a> {
     }
 }
 
-fn place(trial: &Trial) -> Place<'_> {
+fn row_key(trial: &Trial) -> RowKey<'_> {
     (&trial.scene, trial.tolerance.to_bits(), trial.row)
 }
 

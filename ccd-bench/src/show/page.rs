@@ -1,14 +1,14 @@
-//! One page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
+//! Makes one page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
 
 use super::chart::Drawing;
 use super::tables::TextTable;
 use super::views::Views;
-use ccd_view::{escape, filled};
+use ccd_view::{escape, fill_template};
 
 #[cfg(test)]
 mod tests;
 
-/// Returns the text of the page.
+/// Returns the HTML text of the page.
 ///
 /// # Errors
 /// If the views cannot be serialised.
@@ -28,7 +28,7 @@ pub fn html(
         ("view_scripts", ccd_view::scripts()),
         ("tables_script", include_str!("page/tables.js").to_owned()),
     ];
-    Ok(filled(include_str!("page/page.html"), &parts))
+    Ok(fill_template(include_str!("page/page.html"), &parts))
 }
 
 fn table_html(table: &TextTable) -> String {

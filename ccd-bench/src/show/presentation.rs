@@ -13,32 +13,32 @@ use crate::show::write;
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 
-/// Tables, charts and views of one evaluation.
+/// The tables, charts and views of one evaluation.
 pub struct Presentation<'e> {
     evaluated: &'e Evaluated,
-    /// The findings.
+    /// The findings as sentences.
     pub sentences: Vec<String>,
-    /// The tables for the terminal.
+    /// The tables that are printed on the terminal.
     pub summary: Vec<TextTable>,
-    /// The tables for a page or a README.
+    /// The tables of a page or a README.
     pub comparisons: Vec<TextTable>,
     scenes: Vec<SceneFacts<'e>>,
     methods: Vec<MethodFacts<'e>>,
-    /// The cells, with comparable medians.
+    /// The measurements, with comparable medians.
     cells: Vec<Cell>,
 }
 
-/// The finer of the two tolerances of comparisons.
+/// The finer of the two tolerances at which methods are compared.
 const FINE_TOLERANCE: f64 = 1e-6;
-/// The reference method of comparisons.
+/// The name of the reference method of comparisons.
 const DEFAULT: &str = "best-first direct";
-/// The paper's own method.
+/// The name of the paper's own method.
 const AS_PUBLISHED: &str = "fast vmarch";
 /// The methods that the paper compares its own with; the factors are in the table's title.
 const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 
 impl<'e> Presentation<'e> {
-    /// Summarises the measurements.
+    /// Makes the tables and sentences from the measurements of an evaluation.
     pub fn new(evaluated: &'e Evaluated) -> Self {
         let (cells, trials) = (evaluated.journal.cells(), evaluated.journal.trials());
         let methods = tables::methods(cells).into_iter();
@@ -89,7 +89,7 @@ impl<'e> Presentation<'e> {
         }
     }
 
-    /// Writes charts and the page into a folder. Returns the page's path.
+    /// Writes the charts and the page into a folder. Returns the page's path.
     ///
     /// # Errors
     /// If there is nothing to draw, or a file cannot be written.

@@ -1,4 +1,4 @@
-//! The findings of an evaluation, in a few sentences.
+//! Describes the findings of an evaluation in a few sentences.
 
 #[cfg(test)]
 mod tests;
@@ -8,22 +8,22 @@ use crate::show::chart::{Family, MethodFacts, SceneFacts};
 use crate::show::comparable::Reference;
 use ccd_core::order::{greater, lesser};
 
-/// The measurements.
+/// The measurements that the sentences describe.
 #[derive(Clone, Copy, Debug)]
 pub struct Measurements<'a> {
-    /// The scenes.
+    /// The scenes that were measured.
     pub scenes: &'a [SceneFacts<'a>],
     /// The methods that give answers, in their usual order.
     pub methods: &'a [MethodFacts<'a>],
-    /// Every method on every scene at every tolerance.
+    /// The measurements of every method on every scene at every tolerance.
     pub cells: &'a [Cell],
-    /// The reference method for times.
+    /// The method with which times are compared.
     pub reference: &'a Reference<'a>,
     /// The tolerance at which times are compared.
     pub tolerance: f64,
 }
 
-/// The families in the order of the sentences, with their names.
+/// The families of methods in the order of the sentences, with their names.
 const FAMILIES: [(Family, &str); 4] = [
     (Family::Ours, "This project"),
     (Family::Model, "This project, bodies of other pieces"),
@@ -34,18 +34,18 @@ const FAMILIES: [(Family, &str); 4] = [
 impl Measurements<'_> {
     /// Returns sentences on the queries, on the answers of each family, and on their times.
     pub fn sentences(&self) -> Vec<String> {
-        let mut told = vec![self.queries()];
+        let mut told = vec![self.describe_queries()];
         told.extend(
             FAMILIES
                 .iter()
-                .filter_map(|&(family, name)| self.answers(family, name)),
+                .filter_map(|&(family, name)| self.describe_errors(family, name)),
         );
-        told.extend(self.own_time());
-        told.extend(self.other_times());
+        told.extend(self.describe_own_time());
+        told.extend(self.describe_time_ratios());
         told
     }
 
-    fn queries(&self) -> String {
+    fn describe_queries(&self) -> String {
         let sizes = self.scenes.iter().map(|scene| scene.triangles);
         let rows: usize = self.cells.iter().map(|cell| cell.rows).sum();
         format!(
@@ -59,7 +59,7 @@ impl Measurements<'_> {
     }
 
     /// Describes the errors in the answers of a family; `None` if it has no methods.
-    fn answers(&self, family: Family, name: &str) -> Option<String> {
+    fn describe_errors(&self, family: Family, name: &str) -> Option<String> {
         let methods = self.methods.iter().filter(|method| method.family == family);
         let (mut count, mut rows, mut open, mut wrong) = (0, 0, 0, Vec::new());
         for MethodFacts { name: method, .. } in methods {
@@ -91,8 +91,8 @@ impl Measurements<'_> {
         })
     }
 
-    /// Describes the time of a query with the reference.
-    fn own_time(&self) -> Option<String> {
+    /// Describes the time of a query with the reference method.
+    fn describe_own_time(&self) -> Option<String> {
         let name = self.reference.name();
         let medians = || {
             self.cells_of(name)
@@ -107,8 +107,8 @@ impl Measurements<'_> {
         ))
     }
 
-    /// Describes the ratio of the others' times to the reference's, from scene to scene.
-    fn other_times(&self) -> Option<String> {
+    /// Describes the ratios of the other methods' times to the reference's, from scene to scene.
+    fn describe_time_ratios(&self) -> Option<String> {
         let others = self
             .methods
             .iter()

@@ -6,18 +6,18 @@ use anyhow::{Context, Result, ensure};
 use std::fs;
 use std::path::Path;
 
-/// Replaces the text between `<!-- ccd chart: NAME -->` and the next `<!-- end -->` by the table of
-/// that name, for every table that the file has a marker for.
+/// Replaces the text between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` by the table of that name, for
+/// each marker in the file.
 ///
 /// # Errors
 /// If the file cannot be read or written, has no marker of any table, or has a marker without an end.
 pub fn splice(file: &Path, tables: &[TextTable]) -> Result<()> {
     let text = fs::read_to_string(file)?;
-    let spliced = spliced(&text, tables)?;
-    Ok(write(file, &spliced)?)
+    let with_tables = with_tables(&text, tables)?;
+    Ok(write(file, &with_tables)?)
 }
 
-fn spliced(text: &str, tables: &[TextTable]) -> Result<String> {
+fn with_tables(text: &str, tables: &[TextTable]) -> Result<String> {
     let mut text = text.to_owned();
     let mut found = false;
     for table in tables {
@@ -26,8 +26,8 @@ fn spliced(text: &str, tables: &[TextTable]) -> Result<String> {
             continue;
         };
         let length = text[from..]
-            .find(END)
-            .with_context(|| format!("no `{END}` after `{}`", begin.trim_end()))?;
+            .find(END_MARKER)
+            .with_context(|| format!("no `{END_MARKER}` after `{}`", begin.trim_end()))?;
         let body = format!("{}:\n\n{}\n", table.title, table.as_markdown());
         text.replace_range(from..from + length, &body);
         found = true;
@@ -39,7 +39,7 @@ fn spliced(text: &str, tables: &[TextTable]) -> Result<String> {
     Ok(text)
 }
 
-const END: &str = "<!-- end -->";
+const END_MARKER: &str = "<!-- end -->";
 
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,4 @@
-//! Summaries of the measurements, as tables of text.
+//! Summarises the measurements as tables of text.
 
 #[cfg(test)]
 pub(crate) mod tests;
@@ -12,30 +12,30 @@ use comfy_table::{CellAlignment, Table, TableStyle};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
 
-/// A table as text.
+/// A table of texts, for a terminal or a README.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable {
-    /// The name in the markers of a README.
+    /// The name of the table in the markers of a README.
     pub name: String,
-    /// The title.
+    /// The title above the table.
     pub title: String,
     /// The names of the columns.
     pub header: Vec<String>,
-    /// The rows.
+    /// The rows, each with one text per column.
     pub rows: Vec<Vec<String>>,
 }
 
-/// A column of a table of cells: its name and its texts.
+/// A column of a table of measurements: its name, and the function that returns its text.
 type Column<'c> = (&'c str, &'c dyn Fn(&Cell) -> String);
 
-/// The number of rows below which a median is shown with its number of rows.
-const FEW: usize = 10;
+/// The number of rows below which a median is shown together with the number of rows.
+const FEW_ROWS: usize = 10;
 
-/// The text of a cell without a value.
-const NOTHING: &str = "–";
+/// The text in place of a value that is missing.
+const NO_VALUE: &str = "–";
 
 impl TextTable {
-    /// Returns a table without a name and rows.
+    /// Creates a table without a name and without rows.
     pub fn new(title: &str, header: impl IntoIterator<Item = impl Into<String>>) -> Self {
         TextTable {
             name: String::new(),
@@ -53,17 +53,17 @@ impl TextTable {
         }
     }
 
-    /// Lays out the table for a terminal.
+    /// Returns the text of the table for a terminal, with aligned columns.
     pub fn for_terminal(&self) -> String {
-        self.laid_out(UTF8_BORDERS_ONLY)
+        self.with_layout(UTF8_BORDERS_ONLY)
     }
 
-    /// Lays out the table for a README.
+    /// Returns the text of the table for a README, in Markdown.
     pub fn as_markdown(&self) -> String {
-        self.laid_out(ASCII_MARKDOWN)
+        self.with_layout(ASCII_MARKDOWN)
     }
 
-    fn laid_out(&self, style: TableStyle) -> String {
+    fn with_layout(&self, style: TableStyle) -> String {
         let mut table = Table::new();
         table.load_style(style).set_header(&self.header);
         for (index, column) in table.column_iter_mut().enumerate() {
@@ -88,10 +88,10 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -
     let ratio = format!("× {}", reference.name());
     let of_reference = |cell: &Cell| match reference.ratio(cell) {
         Some(ratio) => format!("{ratio:.2}"),
-        None => NOTHING.to_owned(),
+        None => NO_VALUE.to_owned(),
     };
     let mean_error = |cell: &Cell| match cell.mean_error {
-        error if error.is_nan() => NOTHING.to_owned(),
+        error if error.is_nan() => NO_VALUE.to_owned(),
         error => format!("{error:.0e}"),
     };
     let columns: [Column<'_>; 12] = [
@@ -124,10 +124,10 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -
     table
 }
 
-/// A count of a cell, with its name.
+/// A count in a table of measurements: its name, and the function that returns it.
 type Count = (&'static str, fn(&Cell) -> usize);
 
-/// The counts of a cell that are summed for a method.
+/// The counts that are summed over all cells of a method.
 const COUNTS: [Count; 8] = [
     ("queries", |cell| cell.rows),
     ("late", |cell| cell.late),
@@ -201,7 +201,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         }
     }
     if ratios.is_empty() {
-        return NOTHING.to_owned();
+        return NO_VALUE.to_owned();
     }
     let occurs = |verdict: Verdict| {
         let name = verdict.to_string();
@@ -213,7 +213,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         ""
     };
     let rows = match ratios.len() {
-        few @ ..FEW => format!(" [{few}]"),
+        few @ ..FEW_ROWS => format!(" [{few}]"),
         _ => String::new(),
     };
     let mark = if occurs(Verdict::Late) || occurs(Verdict::Missed) {
@@ -236,7 +236,7 @@ fn three_digits(value: f64) -> String {
     }
 }
 
-/// Returns the methods of a table by name, in the usual order.
+/// Returns the names of the methods in a table, in the usual order.
 pub fn methods(cells: &[Cell]) -> Vec<&str> {
     let order: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
     let mut methods: Vec<&str> = Vec::new();

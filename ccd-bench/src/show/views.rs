@@ -1,4 +1,4 @@
-//! A few motions of each scene, to view in three dimensions on a page.
+//! Draws a few motions of each scene, to view in three dimensions on a page.
 
 use crate::method::first_contact;
 use crate::scene::Scene;
@@ -13,14 +13,14 @@ use rigid_ccd::table::results::ResultRow;
 /// The views of all scenes; equal meshes are stored once.
 #[derive(Clone, Debug, Default)]
 pub struct Views {
-    /// The meshes.
+    /// The meshes of all scenes' bodies.
     pub meshes: Meshes,
-    /// The views, by scene.
+    /// The views of motions, one group for each scene.
     pub groups: Vec<Group>,
 }
 
-/// The numbers of contacts and of other motions of a scene to view.
-const MOST: [usize; 2] = [6, 2];
+/// The maximum numbers of contacts and of other motions of a scene to view.
+const MOST_VIEWS: [usize; 2] = [6, 2];
 
 impl Views {
     /// Draws the first contacts of each scene, and the first other motions.
@@ -32,14 +32,14 @@ impl Views {
         for scene in scenes {
             let group = Group {
                 name: scene.name.clone(),
-                views: views.of(scene)?,
+                views: views.views_of_scene(scene)?,
             };
             views.groups.push(group);
         }
         Ok(views)
     }
 
-    fn of(&mut self, scene: &Scene) -> Result<Vec<View>> {
+    fn views_of_scene(&mut self, scene: &Scene) -> Result<Vec<View>> {
         let bodies = scene.bodies();
         let asked = Asked {
             claim: Claim::First,
@@ -54,7 +54,7 @@ impl Views {
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;
             let kind = usize::from(!matches!(answer.outcome, Outcome::Contact { .. }));
-            if found[kind].len() < MOST[kind] {
+            if found[kind].len() < MOST_VIEWS[kind] {
                 let course = Course::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
                 let row = ResultRow::new(&course, answer, 0.0, bodies.compared(None));
@@ -64,7 +64,7 @@ impl Views {
                 }
                 found[kind].push(view);
             }
-            if found.each_ref().map(Vec::len) == MOST {
+            if found.each_ref().map(Vec::len) == MOST_VIEWS {
                 break;
             }
         }

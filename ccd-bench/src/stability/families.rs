@@ -1,4 +1,4 @@
-//! The families, by the kind of difficulty.
+//! The families of scenes, by the kind of difficulty. Case numbers such as T8 are those of `tests/it/scenes.rs`.
 
 mod accuracy;
 mod gaps;
@@ -11,7 +11,7 @@ mod turning;
 use super::family::{Family, Step};
 use anyhow::Result;
 
-/// Returns all families.
+/// Returns all families of scenes.
 pub fn families() -> Vec<Family> {
     [
         gaps::families(),
@@ -27,7 +27,7 @@ pub fn families() -> Vec<Family> {
     .collect()
 }
 
-/// Returns a family without values.
+/// Returns a family of the given name without values of its parameter.
 fn family(name: &'static str, make: fn(f64) -> Result<Step>) -> Family {
     Family {
         name,
@@ -37,13 +37,13 @@ fn family(name: &'static str, make: fn(f64) -> Result<Step>) -> Family {
     }
 }
 
-/// Returns 10⁻ᵏ for each k.
-fn tenths(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
+/// Returns the powers 10⁻ᵏ for each k.
+fn negative_powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(-k)).collect()
 }
 
-/// Returns 10ᵏ for each k.
-fn tens(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
+/// Returns the powers 10ᵏ for each k.
+fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(k)).collect()
 }
 

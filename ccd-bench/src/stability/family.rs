@@ -1,4 +1,4 @@
-//! A family of scenes: one hard parameter in steps, with exact answers.
+//! A family of scenes with known answers, whose parameter makes them harder step by step.
 
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3};
@@ -9,9 +9,9 @@ use rigid_ccd::table::motions::Motions;
 /// Scenes of one kind, with a parameter that makes them harder.
 #[derive(Clone, Debug)]
 pub struct Family {
-    /// The name.
+    /// The name of the family in tables.
     pub name: &'static str,
-    /// The description of the parameter.
+    /// The description of the parameter in words.
     pub parameter: &'static str,
     /// The values of the parameter, the easiest first.
     pub values: Vec<f64>,
@@ -19,27 +19,27 @@ pub struct Family {
     pub make: fn(f64) -> Result<Step>,
 }
 
-/// Two meshes, and queries about them with known answers.
+/// The scene of a family for one value of its parameter: two meshes, and queries with known answers.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// The meshes of A and B.
+    /// The meshes of body A and body B.
     pub meshes: [TriangleMesh; 2],
-    /// The tolerance of the queries.
+    /// The tolerance of the queries, in the scene's unit of length.
     pub tolerance: f64,
-    /// The distance to keep.
+    /// The distance to keep between the bodies, in the scene's unit of length.
     pub margin: f64,
-    /// The duration of the queries.
+    /// The duration of all queries.
     pub duration: f64,
-    /// The queries.
+    /// The queries with their answers.
     pub cases: Vec<Case>,
 }
 
-/// A query with its answer.
+/// A query with its exact answer.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The query.
+    /// The motions of both bodies.
     pub query: Motions,
-    /// The exact answer.
+    /// The exact answer of the query.
     pub expected: Expected,
 }
 
@@ -48,19 +48,19 @@ pub struct Case {
 pub enum Expected {
     /// The first contact is between two times, after the start.
     Contact {
-        /// The time before which there is no contact.
+        /// The latest known time before which there is no contact.
         lo: f64,
-        /// The time by which there is a contact.
+        /// The earliest known time by which there is a contact.
         hi: f64,
     },
-    /// There is no contact.
+    /// There is no contact for the whole duration.
     Free,
     /// The bodies overlap at the start, or one is inside the other.
     Start,
 }
 
 impl Family {
-    /// Returns the same family over the values of a parameter.
+    /// Returns the same family with a parameter of the given description and values.
     pub(super) fn over(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
             parameter,
@@ -81,17 +81,17 @@ pub(super) struct BodyMotion {
     pub(super) centre: DVec3,
 }
 
-/// The rotations of the world in which a scene is repeated, about no axis of symmetry.
-const WORLDS: [(DVec3, f64); 2] = [
+/// The rotations of the whole scene in which its queries are repeated, about axes of no symmetry.
+const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
     (DVec3::new(0.6, 0.0, 0.8), 1.1),
     (DVec3::new(-0.48, 0.6, 0.64), 2.3),
 ];
 
-/// The default tolerance of a step.
+/// The default tolerance of a step, in the scene's unit of length.
 const TOLERANCE: f64 = 1e-6;
 
 impl Expected {
-    /// Returns a contact at a known time, which the query's rounded numbers reach to within a slack.
+    /// Returns the answer of a contact at a known time, with an allowance for the rounding of the query's numbers.
     pub(super) fn at(time: f64, slack: f64) -> Self {
         Expected::Contact {
             lo: time - slack,
@@ -99,7 +99,7 @@ impl Expected {
         }
     }
 
-    /// Converts the answer from duration 1 to another duration.
+    /// Converts the answer for duration 1 to another duration.
     fn over(self, duration: f64) -> Self {
         match self {
             Expected::Contact { lo, hi } => Expected::Contact {
@@ -120,20 +120,20 @@ impl BodyMotion {
         centre: DVec3::ZERO,
     };
 
-    /// A fall from z = 3 by 4.
+    /// The motion of a body that falls from z = 3 to z = −1.
     pub(super) const FALLING: BodyMotion = BodyMotion {
         at: DVec3::new(0.0, 0.0, 3.0),
         velocity: DVec3::new(0.0, 0.0, -4.0),
         ..BodyMotion::STILL
     };
 
-    /// Rest at z = −1, so that the top of a slab is at 0.
-    pub(super) const UNDER: BodyMotion = BodyMotion {
+    /// The motion of a slab that rests at z = −1, so that its top is at 0.
+    pub(super) const SLAB_BELOW: BodyMotion = BodyMotion {
         at: DVec3::NEG_Z,
         ..BodyMotion::STILL
     };
 
-    /// Returns the motion of a body at rest.
+    /// Returns the motion of a body that rests at a position.
     pub(super) fn rest(at: DVec3) -> Self {
         BodyMotion {
             at,
@@ -141,7 +141,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns a motion in a straight line.
+    /// Returns the motion of a body in a straight line, without rotation.
     pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
         BodyMotion {
             at,
@@ -150,12 +150,12 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the same motion from another orientation.
+    /// Returns the same motion with another orientation at the start.
     pub(super) fn oriented(self, turned: DQuat) -> Self {
         BodyMotion { turned, ..self }
     }
 
-    /// Returns the same motion with a rotation about the centre.
+    /// Returns the same motion with an added rotation about the centre.
     pub(super) fn spinning(self, spin: DVec3) -> Self {
         BodyMotion { spin, ..self }
     }
@@ -169,7 +169,7 @@ impl BodyMotion {
 }
 
 impl Step {
-    /// Returns a step without queries.
+    /// Creates a step for two meshes, without queries.
     pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
         Step {
             meshes: [a, b],
@@ -181,31 +181,36 @@ impl Step {
     }
 
     /// Returns the same step with another tolerance.
-    pub(super) fn within(self, tolerance: f64) -> Self {
+    pub(super) fn with_tolerance(self, tolerance: f64) -> Self {
         Step { tolerance, ..self }
     }
 
-    /// Adds a query with exactly these numbers; the answer is for a duration of 1.
-    pub(super) fn exactly(self, a: BodyMotion, b: BodyMotion, expected: Expected) -> Result<Self> {
+    /// Adds a query with exactly these motions; the expected answer is for a duration of 1.
+    pub(super) fn with_query(
+        self,
+        a: BodyMotion,
+        b: BodyMotion,
+        expected: Expected,
+    ) -> Result<Self> {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
-    /// Adds the query, and the same one in rotated worlds. The answer has to bear their rounding.
-    pub(super) fn turned_too(
+    /// Adds the query, and the same query in rotated worlds. The answer has to bear their rounding.
+    pub(super) fn with_rotated_queries(
         mut self,
         a: BodyMotion,
         b: BodyMotion,
         expected: Expected,
     ) -> Result<Self> {
-        self = self.exactly(a, b, expected)?;
-        for (axis, angle) in WORLDS {
+        self = self.with_query(a, b, expected)?;
+        for (axis, angle) in WORLD_ROTATIONS {
             self = self.in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
         }
         Ok(self)
     }
 
-    /// Adds the query, in rotated worlds too if it bears their rounding.
-    pub(super) fn turned_if(
+    /// Adds the query, and the same query in rotated worlds if the answer bears their rounding.
+    pub(super) fn with_rotated_queries_if(
         self,
         bears_rounding: bool,
         a: BodyMotion,
@@ -213,9 +218,9 @@ impl Step {
         expected: Expected,
     ) -> Result<Self> {
         if bears_rounding {
-            self.turned_too(a, b, expected)
+            self.with_rotated_queries(a, b, expected)
         } else {
-            self.exactly(a, b, expected)
+            self.with_query(a, b, expected)
         }
     }
 

@@ -1,4 +1,4 @@
-//! The results of a survey: its families, values and methods, and the worst answers.
+//! The results of a survey by families and methods, and the worst answers.
 
 use super::family::Family;
 use super::survey::step_name;
@@ -7,7 +7,7 @@ use crate::run::contest::{Journal, Verdict};
 use crate::run::measured::Trial;
 use std::collections::{HashMap, HashSet};
 
-/// The verdicts, from good to bad.
+/// All verdicts, from good to bad.
 pub(super) const VERDICTS: [Verdict; 10] = [
     Verdict::Right,
     Verdict::Early,
@@ -21,34 +21,34 @@ pub(super) const VERDICTS: [Verdict; 10] = [
     Verdict::CutOff,
 ];
 
-/// The answers of a journal, by families and methods.
+/// The answers in a journal, sorted by families and methods.
 #[derive(Debug)]
 pub struct Findings<'j> {
     /// The families of the survey, each with its values.
     pub(super) families: Vec<Family>,
-    /// The methods of the survey.
+    /// The methods that were asked.
     pub(super) methods: Vec<Method>,
     pub(super) journal: &'j Journal,
     /// The worst answer to each step by each method, with the index of its verdict.
     worst: HashMap<(&'j str, &'j str), (usize, &'j Trial)>,
 }
 
-/// A wrong answer to a step.
+/// A step of a family to which a method gave a wrong answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limit {
     pub(super) value: f64,
-    /// The worst verdict at that step.
+    /// The worst verdict on the method's answers at that step.
     pub(super) verdict: Verdict,
 }
 
-/// The reach of a method in a family.
+/// How far a method is right in a family.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
-    /// The share of the steps, from the easiest, before the first limit.
+    /// The share of the family's steps, from the easiest, before the first wrong answer.
     pub(super) share: f64,
-    /// The first step with a wrong answer.
+    /// The first step with a wrong answer; `None` if all are right.
     pub(super) first: Option<Limit>,
-    /// The first step with the worst verdict of all.
+    /// The first step with the worst verdict of all; `None` if all are right.
     pub(super) worst: Option<Limit>,
 }
 
@@ -83,12 +83,12 @@ impl<'j> Findings<'j> {
         }
     }
 
-    /// Returns true if there are no answers.
+    /// Returns true if the journal has no answers.
     pub fn is_empty(&self) -> bool {
         self.families.is_empty() || self.methods.is_empty()
     }
 
-    /// Returns the reach of a method in a family; `None` without answers.
+    /// Returns how far a method is right in a family; `None` without answers.
     pub(super) fn reach(&self, family: &Family, method: &str) -> Option<Reach> {
         let answer = |&value: &f64| {
             let step = step_name(family, value);

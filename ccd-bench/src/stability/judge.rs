@@ -1,4 +1,4 @@
-//! Judges the outcome of a query against its exact answer.
+//! Judges the answer to a query of a step against the exact one.
 
 use super::family::{Case, Expected, Step};
 use crate::method::guarded::QueryOutcome;
@@ -9,8 +9,8 @@ use crate::truth::{Referee, Truth};
 /// The latest time that counts as the start for bodies in contact at the start, as a fraction of the duration.
 const AT_START: f64 = 1e-12;
 
-/// Judges the outcome of a case of a step by the tolerance of the step, or by a higher one that the method states for
-/// its answer. The referee measures distances; it is not asked for the answer.
+/// Judges the answer to a query by the tolerance of its step, or by a higher one that the method states. The referee
+/// measures distances; it is not asked for the answer.
 pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, outcome: &QueryOutcome) -> Judged {
     contest::judge_outcome(outcome, |reply| judge_reply(step, case, referee, reply))
 }
@@ -18,14 +18,14 @@ pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, outcome: &QueryOut
 fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judged {
     let claim = reply.claim;
     let query = &case.query;
-    let within = step.margin + reply.judged_by(step.tolerance);
+    let within = step.margin + reply.judging_tolerance(step.tolerance);
     match case.expected {
-        _ if claim == Claim::Refused => Judged::plain(Verdict::Refused),
+        _ if claim == Claim::Refused => Judged::without_error(Verdict::Refused),
         Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
             is_near(referee, query, time, within)
         }),
         Expected::Free => contest::judge(referee, query, Truth::Free, claim, within),
-        Expected::Start => Judged::plain(from_start(claim, query.duration)),
+        Expected::Start => Judged::without_error(from_start(claim, query.duration)),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The bodies of the families.
+//! Makes the meshes of the families.
 
 use crate::scene::model::sphere::sphere;
 use crate::scene::model::{Board, Plate, Ring};
@@ -30,13 +30,13 @@ pub(super) fn ball(radius: f64, vertices: usize) -> Result<TriangleMesh, MeshErr
     TriangleMesh::new(points.into_iter().map(|p| radius * p).collect(), &faces)
 }
 
-/// Returns an open square across z.
+/// Returns an open square in the plane z = 0.
 pub(super) fn sheet(half_side: f64) -> Result<TriangleMesh, MeshError> {
     let squares = 4;
     Plate { half_side, squares }.mesh()
 }
 
-/// Returns a torus about z.
+/// Returns a torus about the z axis.
 pub(super) fn torus(radius: f64, tube: f64) -> Result<TriangleMesh, MeshError> {
     Ring {
         segments: 64,
@@ -61,19 +61,19 @@ pub(super) fn cone(sides: u32, radius: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// The width of a comb's tooth, as a share of the step from tooth to tooth.
-pub(super) const TOOTH: f64 = 0.4;
+pub(super) const TOOTH_SHARE: f64 = 0.4;
 
 /// Returns a comb of depth 1 along y: a bar from z = 0 to 1 below teeth that reach to z = 2. The first tooth
 /// begins at x = 0, and the steps from tooth to tooth add up to 1.
 pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
-    let border = |k: u32| (f64::from(k / 2) + TOOTH * f64::from(k % 2)) / f64::from(teeth);
+    let border = |k: u32| (f64::from(k / 2) + TOOTH_SHARE * f64::from(k % 2)) / f64::from(teeth);
     let borders: Vec<f64> = (0..2 * teeth).map(border).collect();
     extruded(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
         level == 0 || column % 2 == 0
     })
 }
 
-/// Returns the solid of the filled cells of a grid across y, of the given half depth.
+/// Returns a solid that is extruded along y by a half depth: the filled cells of a grid in the plane of x and z.
 pub(super) fn extruded(
     x: &[f64],
     z: &[f64],
@@ -112,11 +112,11 @@ pub(super) fn extruded(
             quad([at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1)]);
         }
     }
-    used(&vertices, faces)
+    with_used_vertices(&vertices, faces)
 }
 
 /// Returns the mesh with only the vertices that the faces use.
-fn used(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
+fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
     let mut numbers = vec![None; vertices.len()];
     let mut kept = Vec::new();
     let mut number = |v: u32| {
@@ -157,7 +157,7 @@ pub(super) fn ribbon(
     TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
-/// Returns copies of an open square across z, one at each height.
+/// Returns copies of an open horizontal square, one at each height.
 pub(super) fn stacked(
     sheet: &TriangleMesh,
     heights: impl Iterator<Item = f64>,
@@ -224,7 +224,7 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces)
 }
 
-/// Returns open squares across z, the highest at z = 0, the lowest at z = −0.5.
+/// Returns open horizontal squares, the highest at z = 0, the lowest at z = −0.5.
 pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
     let square = Plate {
         half_side: 1.0,

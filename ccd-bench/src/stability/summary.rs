@@ -1,4 +1,4 @@
-//! A survey as tables and a map: how often each method was right, and its reach in each family.
+//! Summarises a survey as tables and maps: how often each method was right, and how far in each family.
 
 use super::family::Family;
 use super::findings::{Findings, VERDICTS};
@@ -10,7 +10,7 @@ use crate::show::tables::TextTable;
 use ccd_core::order::greater;
 use std::collections::HashMap;
 
-/// Counts the verdicts of each method over all queries.
+/// Returns a table that counts the verdicts of each method over all queries.
 pub fn summary(findings: &Findings<'_>) -> TextTable {
     let names = VERDICTS.map(|verdict| verdict.to_string());
     let columns = ["method", "queries"].map(str::to_owned);
@@ -31,8 +31,8 @@ pub fn summary(findings: &Findings<'_>) -> TextTable {
     table
 }
 
-/// Lists for each family and method the first value, from the easiest, at which not all answers are right, and
-/// the worst verdict there.
+/// Returns a table of the first value, from the easiest, at which each method fails in each family, and the worst
+/// verdict there.
 pub fn limits(findings: &Findings<'_>) -> TextTable {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
     let columns = ["family", "parameter"].map(str::to_owned);
@@ -53,7 +53,7 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
     table
 }
 
-/// Returns the map of the reach of each method in each family.
+/// Returns the heat map of how far each method is right in each family.
 pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
     map(findings, REACH, |family, method| {
         let reach = findings.reach(family, method)?;
@@ -66,7 +66,7 @@ pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Returns the map of the growth of each method's cost over each family.
+/// Returns the heat map of how the cost of each method grows over each family.
 pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     // A query takes no step if the bounds of the whole bodies are enough.
     let cost = |cell: &Cell| {
@@ -91,7 +91,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Makes a map from a function of the family and the method.
+/// Makes a heat map whose cells are a function of the family and the method.
 fn map(
     findings: &Findings<'_>,
     kind: &'static HeatKind,

@@ -1,4 +1,5 @@
-//! Runs methods on all steps of families, each in a process that can be stopped, and records the answers in a journal.
+//! Runs methods on all steps of the families, each in a process that can be stopped, and records the answers in a
+//! journal.
 
 use super::family::{Family, Step};
 use super::judge::judge;
@@ -6,7 +7,7 @@ use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::rival::is_screw;
 use crate::method::solver::Reply;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Journal, Judged, Verdict, program_stamp, sum_up};
+use crate::run::contest::{Journal, Judged, Verdict, program_stamp, summarise};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
@@ -17,29 +18,29 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// The plan of a survey.
+/// The plan of a survey: families, methods and folder.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// The families.
+    /// The families of scenes to ask about.
     pub families: Vec<Family>,
-    /// The methods.
+    /// The methods to ask.
     pub methods: Vec<Method>,
-    /// Whether all values of a family are asked about, not the easiest, the hardest, and one between.
+    /// Whether all values of a family are asked about, or only the easiest, the hardest, and one between.
     pub full: bool,
     /// The programs that run the methods.
     pub programs: Programs,
-    /// The folder of the journal.
+    /// The folder in which the journal is.
     pub folder: PathBuf,
 }
 
-/// The time limit of one query.
-const PATIENCE: Duration = Duration::from_secs(3);
+/// The time that a method may take for one query.
+const QUERY_TIME_LIMIT: Duration = Duration::from_secs(3);
 
 /// The time limit for preparing the bodies of a step.
-const PREPARATION: Duration = Duration::from_secs(20);
+const PREPARATION_TIME_LIMIT: Duration = Duration::from_secs(20);
 
 /// The number of consecutive steps at which a method is stopped before its harder steps are skipped.
-const CHANCES: usize = 2;
+const STOPS_BEFORE_SKIPPING: usize = 2;
 
 /// Returns the name of a step in the tables.
 pub(super) fn step_name(family: &Family, value: f64) -> String {
@@ -65,7 +66,7 @@ impl Survey {
         Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Returns the values of a family to ask about.
+    /// Returns the values of a family that are asked about.
     fn values(&self, family: &Family) -> Vec<f64> {
         let all = &family.values;
         if self.full {
@@ -86,13 +87,13 @@ impl Survey {
         for value in self.values(family) {
             let name = step_name(family, value);
             let step = (family.make)(value).with_context(|| name.clone())?;
-            let ready = Ready::new(&step, &name);
+            let ready = PreparedStep::new(&step, &name);
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
                 progress.say(&format!("{name}: {method}"));
                 progress.step();
                 let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
                 let known = locked().has(&name, &method.to_string(), step.tolerance);
-                if *stopped >= CHANCES || known {
+                if *stopped >= STOPS_BEFORE_SKIPPING || known {
                     continue;
                 }
                 let trials = ready.ask(method, &self.programs);
@@ -103,43 +104,43 @@ impl Survey {
                 } else {
                     *stopped = 0;
                 }
-                locked().add(sum_up(&trials), trials)?;
+                locked().add(summarise(&trials), trials)?;
             }
         }
         Ok(())
     }
 }
 
-/// A step with its prepared meshes.
-struct Ready<'s> {
+/// A step with its meshes, prepared for queries.
+struct PreparedStep<'s> {
     step: &'s Step,
     name: &'s str,
     surfaces: [Surface; 2],
 }
 
-impl<'s> Ready<'s> {
+impl<'s> PreparedStep<'s> {
     fn new(step: &'s Step, name: &'s str) -> Self {
         let surfaces = step.meshes.each_ref().map(Surface::new);
-        Ready {
+        PreparedStep {
             step,
             name,
             surfaces,
         }
     }
 
-    /// Runs a method on all queries of the step, up to the first at which it is stopped.
+    /// Runs a method on all queries of the step, up to the first query at which the method is stopped.
     fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = Setting {
             margin: step.margin,
-            preparation: PREPARATION,
+            preparation: PREPARATION_TIME_LIMIT,
             ..Setting::new(method, step.tolerance)
         };
         let mut guarded = match Guarded::start(programs, setting, step.meshes.each_ref()) {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
-                let trial = self.trial(method, 0, &QueryOutcome::Died, not_started(error)?);
+                let trial = self.trial(method, 0, &QueryOutcome::Died, judge_not_started(error)?);
                 return Ok(vec![Trial { note, ..trial }]);
             }
         };
@@ -151,13 +152,13 @@ impl<'s> Ready<'s> {
                     method,
                     row,
                     &QueryOutcome::Died,
-                    Judged::plain(Verdict::Refused),
+                    Judged::without_error(Verdict::Refused),
                 );
                 let note = "bodies move along screws only".to_owned();
                 trials.push(Trial { note, ..trial });
                 continue;
             }
-            let outcome = guarded.ask(&case.query, PATIENCE)?;
+            let outcome = guarded.ask(&case.query, QUERY_TIME_LIMIT)?;
             let judged = judge(step, case, &Referee::new(a, b), &outcome);
             trials.push(self.trial(method, row, &outcome, judged));
             if outcome == QueryOutcome::CutOff {
@@ -175,7 +176,7 @@ impl<'s> Ready<'s> {
         let trial = Trial::new(
             (self.name, &method.to_string(), self.step.tolerance),
             (row, &row.to_string()),
-            (outcome, PATIENCE),
+            (outcome, QUERY_TIME_LIMIT),
             judged,
         );
         Trial { note, ..trial }
@@ -193,8 +194,8 @@ impl<'s> Ready<'s> {
 }
 
 /// Judges a method that ends before its first query.
-fn not_started(error: io::Error) -> io::Result<Judged> {
-    Ok(Judged::plain(match error.kind() {
+fn judge_not_started(error: io::Error) -> io::Result<Judged> {
+    Ok(Judged::without_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
         io::ErrorKind::TimedOut => Verdict::CutOff,
         io::ErrorKind::Other => Verdict::Died,
@@ -202,8 +203,8 @@ fn not_started(error: io::Error) -> io::Result<Judged> {
     }))
 }
 
-/// Describes the settings that determine all answers.
+/// Describes the settings that determine all answers, for comparison with those of a folder.
 fn stamp() -> String {
     let program = program_stamp();
-    format!("{program}patience {PATIENCE:?} {PREPARATION:?}\n")
+    format!("{program}patience {QUERY_TIME_LIMIT:?} {PREPARATION_TIME_LIMIT:?}\n")
 }

@@ -1,14 +1,14 @@
-//! Rotations, vectors and matrices known to within intervals.
+//! Vectors, matrices and rotations whose entries are intervals.
 
 use super::interval::{Interval, exact};
 use ccd_core::glam::{DQuat, DVec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A vector, each coordinate within an interval.
+/// A vector whose coordinates are known to within intervals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vector(pub(super) [Interval; 3]);
 
-/// A matrix by its rows, each entry within an interval.
+/// A matrix by its rows, whose entries are known to within intervals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix(pub(super) [[Interval; 3]; 3]);
 
@@ -16,7 +16,7 @@ const ZERO: Interval = exact(0.0);
 const ONE: Interval = exact(1.0);
 const TWO: Interval = exact(2.0);
 /// The range of every sine and cosine.
-const UNIT: Interval = Interval::new(-1.0, 1.0);
+const SINE_RANGE: Interval = Interval::new(-1.0, 1.0);
 
 impl Vector {
     pub(super) fn scaled(&self, by: Interval) -> Self {
@@ -35,7 +35,7 @@ impl Vector {
         Vector([y * w - z * v, z * u - x * w, x * v - y * u])
     }
 
-    /// Returns the matrix that forms the cross product with this vector on its left.
+    /// Returns the matrix that multiplies a vector as the cross product with this one on the left.
     pub(super) fn cross_matrix(&self) -> Matrix {
         let [x, y, z] = self.0;
         Matrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
@@ -54,7 +54,7 @@ impl Matrix {
         Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
-    /// Returns the rotation of the normalised quaternion; `q` has about unit length.
+    /// Returns the rotation of a quaternion of about unit length, after normalisation.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
         let [x, y, z, w] = q.to_array().map(exact);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
@@ -69,7 +69,7 @@ impl Matrix {
         Matrix(rows.map(|row| row.map(|entry| entry / square)))
     }
 
-    /// Returns the rotation by an angular velocity over a time, for any number of turns.
+    /// Returns the rotation by an angular velocity over a time, whatever the number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
     pub(super) fn turn(spin: DVec3, time: f64) -> Self {
@@ -79,16 +79,17 @@ impl Matrix {
         let angle = rate * exact(time);
         if !(square.inf() > FAINTEST_SPIN) {
             // The bound |R − I| ≤ θ is all that remains if the squares underflow.
-            let off = UNIT * angle;
-            return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| delta(i, j) + off)));
+            let off = SINE_RANGE * angle;
+            return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| kronecker_delta(i, j) + off)));
         }
         let (sine, cosine) = sin_cos(angle);
         let (half_sine, _) = sin_cos(angle / TWO);
         let across = omega.scaled(sine / rate).cross_matrix();
         let along = TWO * half_sine.sqr() / square;
         Matrix([0, 1, 2].map(|i| {
-            [0, 1, 2]
-                .map(|j| delta(i, j) * cosine + across.0[i][j] + along * omega.0[i] * omega.0[j])
+            [0, 1, 2].map(|j| {
+                kronecker_delta(i, j) * cosine + across.0[i][j] + along * omega.0[i] * omega.0[j]
+            })
         }))
     }
 }
@@ -96,7 +97,7 @@ impl Matrix {
 /// The least squared angular speed, in radians per unit of time, well above the values at which squares lose digits.
 const FAINTEST_SPIN: f64 = 1e-250;
 
-fn delta(i: usize, j: usize) -> Interval {
+fn kronecker_delta(i: usize, j: usize) -> Interval {
     if i == j { ONE } else { ZERO }
 }
 
@@ -153,8 +154,8 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
     let rest = x - exact(quarters) * Interval::FRAC_PI_2;
     // The first comparison is false for an unbounded interval.
-    if !(rest.mag() <= WIDEST_REST && quarters.abs() <= MOST_QUARTERS) {
-        return (UNIT, UNIT);
+    if !(rest.mag() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MOST_QUARTERS) {
+        return (SINE_RANGE, SINE_RANGE);
     }
     let (sine, cosine) = taylor(rest);
     match quarters.rem_euclid(4.0) {
@@ -166,10 +167,10 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
 }
 
 /// The largest argument for the polynomial, in radians, a little over π/4.
-const WIDEST_REST: f64 = 1.6;
+const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
 /// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
-/// 21!, an odd number below 2⁵³ times 2¹⁸, hence exact.
+/// The factorial of 21, which is exact in f64: an odd number below 2⁵³ times 2¹⁸.
 const FACTORIAL_21: Interval = exact(51_090_942_171_709_440_000.0);
 const TWENTY_TWO: Interval = exact(22.0);
 
@@ -191,7 +192,7 @@ fn taylor(r: Interval) -> (Interval, Interval) {
     let sine_rest = power / FACTORIAL_21;
     let cosine_rest = sine_rest * r.abs() / TWENTY_TWO;
     (
-        (r * sine + UNIT * sine_rest).intersection(UNIT),
-        (cosine + UNIT * cosine_rest).intersection(UNIT),
+        (r * sine + SINE_RANGE * sine_rest).intersection(SINE_RANGE),
+        (cosine + SINE_RANGE * cosine_rest).intersection(SINE_RANGE),
     )
 }

@@ -1,14 +1,14 @@
-//! The distance of two surfaces at one time.
+//! Computes the distance of two surfaces at one time.
 
 use super::Bracket;
-use super::rounding::ROUNDED;
+use super::rounding::FORTY_ROUNDINGS;
 use super::search::{Pair, Search};
 use super::snapshot::{Snapshot, Span};
 use super::triangle::{gap, nearest_or_common, normals};
 use ccd_core::order::{greater, lesser};
 
-/// Brackets the least distance between the surfaces at a time. The nearer part comes first, and
-/// parts farther than the nearest points known are left out.
+/// Returns bounds on the least distance between the surfaces at a time. The nearer part comes first, and parts farther
+/// than the nearest points known are left out.
 pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
     let mut bracket = Bracket {
         lower: f64::INFINITY,
@@ -59,8 +59,8 @@ fn bound_of(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
     snapshot.boxes_distance(a, b)
 }
 
-/// Brackets the distance of two triangles: any two points bound it from above, and the gap along any direction from
-/// below.
+/// Returns bounds on the distance of two triangles: any two points bound it from above, and the gap along any direction
+/// from below.
 fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket {
     let Some([a, b]) = search.triangles(pair) else {
         return Bracket {
@@ -75,7 +75,7 @@ fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket
         .filter(|n| n.is_finite())
         .map(|n| gap(n, &placed, b));
     Bracket {
-        lower: gaps.fold(0.0, greater) * (1.0 - ROUNDED) - snapshot.slack(),
+        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS) - snapshot.slack(),
         upper: (p - q).length() + snapshot.slack(),
     }
 }

@@ -14,7 +14,7 @@ use super::rounding::larger;
 use ccd_core::order::{greater, lesser};
 use std::ops::{Add, Div, Mul, Neg, RangeInclusive, Sub};
 
-/// All real numbers between two bounds, including the finite bounds.
+/// All real numbers between a lower and an upper bound, including finite bounds.
 ///
 /// The bounds are in order, neither is NaN, and a real number is between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,18 +23,18 @@ pub(super) struct Interval {
     sup: f64,
 }
 
-/// Returns the real number of a float; the whole line if it is not finite.
+/// Returns the interval of a single float; the whole line if it is not finite.
 pub(super) const fn exact(x: f64) -> Interval {
     Interval::new(x, x)
 }
 
 impl Interval {
-    /// All real numbers.
+    /// The interval of all real numbers.
     pub(super) const ENTIRE: Interval = Interval {
         inf: f64::NEG_INFINITY,
         sup: f64::INFINITY,
     };
-    /// π/2, which exceeds the nearest float by 6.1e-17.
+    /// An interval that contains π/2, which exceeds the nearest float by 6.1e-17.
     pub(super) const FRAC_PI_2: Interval = Interval {
         inf: std::f64::consts::FRAC_PI_2,
         sup: std::f64::consts::FRAC_PI_2.next_up(),
@@ -50,12 +50,12 @@ impl Interval {
         }
     }
 
-    /// Returns the lower bound, −∞ if there is none.
+    /// Returns the lower bound, −∞ if the interval is unbounded below.
     pub(super) fn inf(self) -> f64 {
         self.inf
     }
 
-    /// Returns the upper bound, ∞ if there is none.
+    /// Returns the upper bound, ∞ if the interval is unbounded above.
     pub(super) fn sup(self) -> f64 {
         self.sup
     }
@@ -73,53 +73,57 @@ impl Interval {
         larger(below, above)
     }
 
-    /// Returns the least upper bound of the absolute values.
+    /// Returns the least upper bound of the numbers' absolute values.
     pub(super) fn mag(self) -> f64 {
         greater(self.inf.abs(), self.sup.abs())
     }
 
-    /// Returns the absolute values. Nothing is rounded.
+    /// Returns the interval of the numbers' absolute values. Nothing is rounded.
     pub(super) fn abs(self) -> Self {
         // At most one of the two is positive: the bound nearer to 0, if the interval does not contain 0.
         let least = greater(greater(self.inf, -self.sup), 0.0);
         Interval::new(least, self.mag())
     }
 
-    /// Returns the squares. They grow with the absolute value, and none is negative, not even where
-    /// the lower bound of a product is.
+    /// Returns the interval of the numbers' squares. They grow with the absolute value, and none is negative, not even
+    /// where the lower bound of a product is.
     pub(super) fn sqr(self) -> Self {
         let Interval { inf, sup } = self.abs();
         let ([least, _], [_, most]) = (product(inf, inf), product(sup, sup));
         Interval::new(greater(least, 0.0), most)
     }
 
-    /// Returns the square roots of the nonnegative numbers; the whole line if there are none. Roots grow with their
-    /// operand.
+    /// Returns the square roots of the nonnegative numbers in the interval; the whole line if there are none. Roots
+    /// grow with their operand.
     pub(super) fn sqrt(self) -> Self {
         let ([least, _], [_, most]) = (root(greater(self.inf, 0.0)), root(self.sup));
         // `most` is NaN if all numbers are negative.
         Interval::new(least, most)
     }
 
-    /// Returns the common numbers of both; the whole line if there are none, which cannot happen for enclosures of one
-    /// number. Nothing is rounded.
+    /// Returns the numbers that are in both intervals; the whole line if there are none, which cannot happen for
+    /// enclosures of one number. Nothing is rounded.
     pub(super) fn intersection(self, other: Self) -> Self {
         Interval::new(greater(self.inf, other.inf), lesser(self.sup, other.sup))
     }
 
-    /// Multiplies by numbers that are not negative.
-    fn times(self, factor: Self) -> Self {
-        self.with(product, [factor.inf, factor.sup])
+    /// Returns the products with the numbers in `factor`, none of which is negative.
+    fn times_nonnegative(self, factor: Self) -> Self {
+        self.scaled_between(product, [factor.inf, factor.sup])
     }
 
-    /// Divides by positive numbers: the greatest divisor takes the place of the least factor.
-    fn over(self, divisor: Self) -> Self {
-        self.with(quotient, [divisor.sup, divisor.inf])
+    /// Returns the quotients by the numbers in `divisor`, all of which are positive.
+    fn divided_by_positive(self, divisor: Self) -> Self {
+        self.scaled_between(quotient, [divisor.sup, divisor.inf])
     }
 
-    /// Returns the results of an operation that scales numbers by least to most. The least one is of the lower bound:
-    /// scaled least, or most if that bound is negative. The greatest one likewise.
-    fn with(self, scaled: impl Fn(f64, f64) -> [f64; 2], [least, most]: [f64; 2]) -> Self {
+    /// Returns the results of scaling by factors from `least` to `most`. The lower bound is scaled by `least`, or by
+    /// `most` if it is negative; the upper bound by `most`, or by `least` if it is negative.
+    fn scaled_between(
+        self,
+        scaled: impl Fn(f64, f64) -> [f64; 2],
+        [least, most]: [f64; 2],
+    ) -> Self {
         let [inf, _] = scaled(self.inf, if self.inf >= 0.0 { least } else { most });
         let [_, sup] = scaled(self.sup, if self.sup >= 0.0 { most } else { least });
         Interval::new(inf, sup)
@@ -157,20 +161,21 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Interval;
 
-    /// Multiplies intervals. A product is linear in each operand, so that it is least and greatest at bounds: at two of
-    /// them, unless both operands have numbers on both sides of 0.
+    /// Returns an interval that contains all products of the numbers in two intervals. A product is linear in each
+    /// operand, so that it is least and greatest at bounds: at two of them, unless both operands have numbers on both
+    /// sides of 0.
     fn mul(self, other: Interval) -> Interval {
         if other.inf >= 0.0 {
-            return self.times(other);
+            return self.times_nonnegative(other);
         }
         if other.sup <= 0.0 {
-            return -self.times(-other);
+            return -self.times_nonnegative(-other);
         }
         if self.inf >= 0.0 {
-            return other.times(self);
+            return other.times_nonnegative(self);
         }
         if self.sup <= 0.0 {
-            return -other.times(-self);
+            return -other.times_nonnegative(-self);
         }
         let ([x, _], [_, y]) = (product(self.inf, other.sup), product(self.inf, other.inf));
         let ([u, _], [_, v]) = (product(self.sup, other.inf), product(self.sup, other.sup));
@@ -184,9 +189,9 @@ impl Div for Interval {
     /// Divides intervals: a quotient is monotone in each operand while the divisor keeps its sign.
     fn div(self, other: Interval) -> Interval {
         if other.inf > 0.0 {
-            self.over(other)
+            self.divided_by_positive(other)
         } else if other.sup < 0.0 {
-            -self.over(-other)
+            -self.divided_by_positive(-other)
         } else {
             Interval::ENTIRE
         }
@@ -195,7 +200,7 @@ impl Div for Interval {
 
 /// Returns bounds of an exact result: the rounded result, moved towards the side of `rest`, which has the sign of the
 /// exact result minus the rounded one. Moved to both sides if `rest` is NaN.
-fn outward(rounded: f64, rest: f64) -> [f64; 2] {
+fn rounded_outward(rounded: f64, rest: f64) -> [f64; 2] {
     [
         if rest >= 0.0 {
             rounded
@@ -210,7 +215,7 @@ fn outward(rounded: f64, rest: f64) -> [f64; 2] {
     ]
 }
 
-/// Encloses a sum.
+/// Returns bounds of the exact sum of two floats.
 ///
 /// Knuth's error of a sum (TwoSum) is exact unless something overflows, and then it is not finite.
 /// Small sums are exact.
@@ -218,35 +223,35 @@ fn sum(x: f64, y: f64) -> [f64; 2] {
     let sum = x + y;
     let back = sum - x;
     let rest = (x - (sum - back)) + (y - back);
-    outward(sum, if rest.is_finite() { rest } else { f64::NAN })
+    rounded_outward(sum, if rest.is_finite() { rest } else { f64::NAN })
 }
 
-/// Encloses a product; NaN for 0 times infinity.
+/// Returns bounds of the exact product of two floats; NaN for 0 times infinity.
 fn product(x: f64, y: f64) -> [f64; 2] {
     let product = x * y;
     if x == 0.0 || y == 0.0 {
         return [product; 2];
     }
-    outward(product, -remainder(product, x, y))
+    rounded_outward(product, -remainder(product, x, y))
 }
 
-/// Encloses a quotient by a number that is not 0. A number over infinity stands for quotients that
-/// come near 0.
+/// Returns bounds of the exact quotient of two floats, of which the second is not 0. A number over infinity stands for
+/// quotients that come near 0.
 fn quotient(x: f64, y: f64) -> [f64; 2] {
     let quotient = x / y;
     if x == 0.0 {
         return [quotient; 2];
     }
-    outward(quotient, remainder(x, quotient, y) * y.signum())
+    rounded_outward(quotient, remainder(x, quotient, y) * y.signum())
 }
 
-/// Encloses a square root, which `f64::sqrt` rounds to nearest; NaN for negative numbers.
+/// Returns bounds of an exact square root, which `f64::sqrt` rounds to nearest; NaN for negative numbers.
 fn root(x: f64) -> [f64; 2] {
     let root = x.sqrt();
     if x == 0.0 {
         return [root; 2];
     }
-    outward(root, remainder(x, root, root))
+    rounded_outward(root, remainder(x, root, root))
 }
 
 /// Returns w − xy with the right sign, for a w within a factor of 2 of xy; NaN if the sign might be wrong.
@@ -254,7 +259,7 @@ fn root(x: f64) -> [f64; 2] {
 /// Dekker's product is exact: xy is the rounded product and an error, without a fused operation. The
 /// halves have 26 bits, so their products are exact. w less the rounded product is exact by Sterbenz.
 fn remainder(w: f64, x: f64, y: f64) -> f64 {
-    if !(UNSCALED.contains(&x.abs()) && UNSCALED.contains(&y.abs())) {
+    if !(SAFE_FACTORS.contains(&x.abs()) && SAFE_FACTORS.contains(&y.abs())) {
         return f64::NAN;
     }
     let ([x_high, x_low], [y_high, y_low]) = (halves(x), halves(y));
@@ -263,11 +268,11 @@ fn remainder(w: f64, x: f64, y: f64) -> f64 {
     (w - product) - error
 }
 
-/// Factors for which no part of Dekker's product overflows or underflows: the lowest bit of the
-/// least product is at 1e-280 2⁻¹⁰⁴, above the least float.
-const UNSCALED: RangeInclusive<f64> = 1e-140..=1e140;
+/// The range of factors for which no part of Dekker's product overflows or underflows: the lowest bit of the least
+/// product is at 1e-280 2⁻¹⁰⁴, above the least float.
+const SAFE_FACTORS: RangeInclusive<f64> = 1e-140..=1e140;
 
-/// Splits a float into two of at most 26 bits each, as Veltkamp does.
+/// Splits a float into a sum of two floats of at most 26 bits each, as Veltkamp does.
 fn halves(x: f64) -> [f64; 2] {
     const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
     let scaled = SPLITTER * x;

@@ -2,11 +2,11 @@
 
 use super::enclosure::{Matrix, Vector};
 use super::interval::Interval;
-use super::snapshot::Enclosed;
+use super::snapshot::IntervalMaps;
 use super::surface::Triangle;
 use super::track::Track;
 
-/// Both bodies at an instant, in B's frame.
+/// The positions of both bodies at an instant, in B's frame.
 pub(super) struct Instant {
     rotation: Matrix,
     offset: Vector,
@@ -14,7 +14,7 @@ pub(super) struct Instant {
 
 impl Instant {
     pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
-        let (rotation, offset) = Enclosed::new(a, b, time).placement;
+        let (rotation, offset) = IntervalMaps::new(a, b, time).placement;
         Instant { rotation, offset }
     }
 
@@ -29,8 +29,8 @@ impl Instant {
     }
 }
 
-/// Checks five signs, each of which must be certain: the ends lie on both sides of the triangle's plane, and the line
-/// passes all its edges on the same side.
+/// Returns true if a segment certainly passes through a triangle. It checks five signs, each of which must be certain:
+/// the ends lie on both sides of the triangle's plane, and the line passes all its edges on the same side.
 fn pierces([from, to]: [&Vector; 2], [a, b, c]: &[Vector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
     let before = sign(normal.dot(&(*from - *a)));

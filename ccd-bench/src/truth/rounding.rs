@@ -1,11 +1,11 @@
-//! Bounds of rounding.
+//! Bounds on rounding errors.
 
 /// 2⁻⁵³: the largest relative error of a float operation.
 pub(super) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
-/// A bound on the relative error of forty roundings.
-pub(super) const ROUNDED: f64 = 1e-14;
-/// The factor that compensates for up to forty roundings.
-pub(super) const ROUNDED_UP: f64 = 1.0 + ROUNDED;
+/// A bound on the relative error of up to forty roundings.
+pub(super) const FORTY_ROUNDINGS: f64 = 1e-14;
+/// The factor that makes a bound valid after up to forty roundings.
+pub(super) const ROUNDED_UP: f64 = 1.0 + FORTY_ROUNDINGS;
 
 /// Returns the larger of two numbers, or NaN if one is NaN, so that an unknown value excludes nothing.
 pub(super) fn larger(a: f64, b: f64) -> f64 {

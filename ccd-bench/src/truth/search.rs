@@ -1,5 +1,5 @@
-//! The search for the first contact. Time is halved, earliest first, and each half starts from the
-//! pairs of nodes that could not be excluded over the whole.
+//! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
+//! from the pairs of nodes that could not be excluded over the whole.
 
 use super::pierce::Instant;
 use super::snapshot::{Boxes, Snapshot, Span};
@@ -11,45 +11,45 @@ use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
 use std::rc::Rc;
 
-/// A node of A and one of B.
+/// A node of A's tree and one of B's.
 pub(super) type Pair = [u32; 2];
 
-/// The search for the answer to one query.
+/// The state of the search for the answer to one query.
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
     pub(super) tracks: [Track; 2],
     farthest: [f64; 2],
     duration: f64,
-    /// The remaining number of tests of pairs.
+    /// The number of tests of pairs that may still be made.
     pub(super) budget: u64,
 }
 
 /// The number of tests of pairs after which a query is left undecided. It would take minutes, while
 /// a hard query takes a second.
 const BUDGET: u64 = 30_000_000;
-/// The shortest span, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
-const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
-/// The number of doublings in the search for a proof of contact after a time that cannot be excluded: it extends to
-/// about a thousandth of the duration.
-const DOUBLINGS: u32 = 36;
-/// The period, in doublings, at which all triangles are tested, not only those that came near first.
+/// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
+const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
+/// The number of doublings of the step in the search for a proof of contact after a time that cannot be excluded: it
+/// extends to about a thousandth of the duration.
+const MOST_DOUBLINGS: u32 = 36;
+/// The number of doublings after which all triangles are tested, not only those that came near first.
 const WIDER_EVERY: u32 = 6;
-/// The largest size of nodes that are not split, as a multiple of their displacement in the span.
-const COARSE: f64 = 1.0;
-/// The size below which triangles are separated as well by their boxes, as a fraction of their displacement.
-const SMALL: f64 = 0.25;
+/// The size of nodes, as a multiple of their displacement in the interval, up to which they are not split.
+const LARGEST_UNSPLIT_SIZE: f64 = 1.0;
+/// The size, as a fraction of the displacement, below which triangles are separated as well by their boxes.
+const BOXES_SUFFICE_BELOW: f64 = 0.25;
 
-/// The number of face normals.
-const FACES: usize = 2;
-/// The distance below which triangles are also tested along the normals of their edges, as a fraction of the edges.
-const CLOSE: f64 = 1e-3;
+/// The number of normals of two triangles' faces.
+const FACE_NORMALS: usize = 2;
+/// The distance, as a fraction of the edges, below which triangles are also tested along the normals of pairs of edges.
+const EDGE_NORMALS_BELOW: f64 = 1e-3;
 
-/// The pairs that remain of a span.
+/// The pairs of nodes that may meet within an interval of time.
 #[derive(Debug, PartialEq)]
-enum Sifted {
-    /// The pairs that are not excluded.
+enum RemainingPairs {
+    /// The pairs of nodes that are not excluded.
     Left(Vec<Pair>),
-    /// The budget is used up.
+    /// The budget of tests was used up before all pairs were tested.
     Spent,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the pair of roots, unless a body has no triangles.
+    /// Returns the pair of both trees' roots; `None` if a body has no triangles.
     pub(super) fn roots(&self) -> Option<Pair> {
         let [a, b] = self.surfaces;
         Some([a.root()?, b.root()?])
@@ -88,24 +88,24 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Halves the duration, depth first, earliest first.
+    /// Halves the duration, the earlier half first, until the first contact is bracketed.
     fn halve(&mut self, roots: Pair) -> Truth {
         let whole = Span {
             start: 0.0,
             end: self.duration,
         };
-        let shortest = SHORTEST * self.duration;
+        let shortest = SHORTEST_SPAN * self.duration;
         let mut pending = vec![(whole, Rc::new(vec![roots]))];
         let mut undecided = UndecidedTimes::default();
         while let Some((span, pairs)) = pending.pop() {
-            let Some(span) = span.from(undecided.over) else {
+            let Some(span) = span.from(undecided.skipped_until) else {
                 continue;
             };
             let snapshot = self.snapshot(span);
-            let left = match self.sift(&snapshot, &pairs) {
-                Sifted::Left(left) if left.is_empty() => continue,
-                Sifted::Left(left) => left,
-                Sifted::Spent => {
+            let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
+                RemainingPairs::Left(left) if left.is_empty() => continue,
+                RemainingPairs::Left(left) => left,
+                RemainingPairs::Spent => {
                     return Truth::Undecided {
                         lo: undecided.first.unwrap_or(span.start),
                     };
@@ -120,10 +120,10 @@ impl<'a> Search<'a> {
                 continue;
             }
             let lo = *undecided.first.get_or_insert(span.start);
-            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.met) {
+            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.times_met) {
                 return Truth::Hit { lo, hi };
             }
-            undecided.pass(span, shortest);
+            undecided.skip_after(span, shortest);
         }
         match undecided.first {
             None => Truth::Free,
@@ -136,16 +136,16 @@ impl<'a> Search<'a> {
         Snapshot::new([a, b], self.farthest, span)
     }
 
-    /// Returns the pairs that may meet within the span, of nodes no larger than their displacement.
-    fn sift(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> Sifted {
+    /// Returns the pairs that may meet within the interval, of nodes no larger than their displacement.
+    fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
         let mut left = Vec::new();
         if snapshot.is_far() {
-            return Sifted::Left(left);
+            return RemainingPairs::Left(left);
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {
-                return Sifted::Spent;
+                return RemainingPairs::Spent;
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
@@ -153,17 +153,19 @@ impl<'a> Search<'a> {
                 continue;
             };
             match self.split(pair) {
-                Some(Split { size, parts }) if size > COARSE * travel => stack.extend(parts),
+                Some(Split { size, parts }) if size > LARGEST_UNSPLIT_SIZE * travel => {
+                    stack.extend(parts)
+                }
                 Some(_) => left.push(pair),
-                None if greater(a.size, b.size) < SMALL * travel => left.push(pair),
+                None if greater(a.size, b.size) < BOXES_SUFFICE_BELOW * travel => left.push(pair),
                 None if self.triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
         }
-        Sifted::Left(left)
+        RemainingPairs::Left(left)
     }
 
-    /// Returns true if the triangles of two leaves certainly stay apart within the span.
+    /// Returns true if the triangles of two leaves certainly stay apart within the interval.
     fn triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
@@ -176,26 +178,34 @@ impl<'a> Search<'a> {
         };
         let placed = snapshot.placed(a);
         let mut normals = normals(&placed, b);
-        if normals.by_ref().take(FACES).any(apart) {
+        if normals.by_ref().take(FACE_NORMALS).any(apart) {
             return true;
         }
         let (p, q) = nearest(&placed, b);
         let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
         // The direction between two points is only useful if their distance is larger than rounding.
-        apart(between.normalize()) || (between.length() < CLOSE * size && normals.any(apart))
+        apart(between.normalize())
+            || (between.length() < EDGE_NORMALS_BELOW * size && normals.any(apart))
     }
 
-    /// Returns a time soon after `from` at which the surfaces certainly share a point.
-    fn proof_after(&mut self, from: f64, roots: Pair, near: &[Pair], met: u32) -> Option<f64> {
-        let mut step = SHORTEST * self.duration;
-        for doubling in 0..=DOUBLINGS {
+    /// Searches for a time soon after `from` at which the surfaces certainly share a point.
+    fn proof_after(
+        &mut self,
+        from: f64,
+        roots: Pair,
+        near: &[Pair],
+        times_met: u32,
+    ) -> Option<f64> {
+        let mut step = SHORTEST_SPAN * self.duration;
+        for doubling in 0..=MOST_DOUBLINGS {
             let time = lesser(from + step, self.duration);
             if self.certain_at(near, time) {
                 return Some(time);
             }
             // All triangles are tested for the first undecided time, and then only periodically, because that
             // is slow.
-            let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1 && (met == 0 || doubling == met);
+            let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1
+                && (times_met == 0 || doubling == times_met);
             if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
                 return Some(time);
             }
@@ -261,8 +271,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two
-    /// triangles.
+    /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two triangles.
     pub(super) fn split(&self, [a, b]: Pair) -> Option<Split> {
         let [node_a, node_b] = self.nodes([a, b]);
         let of_a = |parts: [u32; 2]| Split {
@@ -284,17 +293,17 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The result of splitting a node of a pair.
+/// The pairs that result from splitting one node of a pair.
 pub(super) struct Split {
-    /// The size of that node.
+    /// The size of the node that was split.
     size: f64,
     pub(super) parts: [Pair; 2],
 }
 
-/// The proof required for surfaces to count as touching.
+/// The proof that is required for surfaces to count as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Proof {
-    /// The surfaces cannot be shown to be apart.
+    /// The surfaces cannot be proven to be apart.
     NotApart,
     /// An edge certainly passes through a triangle.
     Pierced,
@@ -307,29 +316,29 @@ enum Touch {
     Spent,
 }
 
-/// Times that could neither be excluded nor proven to follow the first contact.
+/// The times that could neither be excluded nor proven to follow the first contact.
 #[derive(Debug, Default)]
 struct UndecidedTimes {
-    /// The first of these times.
+    /// The first undecided time; `None` without any.
     first: Option<f64>,
-    /// The end of the time that is skipped.
-    over: f64,
-    /// The number of these times.
-    met: u32,
+    /// The time up to which the search skips.
+    skipped_until: f64,
+    /// The number of undecided times so far.
+    times_met: u32,
 }
 
 impl UndecidedTimes {
-    /// Skips time after one of them, with the length doubled each time. Surfaces that slide on each other all the time
-    /// are left after about as many steps as the duration has halvings.
-    fn pass(&mut self, span: Span, shortest: f64) {
-        let ahead = shortest * 2.0_f64.powi(self.met.min(1000) as i32);
-        self.over = span.end + ahead;
-        self.met = self.met.saturating_add(1);
+    /// Skips time after an undecided one; the skipped length doubles each time. Surfaces that slide on each other all
+    /// the time are left after about as many steps as the duration has halvings.
+    fn skip_after(&mut self, span: Span, shortest: f64) {
+        let ahead = shortest * 2.0_f64.powi(self.times_met.min(1000) as i32);
+        self.skipped_until = span.end + ahead;
+        self.times_met = self.times_met.saturating_add(1);
     }
 }
 
 impl Span {
-    /// Returns the part that is not skipped, if any.
+    /// Returns the part of the interval after `start`; `None` if it is empty.
     fn from(self, start: f64) -> Option<Self> {
         let start = greater(self.start, start);
         (start < self.end).then_some(Span { start, ..self })

@@ -1,4 +1,4 @@
-//! The state of both bodies around an instant: positions, velocities, and bounds of rounding.
+//! Bounds the positions of both bodies around an instant: positions, velocities, and bounds on rounding.
 //!
 //! All is relative to a frame that has B's position and orientation at the instant m, moves along
 //! with B's centre in a straight line and does not turn. There, for |s| ≤ h,
@@ -13,55 +13,56 @@
 
 use super::enclosure::{Matrix, Vector};
 use super::interval::{Interval, exact};
-use super::rounding::{ROUNDED, ROUNDED_UP, UNIT_ROUNDOFF, larger};
+use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, UNIT_ROUNDOFF, larger};
 use super::surface::{Node, Triangle};
 use super::track::Track;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
-/// A span of time.
+/// An interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) start: f64,
     pub(super) end: f64,
 }
 
-/// Bodies A and B over a span of time.
+/// The positions and velocities of bodies A and B around the middle of an interval of time.
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot {
-    /// The map from A's body frame to the common one.
+    /// The map from A's body frame to the common frame, at the middle time.
     placement: Affine,
-    /// The velocity of A's points, relative to B's centre.
+    /// The map from a point of A to its velocity, relative to B's centre.
     rate_a: Affine,
-    /// The velocity of B's points, relative to B's centre.
+    /// The map from a point of B to its velocity, relative to B's centre.
     rate_b: Affine,
-    /// h: the time to either end of the span.
+    /// Half the length of the interval.
     half: f64,
-    /// The least certain gap: a bound on the rounding, and on the motion's deviation from a straight one.
+    /// The gap above which bodies are certainly apart: a bound on the rounding, and on the motion's deviation from a
+    /// straight one.
     slack: f64,
-    /// The part of `slack` that is due to the motion.
-    bend: f64,
-    /// The bounds for boxes, along the axes of B and of A.
+    /// The part of `slack` that is due to the motion's deviation from a straight one.
+    motion_slack: f64,
+    /// The bounds on the extents of boxes, along the axes of B and of A.
     along_b: Extents,
     along_a: Extents,
     /// The vector from B's centre of rotation to A's, and its rate of change.
     centres: DVec3,
     centres_rate: DVec3,
-    /// The sum of the bodies' reaches from these centres.
+    /// The sum of the bodies' greatest distances from their centres of rotation.
     reaches: f64,
 }
 
-/// An upper bound on a box's extent along the axes of a frame over the span: `A halfₐ + B half_b`.
+/// An upper bound on a box's extent along the axes of a frame over the interval: `A halfₐ + B half_b`.
 #[derive(Clone, Copy, Debug)]
 struct Extents {
     a: DMat3,
     b: DMat3,
 }
 
-/// The relation of two boxes over the span.
+/// Whether two boxes may meet in the interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
-    /// The boxes stay apart.
+    /// The boxes stay apart for the whole interval.
     Apart,
     /// The boxes may meet; `travel` bounds their relative displacement.
     Near { travel: f64 },
@@ -71,11 +72,11 @@ impl Snapshot {
     pub(super) fn new([a, b]: [&Track; 2], [size_a, size_b]: [f64; 2], span: Span) -> Self {
         let time = span.start.midpoint(span.end);
         let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
-        let exactly = Enclosed::new(a, b, time);
+        let exactly = IntervalMaps::new(a, b, time);
         let placement = Affine::new(&exactly.placement, size_a);
         let rate_a = Affine::new(&exactly.rate_a, size_a);
         let rate_b = Affine::new(&exactly.rate_b, size_b);
-        let bend = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
+        let motion_slack = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
         let errors = placement.error + half * (rate_a.error + rate_b.error);
         let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
         let centre = |v: &Vector| DVec3::from_array(v.0.map(Interval::mid));
@@ -83,15 +84,17 @@ impl Snapshot {
         let back = r.transpose();
         Snapshot {
             half,
-            bend,
-            slack: bend * ROUNDED_UP + errors * ROUNDED_UP + ROUNDINGS * UNIT_ROUNDOFF * sizes,
+            motion_slack,
+            slack: motion_slack * ROUNDED_UP
+                + errors * ROUNDED_UP
+                + GAP_ROUNDINGS * UNIT_ROUNDOFF * sizes,
             along_b: Extents {
-                a: largest(r, w_a),
-                b: largest(DMat3::IDENTITY, w_b),
+                a: larger_of_sum_and_difference(r, w_a),
+                b: larger_of_sum_and_difference(DMat3::IDENTITY, w_b),
             },
             along_a: Extents {
-                a: largest(back * r, back * w_a),
-                b: largest(back, back * w_b),
+                a: larger_of_sum_and_difference(back * r, back * w_a),
+                b: larger_of_sum_and_difference(back, back * w_b),
             },
             placement,
             rate_a,
@@ -102,45 +105,50 @@ impl Snapshot {
         }
     }
 
-    /// Returns true if the bodies stay apart for any rotation, because their centres are far from each other.
+    /// Returns true if the bodies stay apart whatever their rotation, because their centres are far from each other.
     pub(super) fn is_far(&self) -> bool {
         let (d, w) = (self.centres, self.half * self.centres_rate);
         // The point of the segment from d − w to d + w that is nearest to 0.
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
         let nearest = if s.is_nan() { d } else { d + s * w };
-        nearest.length() * (1.0 - ROUNDED)
-            > (self.reaches + self.slack - self.bend) * ROUNDED_UP
-                + ROUNDED * (d.length() + w.length())
+        nearest.length() * (1.0 - FORTY_ROUNDINGS)
+            > (self.reaches + self.slack - self.motion_slack) * ROUNDED_UP
+                + FORTY_ROUNDINGS * (d.length() + w.length())
     }
 
-    /// Tests whether two boxes stay apart, by the six directions of their faces.
+    /// Tests whether two boxes stay apart along the six directions of their faces.
     pub(super) fn boxes(&self, a: &Node, b: &Node) -> Boxes {
         let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
-        let gaps_b = self.along_b.gaps(apart, moved, a, b);
+        let gaps_b = self.along_b.axis_gaps(apart, moved, a, b);
         if gaps_b.max_element() > self.slack {
             return Boxes::Apart;
         }
-        let gaps_a = self.along_a.gaps(self.back(apart), self.back(moved), a, b);
+        let gaps_a = self
+            .along_a
+            .axis_gaps(self.back(apart), self.back(moved), a, b);
         if gaps_a.max_element() > self.slack {
             return Boxes::Apart;
         }
         Boxes::Near {
-            travel: moved.length() + self.bend,
+            travel: moved.length() + self.motion_slack,
         }
     }
 
-    /// Returns a lower bound of the distance of two boxes at the instant, invalid for a span.
+    /// Returns a lower bound of the distance of two boxes at the middle time, invalid for an interval.
     pub(super) fn boxes_distance(&self, a: &Node, b: &Node) -> f64 {
         let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
-        let gaps_b = self.along_b.gaps(apart, none, a, b).max(none);
-        let gaps_a = self.along_a.gaps(self.back(apart), none, a, b).max(none);
+        let gaps_b = self.along_b.axis_gaps(apart, none, a, b).max(none);
+        let gaps_a = self
+            .along_a
+            .axis_gaps(self.back(apart), none, a, b)
+            .max(none);
         let distance = greater(gaps_b.length(), gaps_a.length());
-        distance * (1.0 - ROUNDED) - 2.0 * self.slack
+        distance * (1.0 - FORTY_ROUNDINGS) - 2.0 * self.slack
     }
 
-    /// Returns the corners of two triangles in the common frame, at both ends of the span.
+    /// Returns the corners of two triangles in the common frame, at both ends of the interval.
     pub(super) fn ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
         let moved_a = a.map(|p| self.half * self.rate_a.apply(p));
         let moved_b = b.map(|q| self.half * self.rate_b.apply(q));
@@ -151,12 +159,12 @@ impl Snapshot {
         [-1.0, 1.0].map(|end| [at(end, &a, &moved_a), at(end, b, &moved_b)])
     }
 
-    /// Returns A's triangle in the common frame at the instant.
+    /// Returns the corners of A's triangle in the common frame at the middle time.
     pub(super) fn placed(&self, a: &Triangle) -> Triangle {
         a.map(|p| self.placement.apply(p))
     }
 
-    /// Returns the bound that a gap computed along a unit direction must exceed to be certain.
+    /// Returns the gap along a unit direction above which bodies are certainly apart.
     pub(super) fn slack(&self) -> f64 {
         self.slack
     }
@@ -167,14 +175,14 @@ impl Snapshot {
 }
 
 impl Extents {
-    /// Returns the gap of two boxes along each axis, at the end of the span with the smaller gap.
-    fn gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
+    /// Returns the gap of two boxes along each axis, at the end of the interval with the smaller gap.
+    fn axis_gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
     }
 }
 
-/// Returns, entry by entry, the larger of |m + w| and |m − w|; the absolute value is convex in between.
-fn largest(m: DMat3, w: DMat3) -> DMat3 {
+/// Returns, entry by entry, the larger of |m + w| and |m − w|, which bounds the absolute values in between.
+fn larger_of_sum_and_difference(m: DMat3, w: DMat3) -> DMat3 {
     let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
     DMat3::from_cols(
         entry(m.x_axis, w.x_axis),
@@ -183,20 +191,20 @@ fn largest(m: DMat3, w: DMat3) -> DMat3 {
     )
 }
 
-/// The map `p ↦ matrix p + offset`, rounded, and a bound of its error.
+/// The map `p ↦ matrix p + offset` in floats, with a bound of its error.
 #[derive(Clone, Copy, Debug)]
 struct Affine {
     matrix: DMat3,
     offset: DVec3,
-    /// The error as a length, for points within the body's reach of its origin.
+    /// The error of an image as a length, for points within the body's reach of its origin.
     error: f64,
-    /// The length of the largest image.
+    /// The length of the longest image of such a point.
     size: f64,
 }
 
 impl Affine {
-    /// Creates the map: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at
-    /// most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
+    /// Converts a map from intervals to floats: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in
+    /// sequence. Its error is at most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(Matrix, Vector), farthest: f64) -> Self {
         let rows = matrix
             .0
@@ -223,8 +231,8 @@ impl Affine {
     }
 }
 
-/// The affine maps, to within intervals.
-pub(super) struct Enclosed {
+/// The affine maps of a snapshot, whose entries are intervals.
+pub(super) struct IntervalMaps {
     pub(super) placement: (Matrix, Vector),
     rate_a: (Matrix, Vector),
     rate_b: (Matrix, Vector),
@@ -232,7 +240,7 @@ pub(super) struct Enclosed {
     velocity: Vector,
 }
 
-impl Enclosed {
+impl IntervalMaps {
     pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
         let (at_a, at_b) = (a.at(time), b.at(time));
         let back = at_b.rotation.transpose();
@@ -245,7 +253,7 @@ impl Enclosed {
         let swirl_a = &(&back * &a.spin).cross_matrix() * &rotation;
         let swirl_b = (&back * &b.spin).cross_matrix();
         let drift = velocity - &swirl_a * &a.centre + &swirl_b * &b.centre;
-        Enclosed {
+        IntervalMaps {
             placement: (rotation, offset),
             rate_a: (swirl_a, drift),
             rate_b: (swirl_b, Vector([exact(0.0); 3])),
@@ -255,10 +263,10 @@ impl Enclosed {
     }
 }
 
-/// An upper bound on the number of roundings of a gap, relative to the sizes that enter it. For each of A and B these
+/// An upper bound on the number of roundings in a gap, relative to the sizes that enter it. For each of A and B these
 /// are the sum of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its difference
 /// (1); n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each side, and twice
 /// as many along A's axes, which are rounded themselves. The total is doubled.
-const ROUNDINGS: f64 = 96.0;
-/// √3, rounded up.
+const GAP_ROUNDINGS: f64 = 96.0;
+/// The square root of 3, rounded up.
 const SQRT_3: f64 = 1.732_050_807_568_878;

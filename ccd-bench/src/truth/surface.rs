@@ -1,42 +1,42 @@
-//! The surface of a mesh, under a tree of boxes along the axes of the body's frame.
+//! The triangles of a mesh in a tree of boxes along the axes of the body's frame.
 
 use super::rounding::{ROUNDED_UP, larger};
 use ccd_core::glam::DVec3;
 use ccd_decomp::TriangleMesh;
 
-/// The triangles of a mesh, prepared for the referee.
+/// The triangles of a mesh, prepared for the exact search.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// The nodes, the root first, and children after their parents.
+    /// The nodes of the tree, the root first, and children after their parents.
     nodes: Vec<Node>,
     triangles: Vec<Triangle>,
 }
 
-/// The three corners, in the body's frame.
+/// The three corners of a triangle, in the body's frame.
 pub(super) type Triangle = [DVec3; 3];
 
-/// A box around some triangles.
+/// A box with the triangle or the nodes in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) centre: DVec3,
-    /// Half the extents; the box contains all triangles despite rounding.
+    /// Half the extents of the box, rounded so that it contains all its triangles.
     pub(super) half: DVec3,
-    /// Half the diagonal.
+    /// Half the diagonal of the box.
     pub(super) size: f64,
     pub(super) content: Content,
 }
 
-/// The content of a box.
+/// What a box contains.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Content {
-    /// The two child nodes.
+    /// The box of an inner node contains the boxes of these two nodes.
     Children([u32; 2]),
-    /// The triangle of a leaf.
+    /// The box of a leaf contains the triangle with this index.
     Triangle(u32),
 }
 
 impl Surface {
-    /// Prepares the surface of a mesh.
+    /// Builds the tree of boxes over a mesh.
     ///
     /// # Complexity
     /// O(n log n) for n triangles.
@@ -52,12 +52,12 @@ impl Surface {
         };
         let mut order: Vec<u32> = (0..).take(surface.triangles.len()).collect();
         if !order.is_empty() {
-            surface.grow(&mut order);
+            surface.add_subtree(&mut order);
         }
         surface
     }
 
-    /// Returns the root's index, unless there are no triangles.
+    /// Returns the index of the root; `None` without triangles.
     pub(super) fn root(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
@@ -81,17 +81,17 @@ impl Surface {
         })
     }
 
-    /// Returns an upper bound of the body's reach from its origin.
+    /// Returns an upper bound of the distance of the body's points from the origin.
     pub(super) fn farthest(&self) -> f64 {
         let far = self.corners().map(DVec3::length).fold(0.0, larger);
         far * ROUNDED_UP
     }
 
-    /// Adds the node of some triangles. They are halved at the median along their longest extent,
-    /// so the depth is the logarithm of their number.
-    fn grow(&mut self, order: &mut [u32]) -> u32 {
+    /// Adds the node of some triangles with all nodes below it, and returns its index. They are halved at the median
+    /// along their longest extent, so the depth is the logarithm of their number.
+    fn add_subtree(&mut self, order: &mut [u32]) -> u32 {
         let index = self.nodes.len();
-        let node = self.about(order);
+        let node = self.bounding_node(order);
         self.nodes.push(node);
         if let [triangle] = order {
             self.nodes[index].content = Content::Triangle(*triangle);
@@ -101,13 +101,13 @@ impl Surface {
             let key = |&i: &u32| self.triangle(i).iter().map(|p| p[axis]).sum::<f64>();
             order.select_nth_unstable_by(middle, |i, j| key(i).total_cmp(&key(j)));
             let (left, right) = order.split_at_mut(middle);
-            let children = [self.grow(left), self.grow(right)];
+            let children = [self.add_subtree(left), self.add_subtree(right)];
             self.nodes[index].content = Content::Children(children);
         }
         index as u32
     }
 
-    fn about(&self, order: &[u32]) -> Node {
+    fn bounding_node(&self, order: &[u32]) -> Node {
         let corners = order.iter().flat_map(|&i| self.triangle(i));
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for &corner in corners {

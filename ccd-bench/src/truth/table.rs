@@ -1,44 +1,44 @@
-//! The table of truths.
+//! The table of exact answers.
 
 use super::Truth;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
-/// The columns, in order. The last one holds the reason why a row of motions cannot be judged.
+/// The columns of the table, in order. The last one holds the reason why a row of motions cannot be judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 
-/// One row of the table, without a reason.
+/// One row of the table of exact answers, without a reason.
 ///
 /// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
 /// touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruthRow {
-    /// The name of the query.
+    /// The name of the query in the table of motions.
     pub id: String,
-    /// The kind of its truth.
+    /// Which kind of exact answer the query has.
     pub status: Status,
     lo: f64,
     hi: f64,
 }
 
-/// The kind of a [`Truth`].
+/// Which kind of [`Truth`] a row has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// The kind of [`Truth::Hit`].
+    /// The row is a [`Truth::Hit`].
     Hit,
-    /// The kind of [`Truth::Free`].
+    /// The row is a [`Truth::Free`].
     Free,
-    /// The kind of [`Truth::Start`].
+    /// The row is a [`Truth::Start`].
     Initial,
-    /// The kind of [`Truth::Graze`].
+    /// The row is a [`Truth::Graze`].
     Graze,
-    /// The kind of [`Truth::Undecided`].
+    /// The row is a [`Truth::Undecided`].
     Undecided,
 }
 
 impl TruthRow {
-    /// Returns the row of a query with this name and duration.
+    /// Returns the row for the exact answer of a query with this name and duration.
     pub fn new(id: String, duration: f64, truth: Truth) -> Self {
         let (status, lo, hi) = match truth {
             Truth::Hit { lo, hi } => (Status::Hit, lo, hi),
@@ -50,7 +50,7 @@ impl TruthRow {
         TruthRow { id, status, lo, hi }
     }
 
-    /// Returns the width of the bracket of a hit, 0 for others.
+    /// Returns the width of the bracket of a hit; 0 for other rows.
     pub fn width(&self) -> f64 {
         if self.status == Status::Hit {
             self.hi - self.lo
@@ -59,7 +59,7 @@ impl TruthRow {
         }
     }
 
-    /// Returns the truth.
+    /// Returns the exact answer in the row.
     pub fn truth(&self) -> Truth {
         let (lo, hi) = (self.lo, self.hi);
         match self.status {

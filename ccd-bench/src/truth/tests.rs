@@ -13,7 +13,7 @@ use ccd_decomp::TriangleMesh;
 use rand::{Rng, RngExt};
 use rigid_ccd::table::motions::Motions;
 
-/// Returns a box about the origin by its half extents.
+/// Returns the surface of a box about the origin with the given half extents.
 fn cuboid(x: f64, y: f64, z: f64) -> Surface {
     let half_extents = DVec3::new(x, y, z);
     Surface::new(&Board { half_extents }.mesh().unwrap())

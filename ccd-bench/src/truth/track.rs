@@ -1,34 +1,34 @@
-//! The position of a moving body at an instant, to within intervals.
+//! Computes the position of a moving body at an instant, to within intervals.
 
 use super::enclosure::{Matrix, Vector};
 use super::interval::exact;
-use super::rounding::{ROUNDED, ROUNDED_UP, larger};
+use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, larger};
 use super::surface::Surface;
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DVec3};
 
-/// A body's motion: x(t) = c₀ + v t + R(ω t) R₀ (p − c).
+/// The motion of a body in intervals: x(t) = c₀ + v t + R(ω t) R₀ (p − c).
 #[derive(Clone, Debug)]
 pub(super) struct Track {
     /// The centre of rotation c, in the body's frame.
     pub(super) centre: Vector,
-    /// The velocity v.
+    /// The velocity v of the centre, in the world frame.
     pub(super) velocity: Vector,
-    /// The angular velocity ω.
+    /// The angular velocity ω, in the world frame.
     pub(super) spin: Vector,
     /// The angular velocity ω as floats.
-    turning: DVec3,
+    spin_floats: DVec3,
     /// The orientation R₀ at the start.
     orientation: Matrix,
-    /// The position c₀ of the centre at the start.
+    /// The position c₀ of the centre at the start, in the world frame.
     from: Vector,
-    /// An upper bound of the distance of the body's points from c.
+    /// An upper bound of the distance of the body's points from the centre c.
     pub(super) reach: f64,
-    /// |ω|²ρ: an upper bound of the acceleration of the point that is farthest from the axis.
+    /// An upper bound |ω|²ρ of the acceleration of the point that is farthest from the axis, at distance ρ.
     pub(super) acceleration: f64,
 }
 
-/// A placement: x = `centre` + `rotation` (p − c).
+/// The placement of a body at an instant: x = `centre` + `rotation` (p − c).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     pub(super) rotation: Matrix,
@@ -44,7 +44,7 @@ impl Track {
             centre,
             velocity: Vector::from(motion.velocity()),
             spin: Vector::from(motion.spin()),
-            turning: motion.spin(),
+            spin_floats: motion.spin(),
             from: Vector::from(start.translation()) + &orientation * &centre,
             orientation,
             reach: 0.0,
@@ -58,7 +58,7 @@ impl Track {
             let arm = corner - motion.centre();
             track.reach = larger(track.reach, arm.length() * ROUNDED_UP);
             // The sum covers the rounding of the cross product, which is relative to its factors.
-            let speed = axis.cross(arm).length() + ROUNDED * rate * arm.length();
+            let speed = axis.cross(arm).length() + FORTY_ROUNDINGS * rate * arm.length();
             track.acceleration = larger(track.acceleration, rate * speed * ROUNDED_UP);
         }
         track
@@ -66,7 +66,7 @@ impl Track {
 
     pub(super) fn at(&self, time: f64) -> Placement {
         Placement {
-            rotation: &Matrix::turn(self.turning, time) * &self.orientation,
+            rotation: &Matrix::turn(self.spin_floats, time) * &self.orientation,
             centre: self.from + self.velocity.scaled(exact(time)),
         }
     }

@@ -1,4 +1,4 @@
-//! The nearest points of two triangles, and directions that separate them.
+//! Computes the nearest points of two triangles, and directions that separate them.
 //!
 //! A referee's own: it shares no code with the rivals or the engine.
 
@@ -13,9 +13,8 @@ pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
     lesser(lesser(p, q), r) - greater(greater(u, v), w)
 }
 
-/// Returns the unit normals of both triangles, and then those of all pairs of an edge of each, from
-/// `b` towards `a`. Disjoint triangles that are not in one plane are apart along one of them. A
-/// normal that does not exist is NaN.
+/// Returns the unit normals of both triangles, and then those of all pairs of an edge of each, from `b` towards `a`.
+/// Disjoint triangles that are not in one plane are apart along one of them. A normal that does not exist is NaN.
 pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3> {
     let [edges_a, edges_b] = [a, b].map(|t| [t[1] - t[0], t[2] - t[1], t[0] - t[2]]);
     let between = (a[0] + a[1] + a[2]) - (b[0] + b[1] + b[2]);
@@ -41,7 +40,8 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Like [`nearest`], and also checks whether an edge pierces the other triangle.
+/// Returns the nearest points of two triangles as [`nearest`] does, or a common point if an edge pierces the other
+/// triangle.
 pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest(a, b);
     for i in 0..3 {
@@ -55,7 +55,7 @@ pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Returns the second pair of points if they are nearer to each other, else the first.
+/// Returns that of two pairs of points whose points are nearer to each other.
 fn nearer(best: (DVec3, DVec3), found: (DVec3, DVec3)) -> (DVec3, DVec3) {
     let squared = |(p, q): (DVec3, DVec3)| (p - q).length_squared();
     if squared(found) < squared(best) {
@@ -76,7 +76,7 @@ fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Minimises |p + s u − q − t v| over s and t in 0..1: first for the lines, then with one parameter fixed at its end.
+/// Returns the nearest points of two segments: it minimises |p + s u − q − t v| over s and t in 0..1.
 fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3, DVec3) {
     let (u, v, r) = (p_end - p, q_end - q, p - q);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
@@ -91,7 +91,7 @@ fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3
     (p + s * u, q + t * v)
 }
 
-/// Returns the foot of the perpendicular from a point onto a triangle, if it lies in the triangle.
+/// Returns the nearest point of a triangle's plane to a point, if it lies in the triangle.
 fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
     let (u, v, r) = (b - a, c - a, p - a);
     let n = u.cross(v);
@@ -101,8 +101,7 @@ fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
     (beta >= 0.0 && gamma >= 0.0 && beta + gamma <= 1.0).then(|| a + beta * u + gamma * v)
 }
 
-/// Returns the crossing of a segment and a triangle: the point on the segment, and the one on the
-/// triangle.
+/// Returns where a segment crosses a triangle: the point on the segment, and the one on the triangle.
 fn crossing([from, to]: [DVec3; 2], triangle: &Triangle) -> Option<(DVec3, DVec3)> {
     let [a, b, c] = triangle;
     let n = (b - a).cross(c - a);

@@ -4,7 +4,7 @@ use crate::command::{Run, Scene, parse, stderr};
 use std::fs;
 use std::path::Path;
 
-/// Runs one scene with two methods, for a tenth of a second.
+/// Runs `ccd-bench chart` on one scene with two methods, for a tenth of a second.
 fn chart(folder: &Path) -> Run {
     let options = [
         "chart",

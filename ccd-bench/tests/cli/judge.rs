@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-/// The folder, the method, the tolerance, and the verdict recorded in `failures/README.md`.
+/// Recorded failures: the folder, the method, the tolerance, and the verdict recorded in `failures/README.md`.
 const FAILURES: [(&str, &str, &str, &str); 11] = [
     (
         "fast-vmarch-published-late",
@@ -29,8 +29,8 @@ const FAILURES: [(&str, &str, &str, &str); 11] = [
     ("rapier-step-f64-early", "rapier-step-f64", "1e-6", "false"),
 ];
 
-/// The failures of methods in Python, on which only the default is run here.
-const OF_PYTHON: [(&str, &str); 5] = [
+/// The folders and tolerances of failures of Python methods, on which only the default is run here.
+const PYTHON_FAILURES: [(&str, &str); 5] = [
     ("coal-steps-late", "1e-2"),
     ("fcl-ca-late", "1e-3"),
     ("fcl-ca-early", "1e-6"),
@@ -38,7 +38,7 @@ const OF_PYTHON: [(&str, &str); 5] = [
     ("fcl-naive-early", "1e-6"),
 ];
 
-/// Returns the verdict on a method's answer.
+/// Returns the verdict on a method's answer to a recorded failure.
 fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("failures")
@@ -68,7 +68,7 @@ fn verdict(folder: &str, method: &str, tolerance: &str) -> String {
 #[test]
 fn kept_failures_are_still_failures_and_the_default_is_right() {
     let of_rust = FAILURES.map(|(folder, _, tolerance, _)| (folder, tolerance));
-    for (folder, tolerance) in of_rust.into_iter().chain(OF_PYTHON) {
+    for (folder, tolerance) in of_rust.into_iter().chain(PYTHON_FAILURES) {
         assert_eq!(
             verdict(folder, "best-first direct", tolerance),
             "right",
@@ -84,5 +84,5 @@ fn kept_failures_are_still_failures_and_the_default_is_right() {
 fn every_recorded_failure_is_run() {
     let kept = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("failures")).unwrap();
     let folders = kept.filter(|entry| entry.as_ref().unwrap().path().is_dir());
-    assert_eq!(folders.count(), FAILURES.len() + OF_PYTHON.len());
+    assert_eq!(folders.count(), FAILURES.len() + PYTHON_FAILURES.len());
 }

@@ -10,7 +10,7 @@ mod truth;
 
 use command::{Run, stderr};
 
-/// The command under test.
+/// The path of the command under test.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd-bench");
 
 const TETRAHEDRON: &str =

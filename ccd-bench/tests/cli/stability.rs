@@ -16,7 +16,7 @@ fn stability(folder: &Path, options: &[&str]) -> Output {
     command.output().unwrap()
 }
 
-/// Returns the cells of a method's row: queries, right, and so on.
+/// Returns the cells of a method's row: the numbers of queries, of right answers, and so on.
 fn row<'t>(table: &'t str, method: &str) -> Vec<&'t str> {
     let line = table.lines().find(|line| line.contains(method)).unwrap();
     line.rsplit(method)

@@ -283,11 +283,12 @@ impl Acceleration {
 impl Accelerations {
     /// Returns a bound of the deviation from a tangent after a time that the accelerations cause.
     fn deviation_after(self, time: f64) -> Stray {
-        // The time and the products are rounded.
-        let square = 0.5 * time * time * (1.0 + STRETCH_F64);
+        // The time and the products are rounded. The square of a short time may be zero, so none is computed.
+        let deviation =
+            |acceleration: f64| 0.5 * (time * (time * acceleration)) * (1.0 + STRETCH_F64);
         Stray {
-            shift: self.linear * square,
-            turn: self.angular * square,
+            shift: deviation(self.linear),
+            turn: deviation(self.angular),
         }
     }
 }

@@ -70,11 +70,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         let mut any = AnyContactSearch::default();
         match search.run(problem, &mut any) {
-            // Waiting pairs are proven apart only until their clocks.
-            Outcome::Unresolved(known) => Outcome::unresolved(
-                lesser(known.safe_until, problem.time(self.stack.least_clock())),
-                known.limit,
-            ),
+            Outcome::Unresolved(known) => {
+                // Waiting pairs are proven apart only until their clocks.
+                let time = lesser(known.safe_until, problem.time(self.stack.least_clock()));
+                let unresolved = Outcome::unresolved(time, known.limit);
+                // Surfaces that are apart at the start do not exclude that one body is inside the other.
+                if time > problem.time(0.0) {
+                    any.proven.past_start(problem).unwrap_or(unresolved)
+                } else {
+                    unresolved
+                }
+            }
             outcome => outcome,
         }
     }

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// A question about the rows of a table, with its settings.
+/// A question about each row of a table, with its settings.
 #[derive(Clone, Copy)]
 pub(crate) struct TableQuestion<'a> {
     pub(crate) bodies: Bodies<'a>,
@@ -25,7 +25,7 @@ pub(crate) struct TableQuestion<'a> {
     pub(crate) settings: &'a Settings,
     /// The number of threads; `None` is one for each core.
     pub(crate) threads: Option<u16>,
-    /// Whether the results have the time of each query.
+    /// Whether the results have a column with the time of each query.
     pub(crate) has_micros: bool,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct TableQuestion<'a> {
 pub(crate) struct Answered {
     pub(crate) results: RecordBatch,
     pub(crate) fault: Option<TableError>,
-    /// The remarks about the rows.
+    /// The remarks on probable mistakes in the rows.
     pub(crate) remarks: Vec<Remark>,
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn answer(
     })
 }
 
-/// Answers the rows of a piece until the flag is set.
+/// Answers the rows of a piece of the table until the flag is set.
 ///
 /// All rows are read before the first is asked about, and results are made after the last: in turn, each of the three
 /// would start with cold caches.
@@ -108,8 +108,8 @@ fn rows(
         .collect()
 }
 
-/// Answers some rows of a table, by their indices, one after another, until the flag is set.
-pub(crate) fn each(
+/// Answers the rows with the given indices, one after another, until the flag is set.
+pub(crate) fn answer_rows(
     asked: TableQuestion<'_>,
     reader: Reader,
     wanted: &HashSet<usize>,
@@ -141,7 +141,7 @@ pub(crate) fn each(
     pieces.fault.map_or(Ok(()), Err)
 }
 
-/// Returns the settings with a flag that stops queries.
+/// Returns the settings of the question with `stop` as the flag that stops queries.
 fn stopped_by(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
     Settings {
         stop: Some(Arc::clone(stop)),
@@ -154,16 +154,16 @@ fn unreadable(error: ArrowError) -> TableError {
 }
 
 /// The answer of a valid row, or the error of an invalid one.
-type RowAnswer<'r> = Result<Timed<'r>, &'r RowError>;
+type RowAnswer<'r> = Result<TimedRow<'r>, &'r RowError>;
 
-/// An answer and its time.
-struct Timed<'r> {
+/// An answer and the time that it took.
+struct TimedRow<'r> {
     course: &'r Course,
     answer: Result<Answer, InputError>,
     micros: f64,
 }
 
-/// Answers a row; `None` if the query was stopped.
+/// Answers one row; `None` if the query was stopped by the flag.
 fn answer_row<'r>(
     asked: TableQuestion<'_>,
     row: &'r CourseRow,
@@ -179,7 +179,7 @@ fn answer_row<'r>(
     let micros = start.elapsed().as_secs_f64() * 1e6;
     match &answer {
         Ok(answer) if answer.outcome.limit() == Some(Limit::Stopped) => None,
-        _ => Some(Ok(Timed {
+        _ => Some(Ok(TimedRow {
             course,
             answer,
             micros,
@@ -187,7 +187,7 @@ fn answer_row<'r>(
     }
 }
 
-/// Makes the row of results of a row.
+/// Returns the row of the table of results for the answer or error of a row.
 fn result(asked: TableQuestion<'_>, answered: &RowAnswer<'_>) -> ResultRow {
     let timed = match answered {
         Ok(timed) => timed,

@@ -1,4 +1,4 @@
-//! Rows of Arrow columns, in the form that the library reads.
+//! Converts rows of Arrow columns to the form that the library reads.
 
 use super::input::{ID, Reader, TIME};
 use arrow_array::cast::AsArray;
@@ -15,16 +15,16 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Consecutive rows of a table.
+/// A batch of consecutive rows of a table.
 #[derive(Debug)]
 pub(crate) struct Batch {
-    /// The index of the first row.
+    /// The index of the batch's first row in the table.
     pub(crate) first: usize,
     pub(crate) rows: usize,
-    /// The column `id`, unchanged.
+    /// The column `id` with the caller's own values.
     id: Option<ArrayRef>,
     names: Names,
-    /// The other columns; `None` in the place of `id`.
+    /// The other columns as numbers; `None` in the place of `id`.
     columns: Vec<Option<Numbers>>,
 }
 
@@ -32,26 +32,26 @@ pub(crate) struct Batch {
 #[derive(Debug)]
 struct Numbers {
     values: Float64Array,
-    /// Whole numbers that float64 cannot represent exactly, by row index; `None` without any.
+    /// Whole numbers that float64 cannot represent exactly, by row index; `None` if there are none.
     inexact: Option<HashMap<usize, String>>,
 }
 
-/// Whether ids are read as text; results always have the original ones.
+/// Whether ids are read as text; results always have the caller's own values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Names {
     Read,
     LeftOut,
 }
 
-/// A row of a batch.
+/// One row of a batch.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) batch: Arc<Batch>,
-    /// The index of the row in the batch.
+    /// The index of the row in its batch.
     pub(crate) at: usize,
 }
 
-/// The names of a table's columns.
+/// Returns the names of a table's columns.
 pub(crate) fn header(schema: &Schema) -> Vec<String> {
     schema
         .fields()
@@ -60,11 +60,11 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
         .collect()
 }
 
-/// Refuses columns without numbers, and types of ids whose texts may collide.
+/// Refuses columns that are not numbers, and types of ids whose texts may collide.
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME).is_ok();
     for field in schema.fields() {
-        let kind = unpacked(field.data_type());
+        let kind = decoded_type(field.data_type());
         let (fits, needed) = match field.name() == ID {
             true if has_paths => (is_name(kind), "text, numbers or times"),
             true => (true, ""),
@@ -83,7 +83,7 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
     match schema.field_with_name(ID) {
         Ok(field) => field
             .clone()
-            .with_data_type(unpacked(field.data_type()).clone())
+            .with_data_type(decoded_type(field.data_type()).clone())
             .with_nullable(true),
         Err(_) => Field::new(ID, DataType::Int64, true),
     }
@@ -91,17 +91,17 @@ pub(crate) fn id_field(schema: &Schema) -> Field {
 
 /// Returns the type of a column's values without dictionary or run encoding, which NumPy cannot read; the dictionaries
 /// of parts may not fit into one.
-fn unpacked(kind: &DataType) -> &DataType {
+fn decoded_type(kind: &DataType) -> &DataType {
     match kind {
-        DataType::Dictionary(_, values) => unpacked(values),
-        DataType::RunEndEncoded(_, values) => unpacked(values.data_type()),
+        DataType::Dictionary(_, values) => decoded_type(values),
+        DataType::RunEndEncoded(_, values) => decoded_type(values.data_type()),
         other => other,
     }
 }
 
-/// Converts a column to the type `kind`. One of nulls, or of runs, says how long it is in a few bytes, and becomes
-/// longer.
-fn flat(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
+/// Converts a column to the type `kind`, without dictionary or run encoding. A column of nulls or of runs takes a few
+/// bytes whatever its length, so that the result may be much larger.
+fn decoded_column(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
     if column.data_type() == kind {
         return Ok(Arc::clone(column));
     }
@@ -140,7 +140,8 @@ impl Batch {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
-            let column = flat(column, unpacked(field.data_type())).map_err(unreadable)?;
+            let column =
+                decoded_column(column, decoded_type(field.data_type())).map_err(unreadable)?;
             columns.push(if field.name() == ID {
                 id = Some(column);
                 None
@@ -187,7 +188,7 @@ impl Numbers {
                 &DataType::Float64,
             )
         } else {
-            flat(column, &DataType::Float64)
+            decoded_column(column, &DataType::Float64)
         };
         let values = values.map_err(unreadable)?;
         Ok(Numbers {
@@ -253,7 +254,7 @@ impl Cells for &Row {
     }
 }
 
-/// The batches of a table.
+/// An iterator over the batches of a table.
 pub(crate) struct Batches {
     reader: Reader,
     rows: usize,
@@ -283,29 +284,29 @@ impl Batches {
 pub(crate) fn whole(reader: Reader, stop: &AtomicBool) -> Result<RecordBatch, ArrowError> {
     let fields = reader.schema().fields().clone();
     let fields = fields.iter().map(|field| {
-        let kind = unpacked(field.data_type()).clone();
+        let kind = decoded_type(field.data_type()).clone();
         Arc::new(field.as_ref().clone().with_data_type(kind))
     });
     let schema = Arc::new(Schema::new(fields.collect::<Fields>()));
     let mut batches = Vec::new();
     for batch in reader.take_while(|_| !stop.load(Ordering::Relaxed)) {
-        batches.push(unpacked_batch(&batch?, &schema)?);
+        batches.push(decoded_batch(&batch?, &schema)?);
     }
     concat_batches(&schema, &batches)
 }
 
 /// Decodes dictionaries, which may not fit into one after concatenation.
-fn unpacked_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
+fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let columns = schema.fields().iter().zip(batch.columns());
-    let columns = columns.map(|(field, column)| flat(column, field.data_type()));
+    let columns = columns.map(|(field, column)| decoded_column(column, field.data_type()));
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 
-/// An iterator over the rows of a batch, for reading paths.
+/// An iterator over the rows of a batch, by which paths are read.
 pub(crate) struct Rows {
     header: Vec<String>,
     current: Row,
-    /// The number of rows read.
+    /// The number of rows read so far.
     read: usize,
 }
 
@@ -320,7 +321,7 @@ impl Rows {
         })
     }
 
-    /// Returns all of the rows.
+    /// Returns the batch with all of the rows.
     pub(crate) fn batch(&self) -> Arc<Batch> {
         Arc::clone(&self.current.batch)
     }

@@ -1,13 +1,13 @@
-//! Arrow arrays from Python capsules.
+//! Reads Arrow arrays from Python capsules.
 
-use crate::errors::input;
+use crate::errors::input_error;
 use arrow_array::RecordBatch;
 use arrow_array::ffi::FFI_ArrowArray;
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use pyo3_arrow::PyRecordBatch;
 
-/// Takes a batch from the capsules of an object.
+/// Reads a batch from the Arrow capsules of a Python object.
 ///
 /// An object that hands over the same capsules twice is refused: their array is released, and its memory may be
 /// somebody else's.
@@ -15,7 +15,7 @@ pub(super) fn batch(of: &Bound<'_, PyAny>) -> PyResult<RecordBatch> {
     let capsules = of.call_method0("__arrow_c_array__")?;
     let (schema, array): (Bound<'_, PyCapsule>, Bound<'_, PyCapsule>) = capsules.extract()?;
     if is_released(&array)? {
-        return Err(input("the Arrow array is already released"));
+        return Err(input_error("the Arrow array is already released"));
     }
     let batch = PyRecordBatch::from_arrow_pycapsule(&schema, &array)?;
     Ok(batch.into_inner())

@@ -1,8 +1,8 @@
-//! Tables of motions from Python objects.
+//! Reads tables of motions from Python objects.
 
 use super::capsule;
 use crate::arrays::{kind, plain};
-use crate::errors::{caused, guarded, input, wrong_type};
+use crate::errors::{catching_panics, input_error, input_error_from, wrong_type};
 use arrow_array::{
     Array, ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
 };
@@ -21,16 +21,16 @@ pub(crate) type Reader = Box<dyn RecordBatchReader + Send>;
 /// Opens any object with the Arrow PyCapsule protocol, or a dict of arrays. Columns are not copied, except for arrays
 /// that are not contiguous float64.
 pub(crate) fn open(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
-    guarded("motions", || opened(motions))
+    catching_panics("motions", || open_unguarded(motions))
 }
 
-fn opened(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
-    let failed = |error| caused(motions.py(), "motions", error);
+fn open_unguarded(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
+    let failed = |error| input_error_from(motions.py(), "motions", error);
     if motions.hasattr("__arrow_c_stream__")? {
         let read = |table: &Bound<'_, PyAny>| {
             let reader = table.extract::<PyRecordBatchReader>();
             let reader = reader.and_then(PyRecordBatchReader::into_reader);
-            reader.map(steady).map_err(failed)
+            reader.map(without_panics).map_err(failed)
         };
         return match library_of_frame(motions)?.as_deref() {
             Some("pandas") => read(&without_index(motions)?),
@@ -39,10 +39,10 @@ fn opened(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
         };
     }
     if motions.hasattr("__arrow_c_array__")? {
-        return Ok(one(capsule::batch(motions).map_err(failed)?));
+        return Ok(reader_of_batch(capsule::batch(motions).map_err(failed)?));
     }
     match motions.cast::<PyMapping>() {
-        Ok(columns) => Ok(one(of_arrays(columns)?)),
+        Ok(columns) => Ok(reader_of_batch(batch_of_arrays(columns)?)),
         Err(_) => Err(wrong_type(
             "motions",
             "an Arrow table (pyarrow, polars, pandas, duckdb, ...) or a dict of arrays",
@@ -51,9 +51,9 @@ fn opened(motions: &Bound<'_, PyAny>) -> PyResult<Reader> {
     }
 }
 
-/// Returns a stream that ends with an error where the inner reader would panic: if a batch does not fit its schema, or
-/// an error has no message.
-fn steady(mut reader: Reader) -> Reader {
+/// Returns a reader that gives an error where the inner one would panic: if a batch does not fit its schema, or an
+/// error has no message.
+fn without_panics(mut reader: Reader) -> Reader {
     let schema = reader.schema();
     let next = move || {
         let batch = catch_unwind(AssertUnwindSafe(|| reader.next()));
@@ -66,7 +66,7 @@ fn steady(mut reader: Reader) -> Reader {
     Box::new(RecordBatchIterator::new(from_fn(next), schema))
 }
 
-/// Returns the library of a data frame, also of a derived class.
+/// Returns the library of a data frame, also of a derived class; `None` for other objects.
 fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     for class in motions.get_type().mro() {
         let module: String = class.getattr("__module__")?.extract()?;
@@ -78,8 +78,8 @@ fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok(None)
 }
 
-/// Gives the columns of a polars frame that contain only nulls a type: Arrow arrays of nulls have no buffers, and
-/// polars makes them with one.
+/// Returns a polars frame whose columns of nulls have a type: Arrow arrays of nulls have no buffers, and polars makes
+/// them with one.
 fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let polars = frame.py().import("polars")?;
     let types = PyDict::new(frame.py());
@@ -97,7 +97,7 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     }
 }
 
-/// Drops the index of a pandas frame, which would be a column, unless it has a name.
+/// Returns a pandas frame without its index, which would be a column, unless the index has a name.
 fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
@@ -122,19 +122,19 @@ pub(crate) const ID: &str = "id";
 /// The name of the column of times in a table of paths.
 pub(crate) const TIME: &str = "t";
 
-fn one(batch: RecordBatch) -> Reader {
+fn reader_of_batch(batch: RecordBatch) -> Reader {
     let schema = batch.schema();
     Box::new(RecordBatchIterator::new([Ok(batch)], schema))
 }
 
-fn of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
+fn batch_of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
     let mut fields = Vec::new();
     let mut arrays: Vec<ArrayRef> = Vec::new();
     for item in columns.items()? {
         let (name, values): (String, Bound<'_, PyAny>) = item.extract()?;
         let array = column(&name, &values)?;
         if let Some(first) = arrays.first().filter(|first| first.len() != array.len()) {
-            return Err(input(format!(
+            return Err(input_error(format!(
                 "column {name}: has {} rows, but the first column has {}",
                 array.len(),
                 first.len()
@@ -144,9 +144,9 @@ fn of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
         arrays.push(array);
     }
     if arrays.is_empty() {
-        return Err(input("motions: there is no column"));
+        return Err(input_error("motions: there is no column"));
     }
-    RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays).map_err(input)
+    RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays).map_err(input_error)
 }
 
 fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
@@ -158,7 +158,7 @@ fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let array = plain(values, &what)?;
     let dimensions: usize = array.getattr("ndim")?.extract()?;
     if dimensions != 1 {
-        return Err(input(format!(
+        return Err(input_error(format!(
             "{what}: an array of one dimension is needed, not of {dimensions}"
         )));
     }
@@ -167,7 +167,9 @@ fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
         (_, 'i' | 'u') => contiguous(&array, &dtype.call_method1("newbyteorder", ("=",))?),
         (ID, _) => ids(&array.call_method0("tolist")?),
         (_, 'f') => contiguous(&array, PyString::new(values.py(), "float64").as_any()),
-        _ => Err(input(format!("{what}: numbers are needed, not {dtype}"))),
+        _ => Err(input_error(format!(
+            "{what}: numbers are needed, not {dtype}"
+        ))),
     }
 }
 
@@ -198,7 +200,7 @@ fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
         texts.iter().flatten().count(),
         numbers.iter().flatten().count(),
     ) {
-        (texts, numbers) if given(texts) && given(numbers) => Err(input(
+        (texts, numbers) if given(texts) && given(numbers) => Err(input_error(
             "column id: some are text, and some are numbers; make them all text",
         )),
         (0, some) if given(some) => Ok(Arc::new(Int64Array::from(numbers))),

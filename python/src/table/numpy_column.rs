@@ -1,6 +1,6 @@
-//! Conversion of a column to a NumPy array.
+//! Converts a column to a NumPy array.
 
-use crate::errors::{caused, input as refuse};
+use crate::errors::{input_error as refuse, input_error_from};
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, Float64Array};
 use arrow_cast::cast;
@@ -38,7 +38,7 @@ fn floats<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, P
     Ok(numpy::PyArray1::from_vec(py, values).into_any())
 }
 
-/// Returns a view of a column of numbers, ignoring validity.
+/// Returns a view of a column of numbers, in which nulls have arbitrary values.
 fn view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
     // Arrow's names of these types are NumPy's, but for the capital letters.
@@ -89,7 +89,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     let array = Bound::new(py, PyArray::from_array_ref(ArrayRef::clone(column)))?;
     let values = array
         .call_method0("to_pylist")
-        .map_err(|error| caused(py, "a value", error))?;
+        .map_err(|error| input_error_from(py, "a value", error))?;
     // NumPy would convert lists of lists to an array of more dimensions.
     let objects = py
         .import("numpy")?
@@ -98,7 +98,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
     Ok(objects)
 }
 
-/// Returns the nested type whose values `to_pylist` cannot convert.
+/// Returns the nested type in a column whose values `to_pylist` cannot convert.
 fn without_objects(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::ListView(_)

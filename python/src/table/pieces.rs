@@ -1,4 +1,4 @@
-//! A table in pieces, each for one thread.
+//! Splits a table into pieces, each answered by one thread.
 
 use super::batch::{Batch, Batches, Names, Row, Rows, check_types, header, whole};
 use super::input::Reader;
@@ -13,20 +13,20 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// The rows that a thread answers at a time.
+/// The rows that a thread answers in one go.
 pub(crate) enum Piece {
-    /// Rows of motions.
+    /// Some rows of a table of motions, as a range in a batch.
     Motions(Arc<Batch>, Range<usize>),
     /// A path and its id.
     Path(Box<CourseRow>, ArrayRef),
 }
 
-/// The pieces of a table, in order, until the flag is set.
+/// An iterator over the pieces of a table, in order, until the flag is set.
 pub(crate) struct Pieces<'p> {
     source: Source,
     size: &'p PieceSize,
     stop: &'p AtomicBool,
-    /// The error of the table after the last piece.
+    /// The error of the table that follows the last piece.
     pub(crate) fault: Option<TableError>,
 }
 
@@ -39,7 +39,7 @@ enum Source {
     Paths(Box<Courses<Rows>>, Arc<Batch>),
 }
 
-/// The number of rows that a thread answers at a time.
+/// The number of rows in a piece, adapted to the time that pieces take.
 ///
 /// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
 /// end of a batch pieces get smaller, so that no thread waits long for the others.
@@ -48,38 +48,38 @@ pub(crate) struct PieceSize {
     threads: usize,
 }
 
-/// The target duration of a piece.
-const PIECE: Duration = Duration::from_millis(20);
+/// The target duration of answering a piece.
+const PIECE_DURATION: Duration = Duration::from_millis(20);
 
-/// The maximum number of rows of a piece.
+/// The maximum number of rows in a piece.
 const MOST_ROWS: usize = 512;
 
 impl PieceSize {
-    /// Starts with one row.
+    /// Starts with pieces of one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
         PieceSize { rows, threads }
     }
 
-    /// Returns the number of rows of the next piece, out of `left` remaining ones.
+    /// Returns the number of rows of the next piece, if `left` rows remain.
     fn next_rows(&self, left: usize) -> usize {
         let share = left.div_ceil(2 * self.threads);
         self.rows.load(Ordering::Relaxed).min(share)
     }
 
-    /// Adapts the size of later pieces to the duration of one.
+    /// Adapts the size of later pieces: `rows` rows took the time `taken`.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch is no reason for smaller pieces.
-        if taken < PIECE / 2 {
+        if taken < PIECE_DURATION / 2 {
             self.rows
                 .fetch_max(MOST_ROWS.min(2 * rows), Ordering::Relaxed);
-        } else if taken > 2 * PIECE {
+        } else if taken > 2 * PIECE_DURATION {
             self.rows.store((rows / 2).max(1), Ordering::Relaxed);
         }
     }
 }
 
-/// Checks the columns of a table.
+/// Checks the columns of a table, and returns where each known one is.
 pub(crate) fn check(reader: &Reader) -> Result<Columns, TableError> {
     let schema = reader.schema();
     let columns = Columns::of(&header(&schema))?;
@@ -177,7 +177,7 @@ impl Source {
 }
 
 impl Piece {
-    /// Returns the number of rows, or of paths.
+    /// Returns the number of rows or paths in the piece.
     pub(crate) fn rows(&self) -> usize {
         match self {
             Piece::Motions(_, rows) => rows.len(),
@@ -185,7 +185,7 @@ impl Piece {
         }
     }
 
-    /// Returns the ids of the first rows.
+    /// Returns the ids of the piece's first `rows` rows.
     pub(crate) fn ids(&self, rows: usize) -> ArrayRef {
         match self {
             Piece::Motions(batch, range) => batch.ids(range.start, rows),
@@ -193,7 +193,7 @@ impl Piece {
         }
     }
 
-    /// Reads the rows one after another.
+    /// Reads the rows of the piece one after another.
     pub(crate) fn courses<'p>(
         &'p self,
         columns: &'p Columns,
@@ -205,7 +205,7 @@ impl Piece {
     }
 }
 
-/// Reads a row of motions.
+/// Reads one row of a table of motions.
 fn course(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
     let row = batch.first + at;
     let position = motions::RowPosition {

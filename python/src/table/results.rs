@@ -1,4 +1,4 @@
-//! Rows of results as Arrow columns.
+//! Converts rows of results to Arrow columns.
 
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray, new_empty_array};
 use arrow_buffer::NullBuffer;
@@ -17,7 +17,7 @@ pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError
     Ok(Schema::new(fields))
 }
 
-/// Concatenates results. Ids too long for one column of their type become those of the type for long ones.
+/// Concatenates batches of results. Ids too long for one column of their type become those of the type for long ones.
 pub(crate) fn joined(
     schema: &Arc<Schema>,
     batches: &[RecordBatch],
@@ -42,7 +42,7 @@ pub(crate) fn joined(
     })
 }
 
-/// Converts rows to columns.
+/// Converts rows of results to a batch of columns.
 pub(crate) fn batch(
     question: Question,
     ids: ArrayRef,
@@ -60,7 +60,7 @@ pub(crate) fn batch(
     RecordBatch::try_new(Arc::new(schema), arrays)
 }
 
-/// Returns the cells of rows in a column.
+/// Returns the cells of all rows in one column as an array.
 fn array(cells: Cells, rows: &[ResultRow]) -> ArrayRef {
     match cells {
         Cells::Text(of) => Arc::new(StringArray::from_iter(rows.iter().map(of))),

@@ -1,25 +1,25 @@
 //! The pickled form of a table: an Arrow stream of one batch.
 
-use crate::errors::input as refuse;
+use crate::errors::input_error as refuse;
 use arrow_array::RecordBatch;
 use arrow_buffer::Buffer;
 use arrow_ipc::reader::StreamDecoder;
 use arrow_ipc::writer::StreamWriter;
 use pyo3::prelude::*;
 
-/// Writes a table.
+/// Writes a table in its pickled form.
 pub(super) fn write(batch: &RecordBatch) -> PyResult<Vec<u8>> {
     let mut writer = StreamWriter::try_new(Vec::new(), &batch.schema()).map_err(refuse)?;
     writer.write(batch).map_err(refuse)?;
     writer.into_inner().map_err(refuse)
 }
 
-/// Returns the checksum of the bytes: CRC-32.
+/// Returns the CRC-32 checksum of the bytes.
 pub(super) fn checksum(stored: &[u8]) -> u32 {
     crc32fast::hash(stored)
 }
 
-/// Reads a table, if the checksum of the bytes is right.
+/// Reads a table from its pickled form, if the checksum of the bytes is right.
 ///
 /// Where even the checksum was forged, nothing is allocated for what is announced and not there.
 pub(super) fn read(stored: &[u8], checksum: u32) -> PyResult<RecordBatch> {

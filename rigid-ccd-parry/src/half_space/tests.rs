@@ -1,9 +1,9 @@
 use super::*;
 use ccd_core::{Motion, Pose};
 
-fn at(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3], reach: f64) -> Reaching {
+fn at(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3], reach: f64) -> MotionWithExtent {
     let pose = Pose::at(place).expect("a pose");
-    Reaching {
+    MotionWithExtent {
         motion: Motion::new(pose, velocity, spin).expect("a motion"),
         about: DVec3::ZERO,
         reach,
@@ -24,12 +24,12 @@ fn the_box_is_above_the_plane_by_a_hair_and_as_wide_as_the_reach() {
             DVec3::new(5.0, 70.0, -3.0),
             DVec3::new(0.0, -2.0, 1e6),
         ] {
-            let side = Reaching {
+            let side = MotionWithExtent {
                 about,
                 ..at([0.0; 3], [0.0; 3], [0.0; 3], 0.0)
             };
             let reach = 30.0;
-            let body = plane.stand_in(side, reach).expect("a box");
+            let body = plane.box_within(side, reach).expect("a box");
             let points = body.body().pieces().points();
             let unit = plane.normal;
             // The normals of the facets: the box contains the ball's part of the half-space along each.

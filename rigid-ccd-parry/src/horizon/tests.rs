@@ -2,23 +2,28 @@ use super::*;
 use ccd_core::Pose;
 use std::f64::consts::PI;
 
-fn reaching(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3], reach: f64) -> Reaching {
+fn motion_with_extent(
+    place: [f64; 3],
+    velocity: [f64; 3],
+    spin: [f64; 3],
+    reach: f64,
+) -> MotionWithExtent {
     let pose = Pose::at(place).expect("a pose");
-    Reaching {
+    MotionWithExtent {
         motion: Motion::new(pose, velocity, spin).expect("a motion"),
         about: DVec3::ZERO,
         reach,
     }
 }
 
-fn still(reach: f64) -> Reaching {
-    reaching([0.0; 3], [0.0; 3], [0.0; 3], reach)
+fn still(reach: f64) -> MotionWithExtent {
+    motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], reach)
 }
 
 #[test]
 fn the_horizon_ends_when_bodies_have_passed() {
     for speed in [1e-30, 1.0, 1e30] {
-        let flies = reaching([-4.0, 0.0, 0.0], [speed, 0.0, 0.0], [0.0; 3], 1.0);
+        let flies = motion_with_extent([-4.0, 0.0, 0.0], [speed, 0.0, 0.0], [0.0; 3], 1.0);
         let Horizon::Whole(duration) = Horizon::new([flies, still(2.0)], 0.5, f64::INFINITY) else {
             panic!("it passes");
         };
@@ -35,7 +40,7 @@ fn the_horizon_ends_when_bodies_have_passed() {
 
 #[test]
 fn the_horizon_of_periodic_motions_is_one_period() {
-    let turns = |spin| reaching([0.0; 3], [0.0; 3], spin, 1.0);
+    let turns = |spin| motion_with_extent([0.0; 3], [0.0; 3], spin, 1.0);
     let both = |a: [f64; 3], b: [f64; 3]| Horizon::new([turns(a), turns(b)], 0.0, f64::INFINITY);
     assert_eq!(both([0.0; 3], [0.0; 3]), Horizon::Whole(0.0));
     for horizon in [
@@ -55,13 +60,14 @@ fn the_horizon_of_periodic_motions_is_one_period() {
 
 #[test]
 fn travel_and_turn_stay_within_the_engines_limits() {
-    let spins = reaching([-4.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.0, 0.0, 1e3], 1.0);
+    let spins = motion_with_extent([-4.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.0, 0.0, 1e3], 1.0);
     let Horizon::Part(duration) = Horizon::new([spins, still(1.0)], 0.0, 1e9) else {
         panic!("it turns too often");
     };
     assert!(duration * 1e3 < MAX_TURN && duration * 1e3 > 0.99 * MAX_TURN);
     // Both bodies are fast, but have almost no relative velocity.
-    let [a, b] = [1e9, 1e9 + 1e-3].map(|v| reaching([0.0; 3], [v, 0.0, 0.0], [0.0; 3], 1e3));
+    let [a, b] =
+        [1e9, 1e9 + 1e-3].map(|v| motion_with_extent([0.0; 3], [v, 0.0, 0.0], [0.0; 3], 1e3));
     let Horizon::Part(duration) = Horizon::new([a, b], 0.0, f64::INFINITY) else {
         panic!("it flies too far");
     };

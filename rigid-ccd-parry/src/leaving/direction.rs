@@ -1,4 +1,4 @@
-//! The direction of least penetration of two overlapping convex pieces.
+//! Finds the direction of least penetration of two overlapping convex pieces.
 
 use crate::Prepared;
 use crate::form::Form;
@@ -22,7 +22,7 @@ pub(super) fn direction(
     poses: [Pose; 2],
     solver: &mut Solver,
 ) -> Option<DVec3> {
-    if let Some(between) = between_cores(pieces, poses, solver) {
+    if let Some(between) = direction_between_cores(pieces, poses, solver) {
         return Some(between);
     }
     let [a, b] = [0, 1].map(|k| PlacedPiece::new(&pieces[k], &poses[k]));
@@ -30,7 +30,7 @@ pub(super) fn direction(
     let mut consider = |axis: DVec3| {
         let Some(axis) = unit(axis) else { return };
         for axis in [axis, -axis] {
-            let depth = a.reach(axis) + b.reach(-axis);
+            let depth = a.extent_along(axis) + b.extent_along(-axis);
             if depth.is_finite() && best.is_none_or(|(least, _)| depth < least) {
                 best = Some((depth, axis));
             }
@@ -51,8 +51,12 @@ pub(super) fn direction(
     best.map(|(_, axis)| axis)
 }
 
-/// Returns the direction between the cores of rounded pieces, if the cores are apart.
-fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) -> Option<DVec3> {
+/// Returns the direction between the pieces' unrounded hulls, if these are apart.
+fn direction_between_cores(
+    pieces: [Piece<'_>; 2],
+    poses: [Pose; 2],
+    solver: &mut Solver,
+) -> Option<DVec3> {
     if pieces.iter().all(|piece| piece.radius == 0.0) {
         return None;
     }
@@ -76,7 +80,7 @@ fn between_cores(pieces: [Piece<'_>; 2], poses: [Pose; 2], solver: &mut Solver) 
     }
 }
 
-/// A piece in the world.
+/// A piece with its points in the world frame.
 struct PlacedPiece {
     points: Vec<DVec3>,
     radius: f64,
@@ -118,8 +122,8 @@ impl PlacedPiece {
         }
     }
 
-    /// Returns the extent of the piece along a unit vector.
-    fn reach(&self, axis: DVec3) -> f64 {
+    /// Returns the extent of the piece along a unit vector, measured from the origin.
+    fn extent_along(&self, axis: DVec3) -> f64 {
         let heights = self.points.iter().map(|p| axis.dot(*p));
         heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.radius
     }

@@ -1,4 +1,4 @@
-//! Conversion of parry's arguments to a cast.
+//! Converts parry's arguments to a cast in double precision.
 
 use super::CONTACT;
 use super::convert::{motion, point, pose};
@@ -7,17 +7,17 @@ use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
 #[cfg(feature = "record")]
 use crate::Recording;
-use crate::cast::{Cast, Ready};
+use crate::cast::{Cast, PreparedShape};
 use crate::interval::Interval;
 use crate::{CastError, Options};
 use ccd_core::{InputError, Motion, StartPolicy};
 use rigid_ccd::Solver;
 
-/// The arguments of a cast except the shapes.
+/// The arguments of a cast in double precision, without the shapes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Question {
     motions: [Motion; 2],
-    /// The interval, or `None` if it contains no time.
+    /// The time interval of the cast; `None` if it contains no time.
     interval: Option<Interval>,
     target: f64,
     start: StartPolicy,
@@ -25,7 +25,7 @@ pub(super) struct Question {
 
 impl Question {
     /// Creates the cast from the arguments of `cast_shapes_nonlinear`.
-    pub(super) fn nonlinear(
+    pub(super) fn from_nonlinear_cast(
         motions: [&NonlinearRigidMotion; 2],
         [start_time, end_time]: [Real; 2],
         stop_at_penetration: bool,
@@ -40,7 +40,7 @@ impl Question {
     }
 
     /// Creates the cast from the arguments of `cast_shapes`.
-    pub(super) fn linear(
+    pub(super) fn from_linear_cast(
         bodies: [(&Pose, Vector); 2],
         options: ShapeCastOptions,
     ) -> Result<Self, CastError> {
@@ -58,7 +58,7 @@ impl Question {
     /// Runs the cast on two shapes.
     pub(super) fn answer(
         &self,
-        shapes: [&Ready; 2],
+        shapes: [&PreparedShape; 2],
         options: &Options,
         solver: &mut Solver,
     ) -> Result<Option<ShapeCastHit>, CastError> {
@@ -69,19 +69,24 @@ impl Question {
         Ok(found.as_ref().map(hit))
     }
 
-    /// Records the cast of two shapes.
+    /// Records the cast of two shapes for the command `ccd`.
     #[cfg(feature = "record")]
-    pub(super) fn recorded(
+    pub(super) fn record(
         &self,
-        shapes: [&Ready; 2],
+        shapes: [&PreparedShape; 2],
         options: &Options,
     ) -> Result<Recording, CastError> {
         let interval = self.interval.ok_or(CastError::NoTime)?;
         let cast = self.cast(interval, shapes, options);
-        cast.posed(|scene| Ok(Recording::new(scene)))
+        cast.with_scene(|scene| Ok(Recording::new(scene)))
     }
 
-    fn cast<'a>(&self, interval: Interval, shapes: [&'a Ready; 2], options: &Options) -> Cast<'a> {
+    fn cast<'a>(
+        &self,
+        interval: Interval,
+        shapes: [&'a PreparedShape; 2],
+        options: &Options,
+    ) -> Cast<'a> {
         Cast {
             shapes,
             motions: self.motions,

@@ -7,7 +7,7 @@ use super::library::shape::{SharedShape, TypedShape};
 use super::shapes::{body, half_space};
 #[cfg(feature = "record")]
 use crate::Recording;
-use crate::cast::Ready;
+use crate::cast::PreparedShape;
 use crate::{CastError, Options, Prepared, ShapeError};
 use rigid_ccd::Solver;
 use std::collections::HashMap;
@@ -39,13 +39,13 @@ use std::sync::Arc;
 pub struct Caster {
     options: Options,
     solver: Solver,
-    shapes: HashMap<usize, (SharedShape, Ready)>,
-    /// The number of bodies after the last removal of unused ones.
-    seen: usize,
+    shapes: HashMap<usize, (SharedShape, PreparedShape)>,
+    /// The number of cached bodies after the last removal of unused ones.
+    bodies_after_removal: usize,
 }
 
 impl Caster {
-    /// Creates a caster.
+    /// Creates a caster with an empty cache.
     pub fn new(options: Options) -> Self {
         Caster {
             options,
@@ -73,7 +73,8 @@ impl Caster {
         stop_at_penetration: bool,
     ) -> Result<Option<ShapeCastHit>, CastError> {
         let times = [start_time, end_time];
-        let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
+        let question =
+            Question::from_nonlinear_cast([motion1, motion2], times, stop_at_penetration)?;
         self.answer(&question, [g1, g2])
     }
 
@@ -95,7 +96,7 @@ impl Caster {
         g2: &SharedShape,
         options: ShapeCastOptions,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let question = Question::linear([(pos1, vel1), (pos2, vel2)], options)?;
+        let question = Question::from_linear_cast([(pos1, vel1), (pos2, vel2)], options)?;
         self.answer(&question, [g1, g2])
     }
 
@@ -134,9 +135,10 @@ impl Caster {
         stop_at_penetration: bool,
     ) -> Result<Recording, CastError> {
         let times = [start_time, end_time];
-        let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
-        let [a, b] = Ready::both([g1, g2], |shape| self.ready(shape))?;
-        question.recorded([&a, &b], &self.options)
+        let question =
+            Question::from_nonlinear_cast([motion1, motion2], times, stop_at_penetration)?;
+        let [a, b] = PreparedShape::prepare_both([g1, g2], |shape| self.prepared_shape(shape))?;
+        question.record([&a, &b], &self.options)
     }
 
     /// Returns the body of a shape, for other questions, or to prepare it in advance.
@@ -144,33 +146,33 @@ impl Caster {
     /// # Errors
     /// [`ShapeError`]; [`ShapeError::HalfSpace`] for half-spaces, which have no body.
     pub fn body(&mut self, shape: &SharedShape) -> Result<Arc<Prepared>, ShapeError> {
-        match self.ready(shape)? {
-            Ready::Body(body) => Ok(body),
-            Ready::HalfSpace(_) => Err(ShapeError::HalfSpace),
+        match self.prepared_shape(shape)? {
+            PreparedShape::Body(body) => Ok(body),
+            PreparedShape::HalfSpace(_) => Err(ShapeError::HalfSpace),
         }
     }
 
-    /// Returns the number of cached bodies.
+    /// Returns the number of bodies in the cache.
     pub fn kept(&self) -> usize {
         self.shapes.len()
     }
 
-    /// Removes the bodies of shapes that have no other owner.
+    /// Removes the bodies of shapes that have no owner besides this cache.
     pub fn forget_unused(&mut self) {
         self.shapes
             .retain(|_, (shape, _)| Arc::strong_count(&shape.0) > 1);
-        self.seen = self.shapes.len();
+        self.bodies_after_removal = self.shapes.len();
     }
 
-    fn ready(&mut self, shape: &SharedShape) -> Result<Ready, ShapeError> {
+    fn prepared_shape(&mut self, shape: &SharedShape) -> Result<PreparedShape, ShapeError> {
         if let Some((_, kept)) = self.shapes.get(&address(shape)) {
             return Ok(kept.clone());
         }
         let ready = match shape.as_typed_shape() {
-            TypedShape::HalfSpace(plane) => Ready::HalfSpace(half_space(plane)?),
-            _ => Ready::Body(Arc::new(body(&**shape, &self.options)?)),
+            TypedShape::HalfSpace(plane) => PreparedShape::HalfSpace(half_space(plane)?),
+            _ => PreparedShape::Body(Arc::new(body(&**shape, &self.options)?)),
         };
-        if self.shapes.len() >= 2 * self.seen + FEW {
+        if self.shapes.len() >= 2 * self.bodies_after_removal + FEW_BODIES {
             self.forget_unused();
         }
         self.shapes
@@ -183,13 +185,13 @@ impl Caster {
         question: &Question,
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = Ready::both(shapes, |shape| self.ready(shape))?;
+        let [a, b] = PreparedShape::prepare_both(shapes, |shape| self.prepared_shape(shape))?;
         question.answer([&a, &b], &self.options, &mut self.solver)
     }
 }
 
-/// The number of bodies below which unused ones are not searched for.
-const FEW: usize = 32;
+/// The number of cached bodies below which unused ones are not searched for.
+const FEW_BODIES: usize = 32;
 
 fn address(shape: &SharedShape) -> usize {
     Arc::as_ptr(&shape.0).cast::<()>() as usize

@@ -1,12 +1,12 @@
-//! The functions with parry's names and signatures.
+//! Functions with parry's names and signatures.
 
 use super::ask::Question;
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions, Unsupported};
 use super::library::shape::{Shape, TypedShape};
 use super::shapes::{form, half_space};
-use crate::cast::Ready;
-use crate::shelf::Shelf;
+use crate::body_cache::BodyCache;
+use crate::cast::PreparedShape;
 use crate::{CastError, Options, ShapeError};
 use rigid_ccd::Solver;
 use std::cell::Cell;
@@ -65,7 +65,7 @@ pub fn try_cast_shapes_nonlinear(
     times: [Real; 2],
     stop_at_penetration: bool,
 ) -> Result<Option<ShapeCastHit>, CastError> {
-    let question = Question::nonlinear([motion1, motion2], times, stop_at_penetration)?;
+    let question = Question::from_nonlinear_cast([motion1, motion2], times, stop_at_penetration)?;
     answer(&question, [g1, g2])
 }
 
@@ -114,14 +114,14 @@ pub fn try_cast_shapes(
     (pos2, vel2, g2): (&Pose, Vector, &dyn Shape),
     options: ShapeCastOptions,
 ) -> Result<Option<ShapeCastHit>, CastError> {
-    let question = Question::linear([(pos1, vel1), (pos2, vel2)], options)?;
+    let question = Question::from_linear_cast([(pos1, vel1), (pos2, vel2)], options)?;
     answer(&question, [g1, g2])
 }
 
 /// The solver and the bodies that a thread reuses from call to call.
 #[derive(Default)]
 struct ThreadMemory {
-    shelf: Shelf,
+    body_cache: BodyCache,
     solver: Solver,
 }
 
@@ -147,14 +147,22 @@ impl ThreadMemory {
         shapes: [&dyn Shape; 2],
         options: &Options,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = Ready::both(shapes, |shape| self.ready(shape, options))?;
+        let [a, b] =
+            PreparedShape::prepare_both(shapes, |shape| self.prepared_shape(shape, options))?;
         question.answer([&a, &b], options, &mut self.solver)
     }
 
-    fn ready(&mut self, shape: &dyn Shape, options: &Options) -> Result<Ready, ShapeError> {
+    fn prepared_shape(
+        &mut self,
+        shape: &dyn Shape,
+        options: &Options,
+    ) -> Result<PreparedShape, ShapeError> {
         match shape.as_typed_shape() {
-            TypedShape::HalfSpace(plane) => half_space(plane).map(Ready::HalfSpace),
-            _ => self.shelf.body(form(shape, options)?).map(Ready::Body),
+            TypedShape::HalfSpace(plane) => half_space(plane).map(PreparedShape::HalfSpace),
+            _ => self
+                .body_cache
+                .body(form(shape, options)?)
+                .map(PreparedShape::Body),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Conversion of numbers, vectors, poses and motions between parry's types and the engine's.
+//! Converts numbers, vectors, poses and motions between parry's types and the engine's.
 
 use super::library::math::{Pose as ParryPose, Real, Vector};
 use super::library::query::NonlinearRigidMotion;

@@ -1,4 +1,4 @@
-//! Conversion of hits to parry's types.
+//! Converts hits to parry's types.
 
 use super::convert::{time, vector};
 use super::library::query::{ShapeCastHit, ShapeCastStatus};

@@ -1,4 +1,4 @@
-//! Conversion of parry's shapes.
+//! Converts parry's shapes to bodies.
 
 use super::convert::{point, pose};
 use super::library::math::{IVector, Real};
@@ -10,7 +10,7 @@ use crate::form::Form;
 use crate::half_space::HalfSpace;
 use crate::limits::{DEEPEST, FARTHEST_VOXEL};
 use crate::order::{greater, length};
-use crate::tolerance::GRID;
+use crate::tolerance::VOXEL_ROUNDING;
 use crate::{Meshes, Options, Prepared, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{InputError, Round};
@@ -38,27 +38,27 @@ pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError
     Prepared::new(&form(shape, options)?)
 }
 
-/// Returns the geometry of a shape.
+/// Returns the geometry of a shape in double precision.
 pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeError> {
-    let form = nested(shape, options, 0)?;
+    let form = form_at_depth(shape, options, 0)?;
     let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
         return Ok(form);
     };
     let oriented = mesh.flags().contains(TriMeshFlags::ORIENTED);
     if options.meshes == Meshes::SolidIfOriented && oriented {
-        form.filled()
+        form.as_solid()
     } else {
         Ok(form)
     }
 }
 
-/// Converts a half-space.
+/// Converts parry's half-space to double precision.
 pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError> {
     HalfSpace::new(point(shape.normal))
 }
 
-/// Returns the geometry of a shape at nesting depth `depth`.
-fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
+/// Returns the geometry of a shape that is nested in `depth` compounds.
+fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
@@ -66,7 +66,11 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
-            push_cuboid(&mut form, &round.inner_shape, border(round.border_radius)?)?;
+            push_cuboid(
+                &mut form,
+                &round.inner_shape,
+                border_radius(round.border_radius)?,
+            )?;
         }
         TypedShape::Capsule(capsule) => {
             let ends = [capsule.segment.a, capsule.segment.b].map(point);
@@ -78,11 +82,15 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
         TypedShape::Triangle(t) => form.push_triangle([t.a, t.b, t.c].map(point), 0),
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);
-            form.push_hull(corners.to_vec(), border(round.border_radius)?, &[]);
+            form.push_hull(corners.to_vec(), border_radius(round.border_radius)?, &[]);
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
         TypedShape::RoundConvexPolyhedron(round) => {
-            push_polyhedron(&mut form, &round.inner_shape, border(round.border_radius)?);
+            push_polyhedron(
+                &mut form,
+                &round.inner_shape,
+                border_radius(round.border_radius)?,
+            );
         }
         TypedShape::TriMesh(mesh) => {
             let vertices = mesh.vertices().iter().copied().map(point);
@@ -94,15 +102,15 @@ fn nested(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, Sh
         TypedShape::Compound(compound) => push_parts(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
         TypedShape::Custom(_) => return Err(ShapeError::Custom),
-        typed => return round(&typed, options),
+        typed => return round_form(&typed, options),
     }
     Ok(form)
 }
 
-/// Returns the geometry of a cylinder or a cone.
-fn round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
-    type Made = fn(f64, f64) -> Result<Round, InputError>;
-    let (made, half_height, radius, grown): (Made, _, _, _) = match shape {
+/// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
+fn round_form(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
+    type MakeRound = fn(f64, f64) -> Result<Round, InputError>;
+    let (made, half_height, radius, grown): (MakeRound, _, _, _) = match shape {
         TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),
         TypedShape::Cone(s) => (Round::cone, s.half_height, s.radius, 0.0),
         TypedShape::RoundCylinder(s) => {
@@ -119,19 +127,19 @@ fn round(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> 
     };
     let half_height = size("half height", half_height)?;
     let round = made(size("radius", radius)?, half_height).map_err(ShapeError::Body)?;
-    Ok(Form::of_round(round, border(grown)?, options.excess))
+    Ok(Form::of_round(round, border_radius(grown)?, options.excess))
 }
 
 fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
     let half = point(cuboid.half_extents);
     for length in half.to_array() {
-        checked("half extent", length)?;
+        not_negative("half extent", length)?;
     }
     form.push_box(-half, half, radius);
     Ok(())
 }
 
-/// Adds the hull of a polyhedron's points.
+/// Adds the hull of a convex polyhedron's points to a form.
 fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) {
     let corners = polyhedron.vertices_adj_to_face();
     let facets = polyhedron.faces().iter().map(|face| {
@@ -145,7 +153,7 @@ fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) 
     form.push_hull(points, radius, &loops.unwrap_or_default());
 }
 
-/// Adds the segments of a polyline.
+/// Adds the segments of a polyline to a form.
 fn push_polyline(form: &mut Form, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
@@ -154,7 +162,7 @@ fn push_polyline(form: &mut Form, line: &Polyline) {
     }
 }
 
-/// Adds the triangles of a height field, with parry's numbers and corners.
+/// Adds the triangles of a height field to a form, with parry's numbers and corners.
 fn push_heights(form: &mut Form, field: &HeightField) {
     let (rows, columns) = (field.nrows(), field.ncols());
     for j in 0..columns {
@@ -170,7 +178,7 @@ fn push_heights(form: &mut Form, field: &HeightField) {
     }
 }
 
-/// Adds the cubes of filled voxels.
+/// Adds the cubes of filled voxels to a form.
 fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
     let edge = point(voxels.voxel_size());
     let [low, high] = voxels.domain();
@@ -194,11 +202,11 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
         reach = greater(reach, greater(length(low), length(high)));
         form.push_box(low, high, 0.0);
     }
-    form.add_slack(GRID * reach);
+    form.add_slack(VOXEL_ROUNDING * reach);
     Ok(())
 }
 
-/// Adds the parts of a compound at their poses.
+/// Adds the parts of a compound to a form, each at its pose.
 fn push_parts(
     form: &mut Form,
     compound: &Compound,
@@ -213,22 +221,22 @@ fn push_parts(
             part,
             error: Box::new(error),
         };
-        let inner = nested(&**shape, options, depth + 1).map_err(named)?;
+        let inner = form_at_depth(&**shape, options, depth + 1).map_err(named)?;
         let at = pose(at).map_err(|error| named(ShapeError::Body(error)))?;
         form.push_placed(&at, &inner, part).map_err(named)?;
     }
     Ok(())
 }
 
-fn border(radius: Real) -> Result<f64, ShapeError> {
+fn border_radius(radius: Real) -> Result<f64, ShapeError> {
     size("border radius", radius)
 }
 
 fn size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
-    checked(what, f64::from(value))
+    not_negative(what, f64::from(value))
 }
 
-fn checked(what: &'static str, value: f64) -> Result<f64, ShapeError> {
+fn not_negative(what: &'static str, value: f64) -> Result<f64, ShapeError> {
     if value >= 0.0 && value.is_finite() {
         Ok(value)
     } else {

@@ -1,4 +1,4 @@
-//! Casts compared with the engine, on bodies that are made in other ways.
+//! Tests that casts agree with the engine on bodies that are made in other ways.
 
 use crate::double::make;
 use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};

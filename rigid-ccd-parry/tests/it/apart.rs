@@ -1,4 +1,4 @@
-//! No contact before a hit, according to parry's distances in double precision.
+//! Tests that there is no contact before a hit, by parry's distances in double precision.
 //!
 //! `CCD_TEST_CASES` in the environment multiplies the number of cases.
 
@@ -12,7 +12,7 @@ use ccd_core::order::{greater, lesser};
 use rand::RngExt;
 use rigid_ccd_parry::{Options, f32 as ours32, f64 as ours64};
 
-/// A scene with single-precision numbers.
+/// A random scene with single-precision numbers.
 struct Scene {
     recipes: [Recipe; 2],
     moves: [Moves; 2],
@@ -20,7 +20,7 @@ struct Scene {
     scale: f32,
     shapes: [SharedShape; 2],
     motions: [NonlinearRigidMotion; 2],
-    /// The parts of both shapes, without voxels, for which parry has no distances.
+    /// The convex parts of both shapes, with voxels as boxes, for which parry has no distances.
     parts: [Vec<Part>; 2],
 }
 
@@ -47,7 +47,7 @@ impl Scene {
     }
 
     /// Returns the shapes and motions in single precision.
-    fn single(
+    fn in_single_precision(
         &self,
     ) -> (
         [single::make::SharedShape; 2],
@@ -57,25 +57,25 @@ impl Scene {
         (shapes, self.moves.map(|moves| single::make::motion(&moves)))
     }
 
-    /// Returns the distance at a time; parry's distance of intersecting shapes is 0.
+    /// Returns parry's distance of the shapes at a time; it is 0 if they intersect.
     fn distance(&self, time: Real) -> Real {
         let [a, b] = &self.parts;
-        self.distances(time, [a, b]).0
+        self.least_of_pairs(time, [a, b]).0
     }
 
     /// Returns the least distance at a time over all pairs of convex parts. parry's distance of many parts may be far
     /// off, as may that of two in one of their orders. It is between these two.
-    fn bracket(&self, time: Real) -> (Real, Real) {
+    fn least_distance(&self, time: Real) -> (Real, Real) {
         let [a, b] = self.parts.each_ref().map(|parts| {
             let of_part = |(at, shape): &Part| triangles(*at, shape);
             parts.iter().flat_map(of_part).collect::<Vec<Part>>()
         });
-        let (there, least) = self.distances(time, [&a, &b]);
+        let (there, least) = self.least_of_pairs(time, [&a, &b]);
         (lesser(there, least), greater(there, least))
     }
 
     /// Returns the least distance over all pairs, in both orders of the shapes.
-    fn distances(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
+    fn least_of_pairs(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
         let [p, q] = self.motions.map(|motion| motion.position_at_time(time));
         let mut least = (Real::INFINITY, Real::INFINITY);
         for (at, a) in a {
@@ -94,7 +94,7 @@ impl Scene {
         let at = |k: i32| start + (end - start) * Real::from(k) / 60.0;
         (0..60)
             .map(at)
-            .all(|time| self.distance(time) > by || self.bracket(time).1 > by)
+            .all(|time| self.distance(time) > by || self.least_distance(time).1 > by)
     }
 
     /// Bounds the sum of both bodies' excess over their shapes.
@@ -106,7 +106,7 @@ impl Scene {
 
     /// Bounds the error of parry's distances, for shapes of size 1 or less: the search for round shapes ends at that
     /// error.
-    fn blur(&self) -> f64 {
+    fn distance_error(&self) -> f64 {
         let kinds = self.recipes.each_ref().map(Recipe::name);
         let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
         let is_round = |kind: &String| round.iter().any(|round| kind.starts_with(round));
@@ -152,7 +152,7 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
     }
 }
 
-/// The numbers of hits and misses.
+/// The numbers of hits and misses so far.
 #[derive(Debug, Default)]
 struct Count {
     hits: u64,
@@ -161,7 +161,7 @@ struct Count {
 }
 
 impl Count {
-    /// Checks the hit, or its absence, for an interval and a target distance.
+    /// Checks the hit of a cast, or its absence, for an interval and a target distance.
     fn check(
         &mut self,
         scene: &Scene,
@@ -171,19 +171,23 @@ impl Count {
         tolerance: f64,
         name: &str,
     ) {
-        let (until, blur) = (found.unwrap_or(end), scene.blur());
+        let (until, distance_error) = (found.unwrap_or(end), scene.distance_error());
         if found == Some(start) {
             self.starts += 1;
         } else {
-            let by = if target > 0.0 { target - blur } else { 0.0 };
+            let by = if target > 0.0 {
+                target - distance_error
+            } else {
+                0.0
+            };
             assert!(scene.is_apart([start, until], by), "{name}: before {until}");
         }
         match found {
             Some(time) => {
                 self.hits += u64::from(time > start);
-                let most = target + tolerance + scene.excess() + blur;
-                let near = scene.distance(time) <= most || scene.bracket(time).0 <= most;
-                assert!(near, "{name}: {:e} at {time}", scene.bracket(time).0);
+                let most = target + tolerance + scene.excess() + distance_error;
+                let near = scene.distance(time) <= most || scene.least_distance(time).0 <= most;
+                assert!(near, "{name}: {:e} at {time}", scene.least_distance(time).0);
             }
             None => self.misses += 1,
         }
@@ -204,7 +208,7 @@ fn nothing_touches_before_a_hit() {
         let scene = Scene::new(seed);
         let start = [0.0, 0.0, -0.25, 0.125f32][seed as usize % 4];
         let interval = [f64::from(start), 2.0];
-        let ([a, b], [m, n]) = scene.single();
+        let ([a, b], [m, n]) = scene.in_single_precision();
         let hit32 = ours32::cast_shapes_nonlinear(&m, &*a, &n, &*b, start, 2.0, true);
         let ([a, b], [m, n]) = (&scene.shapes, &scene.motions);
         let hit64 = ours64::cast_shapes_nonlinear(m, &**a, n, &**b, interval[0], 2.0, true);

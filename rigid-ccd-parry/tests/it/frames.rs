@@ -1,4 +1,4 @@
-//! Witnesses, normals and sub-shapes equal those of parry's casts, in the same frames.
+//! Tests that witnesses, normals and sub-shapes equal those of parry's casts, in the same frames.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
@@ -41,7 +41,8 @@ impl Count {
         );
     }
 
-    /// Checks the shares. A few hits may differ: the nearest points of parallel edges are not unique.
+    /// Checks that enough of the hits agree. A few hits may differ: the nearest points of parallel edges are not
+    /// unique.
     fn check(&self) {
         let most = self.hits * 9 / 10;
         assert!(self.hits > 100, "{self:?}");

@@ -1,4 +1,4 @@
-//! Bodies have the extent of parry's shapes in every direction.
+//! Tests that bodies have the extent of parry's shapes in every direction.
 
 use crate::double;
 use crate::scenes::{KINDS, Recipe, random, shape, turn};

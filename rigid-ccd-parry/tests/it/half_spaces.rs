@@ -1,4 +1,4 @@
-//! Half-spaces, compared with parry's linear casts, and rotating bodies next to them.
+//! Tests half-spaces against parry's linear casts, and rotating bodies next to them.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, NonlinearRigidMotion, ShapeCastOptions};

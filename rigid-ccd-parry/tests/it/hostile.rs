@@ -1,4 +1,4 @@
-//! Hostile inputs cause no panic, no endless loop, no hit outside the interval and no unnamed error.
+//! Tests that hostile inputs cause no panic, no endless loop, no hit outside the interval and no unnamed error.
 
 use ccd_core::order::greater;
 use parry3d::math::{Pose, Rotation, Vector};
@@ -10,14 +10,14 @@ use parry3d::utils::Array2;
 use rigid_ccd_parry::CastError;
 use rigid_ccd_parry::f32::{cast_shapes_nonlinear, try_cast_shapes_nonlinear};
 
-fn rests(x: f32) -> NonlinearRigidMotion {
+fn resting(x: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::constant_position(Pose::translation(x, 0.0, 0.0))
 }
 
-fn flies(x: f32, speed: f32) -> NonlinearRigidMotion {
+fn flying(x: f32, speed: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion {
         linvel: speed * Vector::X,
-        ..rests(x)
+        ..resting(x)
     }
 }
 
@@ -40,12 +40,13 @@ fn shapes_without_size_meet() {
     ];
     for a in &shapes {
         for b in &shapes {
-            let found = time(&**a, &**b, [flies(-4.0, 2.0), rests(0.0)], 9.0).expect("they meet");
+            let found =
+                time(&**a, &**b, [flying(-4.0, 2.0), resting(0.0)], 9.0).expect("they meet");
             assert!(found <= 2.0 && found > 1.999999, "{found}");
-            let beside = rests(0.0);
+            let beside = resting(0.0);
             let past = NonlinearRigidMotion {
                 start: Pose::translation(-4.0, 0.001, 0.0),
-                ..flies(0.0, 2.0)
+                ..flying(0.0, 2.0)
             };
             assert_eq!(time(&**a, &**b, [past, beside], 9.0), None);
         }
@@ -56,16 +57,21 @@ fn shapes_without_size_meet() {
 fn tiny_bodies_are_not_in_contact_at_their_own_size() {
     for scale in [1e-6, 1e-12, 1e-20, 1e-30f32] {
         let (ball, cube) = (Ball::new(scale), Cuboid::new(Vector::splat(scale)));
-        let found = time(&ball, &cube, [flies(-4.0 * scale, scale), rests(0.0)], 9.0);
+        let found = time(
+            &ball,
+            &cube,
+            [flying(-4.0 * scale, scale), resting(0.0)],
+            9.0,
+        );
         let found = found.expect("they meet");
         assert!(found <= 2.0 && found > 1.99999, "{scale:e}: {found}");
-        let past = flies(-4.0 * scale, scale);
+        let past = flying(-4.0 * scale, scale);
         let past = NonlinearRigidMotion {
             start: Pose::translation(-4.0 * scale, 2.01 * scale, 0.0),
             ..past
         };
         assert_eq!(
-            time(&ball, &cube, [past, rests(0.0)], 9.0),
+            time(&ball, &cube, [past, resting(0.0)], 9.0),
             None,
             "{scale:e}"
         );
@@ -78,7 +84,7 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     for far in [0.0, 65536.0, 1e9, 68719476736.0f32] {
         let (ball, cube) = (Ball::new(1.0), Cuboid::new(Vector::splat(1.0)));
         let step = greater(far * 1e-6, 8.0).log2().ceil().exp2();
-        let found = time(&ball, &cube, [flies(far - step, 1.0), rests(far)], 1e6);
+        let found = time(&ball, &cube, [flying(far - step, 1.0), resting(far)], 1e6);
         let exact = step - 2.0;
         let found = found.expect("they meet");
         assert!(
@@ -89,13 +95,13 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     for size in [1e3, 1e6, 1e9f32] {
         let (ball, cube) = (Ball::new(size), Cuboid::new(Vector::splat(size)));
         let found =
-            time(&ball, &cube, [flies(-4.0 * size, size), rests(0.0)], 9.0).expect("they meet");
+            time(&ball, &cube, [flying(-4.0 * size, size), resting(0.0)], 9.0).expect("they meet");
         assert!(found <= 2.0 && found > 1.999999, "{size:e}: {found}");
     }
     let beyond = try_cast_shapes_nonlinear(
-        &rests(2e12),
+        &resting(2e12),
         &Ball::new(1.0),
-        &rests(0.0),
+        &resting(0.0),
         &Ball::new(1.0),
         [0.0, 1.0],
         true,
@@ -114,7 +120,7 @@ fn speeds_beyond_all_scales_are_met() {
         let found = time(
             &ball,
             &ball,
-            [flies(-4.0, speed), rests(0.0)],
+            [flying(-4.0, speed), resting(0.0)],
             f32::INFINITY,
         );
         let (found, exact) = (found.expect("they meet"), 2.0 / f64::from(speed));
@@ -127,14 +133,14 @@ fn speeds_beyond_all_scales_are_met() {
             time(
                 &ball,
                 &ball,
-                [flies(-4.0, -speed), rests(0.0)],
+                [flying(-4.0, -speed), resting(0.0)],
                 f32::INFINITY
             ),
             None
         );
     }
     // Two bodies that fly along each other, at any speed.
-    let along = [flies(-4.0, 1e30), flies(0.0, 1e30)];
+    let along = [flying(-4.0, 1e30), flying(0.0, 1e30)];
     assert_eq!(time(&ball, &ball, along, f32::INFINITY), None);
 }
 
@@ -143,10 +149,11 @@ fn spins_beyond_the_limit_end_as_a_limit() {
     let cube = Cuboid::new(Vector::splat(1.0));
     let spins = |rate: f32| NonlinearRigidMotion {
         angvel: rate * Vector::Z,
-        ..flies(-9.0, 1.0)
+        ..flying(-9.0, 1.0)
     };
     let cast = |shape: &dyn Shape, rate| {
-        let hit = cast_shapes_nonlinear(&spins(rate), shape, &rests(0.0), &cube, 0.0, 100.0, true);
+        let hit =
+            cast_shapes_nonlinear(&spins(rate), shape, &resting(0.0), &cube, 0.0, 100.0, true);
         hit.expect("served").expect("they meet")
     };
     let hit = cast(&cube, 1e8);
@@ -166,7 +173,7 @@ fn errors_name_what_is_wrong() {
     let ball = Ball::new(1.0);
     let told = |shape: &dyn Shape| {
         let found =
-            try_cast_shapes_nonlinear(&rests(0.0), &ball, &rests(9.0), shape, [0.0, 1.0], true);
+            try_cast_shapes_nonlinear(&resting(0.0), &ball, &resting(9.0), shape, [0.0, 1.0], true);
         found.expect_err("refused").to_string()
     };
     assert_eq!(
@@ -198,9 +205,9 @@ fn errors_name_what_is_wrong() {
         (Pose::IDENTITY, SharedShape::ball(f32::INFINITY)),
     ];
     assert!(told(&Compound::new(parts)).starts_with("shape 2: part 1: its radius is inf"));
-    let mut motion = rests(0.0);
+    let mut motion = resting(0.0);
     motion.start.rotation = Rotation::from_xyzw(0.0, 0.0, 0.0, 0.0);
-    let found = try_cast_shapes_nonlinear(&motion, &ball, &rests(0.0), &ball, [0.0, 1.0], true);
+    let found = try_cast_shapes_nonlinear(&motion, &ball, &resting(0.0), &ball, [0.0, 1.0], true);
     let told = found.expect_err("refused").to_string();
     assert_eq!(
         told,
@@ -215,11 +222,11 @@ fn a_speed_that_both_have_costs_no_digits() {
     let orbit = 8192.0 * Vector::new(1.0, -2.0, 3.0);
     let near = NonlinearRigidMotion {
         linvel: orbit + 0.125 * Vector::X,
-        ..rests(-10.0)
+        ..resting(-10.0)
     };
     let ahead = NonlinearRigidMotion {
         linvel: orbit,
-        ..rests(0.0)
+        ..resting(0.0)
     };
     let found = time(&ball, &ball, [near, ahead], f32::INFINITY).expect("they meet");
     assert!(found <= 64.0 && found > 64.0 - 2e-5, "{found}");
@@ -248,7 +255,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
             let found = time(
                 &ball,
                 &*ground,
-                [slides(1.5, speed, spin), rests(0.0)],
+                [slides(1.5, speed, spin), resting(0.0)],
                 f32::MAX,
             );
             // At the highest speed a rotation leads farther than the plane is bounded.
@@ -258,7 +265,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
         let found = time(
             &ball,
             &*ground,
-            [slides(1.0, speed, 0.0), rests(0.0)],
+            [slides(1.0, speed, 0.0), resting(0.0)],
             f32::MAX,
         );
         assert_eq!(found, Some(0.0), "{speed:e}");
@@ -267,7 +274,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
     let found = time(
         &ball,
         &*ground,
-        [slides(1.2, 1.0, 1.0), rests(0.0)],
+        [slides(1.2, 1.0, 1.0), resting(0.0)],
         f32::MAX,
     );
     assert!(

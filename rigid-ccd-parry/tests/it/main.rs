@@ -1,4 +1,4 @@
-//! Casts compared with parry and with the engine.
+//! Tests casts against parry and against the engine.
 
 mod agree;
 mod apart;
@@ -19,7 +19,7 @@ mod single {
     pub(crate) use parry3d as library;
     use rigid_ccd_parry::f32 as ours;
 
-    /// Numbers for which casts tend to fail.
+    /// Numbers for which casts tend to fail, such as zeros, infinities and NaN.
     const ODD: [f32; 20] = [
         0.0,
         -0.0,
@@ -61,7 +61,7 @@ mod double {
     pub(crate) use parry3d_f64 as library;
     use rigid_ccd_parry::f64 as ours;
 
-    /// Numbers for which casts tend to fail.
+    /// Numbers for which casts tend to fail, such as zeros, infinities and NaN.
     const ODD: [f64; 24] = [
         0.0,
         -0.0,

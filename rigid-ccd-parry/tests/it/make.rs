@@ -1,4 +1,4 @@
-//! Conversion of recipes to parry's types, in one precision.
+//! Converts random shapes and motions to parry's types, in one precision.
 
 use super::library::math::{IVector, Pose, Real, Rotation, Vector};
 use super::library::query::NonlinearRigidMotion;

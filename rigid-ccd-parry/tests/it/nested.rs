@@ -1,4 +1,4 @@
-//! Nested compounds, which parry refuses unless their type is hidden.
+//! Tests nested compounds, which parry refuses unless their type is hidden.
 
 use parry3d::bounding_volume::{Aabb, BoundingSphere};
 use parry3d::mass_properties::MassProperties;

@@ -1,4 +1,4 @@
-//! Numbers for which casts tend to fail, as every argument, in one precision.
+//! Tests casts with numbers for which they tend to fail, as every argument, in one precision.
 
 use super::ODD;
 use super::library::math::{Pose, Real, Rotation, Vector};
@@ -9,7 +9,7 @@ use crate::scenes::{number, random};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-/// Returns an odd number with probability `share`, otherwise a usual one.
+/// Returns one of the numbers in `ODD` with probability `share`, otherwise a usual one.
 fn odd(rng: &mut Pcg64Mcg, share: f32) -> Real {
     if rng.random::<f32>() < share {
         ODD[rng.random_range(0..ODD.len())]
@@ -36,7 +36,7 @@ fn odd_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
     )
 }
 
-/// Returns a shape built from its fields, which parry does not check.
+/// Returns a shape whose fields parry does not check.
 fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
     let radius = odd(rng, share).abs();
     match rng.random_range(0..9) {
@@ -68,7 +68,7 @@ fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
     }
 }
 
-/// Checks the properties of every hit.
+/// Checks the properties that every hit has.
 fn check(hit: &ShapeCastHit, [start, end]: [Real; 2]) {
     let time = hit.time_of_impact;
     assert!(

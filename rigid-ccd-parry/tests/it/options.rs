@@ -1,4 +1,4 @@
-//! The meaning of parry's arguments, as tabulated in the crate's documentation.
+//! Tests the meaning of parry's arguments, as tabulated in the crate's documentation.
 
 use parry3d::math::{Pose, Vector};
 use parry3d::query::{NonlinearRigidMotion, ShapeCastOptions, ShapeCastStatus};
@@ -6,22 +6,22 @@ use parry3d::shape::{Ball, Cuboid, SharedShape, TriMesh, TriMeshFlags};
 use rigid_ccd_parry::f32::{Caster, cast_shapes, cast_shapes_nonlinear, try_cast_shapes};
 use rigid_ccd_parry::{CastError, Excess, Meshes, Options, ShapeError};
 
-fn at(x: f32) -> Pose {
+fn pose_at_x(x: f32) -> Pose {
     Pose::translation(x, 0.0, 0.0)
 }
 
-fn slides(x: f32, speed: f32) -> NonlinearRigidMotion {
-    NonlinearRigidMotion::new(at(x), Vector::ZERO, speed * Vector::X, Vector::ZERO)
+fn sliding(x: f32, speed: f32) -> NonlinearRigidMotion {
+    NonlinearRigidMotion::new(pose_at_x(x), Vector::ZERO, speed * Vector::X, Vector::ZERO)
 }
 
 /// Casts a ball of radius 1 from `x` at a ball of radius 1 at the origin.
-fn balls(x: f32, speed: f32, options: ShapeCastOptions) -> Option<(f32, ShapeCastStatus)> {
+fn cast_ball(x: f32, speed: f32, options: ShapeCastOptions) -> Option<(f32, ShapeCastStatus)> {
     let ball = Ball::new(1.0);
     let hit = cast_shapes(
-        &at(x),
+        &pose_at_x(x),
         speed * Vector::X,
         &ball,
-        &at(0.0),
+        &pose_at_x(0.0),
         Vector::ZERO,
         &ball,
         options,
@@ -42,11 +42,11 @@ fn a_target_distance_is_kept() {
         target_distance,
         ..ShapeCastOptions::default()
     };
-    assert!(is_just_before(balls(-4.0, 1.0, options(0.0)), 2.0));
-    assert!(is_just_before(balls(-4.0, 1.0, options(0.5)), 1.5));
+    assert!(is_just_before(cast_ball(-4.0, 1.0, options(0.0)), 2.0));
+    assert!(is_just_before(cast_ball(-4.0, 1.0, options(0.5)), 1.5));
     // Larger than both bodies.
-    assert!(is_just_before(balls(-40.0, 8.0, options(30.0)), 1.0));
-    let within = balls(-4.0, 1.0, options(2.5)).expect("it is within");
+    assert!(is_just_before(cast_ball(-40.0, 8.0, options(30.0)), 1.0));
+    let within = cast_ball(-4.0, 1.0, options(2.5)).expect("it is within");
     assert_eq!(
         within,
         (0.0, ShapeCastStatus::PenetratingOrWithinTargetDist)
@@ -54,7 +54,7 @@ fn a_target_distance_is_kept() {
     // A negative distance is refused, as is NaN.
     let ball = Ball::new(1.0);
     for target in [-0.1, f32::NAN, f32::INFINITY] {
-        let body = |x| (at(x), Vector::X, &ball);
+        let body = |x| (pose_at_x(x), Vector::X, &ball);
         let ((p, v, a), (q, w, b)) = (body(0.0), body(5.0));
         let error = try_cast_shapes((&p, v, a), (&q, w, b), options(target)).expect_err("refused");
         assert!(
@@ -73,20 +73,20 @@ fn a_target_distance_is_kept() {
 #[test]
 fn no_hit_is_after_the_end() {
     let until = ShapeCastOptions::with_max_time_of_impact;
-    assert!(is_just_before(balls(-4.0, 1.0, until(2.1)), 2.0));
-    assert_eq!(balls(-4.0, 1.0, until(1.99)), None);
+    assert!(is_just_before(cast_ball(-4.0, 1.0, until(2.1)), 2.0));
+    assert_eq!(cast_ball(-4.0, 1.0, until(1.99)), None);
     for end in [f32::MAX, f32::INFINITY] {
-        assert!(is_just_before(balls(-4.0, 1.0, until(end)), 2.0));
-        assert_eq!(balls(-4.0, -1.0, until(end)), None);
-        assert_eq!(balls(-4.0, 0.0, until(end)), None);
+        assert!(is_just_before(cast_ball(-4.0, 1.0, until(end)), 2.0));
+        assert_eq!(cast_ball(-4.0, -1.0, until(end)), None);
+        assert_eq!(cast_ball(-4.0, 0.0, until(end)), None);
         assert_eq!(
-            balls(-4.0, 1e-44, until(end)).map(|_| ()),
+            cast_ball(-4.0, 1e-44, until(end)).map(|_| ()),
             (end == f32::INFINITY).then_some(())
         );
     }
     // Such an interval contains no time.
-    assert_eq!(balls(0.0, 1.0, until(-1.0)), None);
-    assert_eq!(balls(0.0, 1.0, until(f32::NEG_INFINITY)), None);
+    assert_eq!(cast_ball(0.0, 1.0, until(-1.0)), None);
+    assert_eq!(cast_ball(0.0, 1.0, until(f32::NEG_INFINITY)), None);
 }
 
 #[test]
@@ -94,9 +94,9 @@ fn times_count_from_the_start_of_the_motion() {
     let ball = Ball::new(1.0);
     let cast = |from, to| {
         let hit = cast_shapes_nonlinear(
-            &slides(-4.0, 1.0),
+            &sliding(-4.0, 1.0),
             &ball,
-            &slides(0.0, 0.0),
+            &sliding(0.0, 0.0),
             &ball,
             from,
             to,
@@ -129,9 +129,9 @@ fn times_that_are_no_numbers_are_refused() {
         [f32::INFINITY; 2],
     ] {
         let hit = cast_shapes_nonlinear(
-            &slides(-4.0, 1.0),
+            &sliding(-4.0, 1.0),
             &ball,
-            &slides(0.0, 0.0),
+            &sliding(0.0, 0.0),
             &ball,
             from,
             to,
@@ -149,7 +149,7 @@ fn touching_bodies_are_ignored_unless_they_approach() {
     };
     for (speed, found) in [(1.0, true), (0.0, false), (-1.0, false)] {
         // An approach is detected once it exceeds rounding.
-        let touching = balls(-2.0, speed, options(false));
+        let touching = cast_ball(-2.0, speed, options(false));
         assert_eq!(
             touching.map(|(time, _)| time < 1e-9),
             found.then_some(true),
@@ -157,11 +157,11 @@ fn touching_bodies_are_ignored_unless_they_approach() {
         );
         // The bodies are in contact, but do not overlap.
         assert_eq!(
-            balls(-2.0, speed, options(true)),
+            cast_ball(-2.0, speed, options(true)),
             Some((0.0, ShapeCastStatus::Converged))
         );
         let status = ShapeCastStatus::PenetratingOrWithinTargetDist;
-        assert_eq!(balls(-1.5, speed, options(true)), Some((0.0, status)));
+        assert_eq!(cast_ball(-1.5, speed, options(true)), Some((0.0, status)));
     }
 }
 
@@ -171,7 +171,7 @@ fn a_limit_is_a_hit_at_a_time_that_is_safe() {
         SharedShape::cuboid(0.5, 0.4, 0.3),
         SharedShape::capsule_y(0.5, 0.2),
     ];
-    let [rests, mut flies] = [slides(0.0, 0.0), slides(-3.0, 4.0)];
+    let [rests, mut flies] = [sliding(0.0, 0.0), sliding(-3.0, 4.0)];
     flies.angvel = Vector::new(1.0, 7.0, 3.0);
     let cast = |budget| {
         let mut caster = Caster::new(Options {
@@ -192,7 +192,8 @@ fn a_limit_is_a_hit_at_a_time_that_is_safe() {
 fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     // Both bodies rotate, about axes that move apart: their distance is unknown for all later times.
     let cube = Cuboid::new(Vector::splat(0.3));
-    let turns = |x: f32, spin| NonlinearRigidMotion::new(at(x), Vector::ZERO, Vector::ZERO, spin);
+    let turns =
+        |x: f32, spin| NonlinearRigidMotion::new(pose_at_x(x), Vector::ZERO, Vector::ZERO, spin);
     let (a, b) = (turns(0.0, Vector::X), turns(1.5, 1.7 * Vector::Y));
     let cast = |end| cast_shapes_nonlinear(&a, &cube, &b, &cube, 0.0, end, true).expect("served");
     assert!(cast(100.0).is_none());
@@ -200,11 +201,11 @@ fn a_motion_that_never_repeats_itself_ends_as_a_limit() {
     assert_eq!(hit.status, ShapeCastStatus::OutOfIterations);
     assert!(hit.time_of_impact > 1e5, "{hit:?}");
     // A body that rotates alone repeats its poses.
-    let hit = cast_shapes_nonlinear(&a, &cube, &slides(1.5, 0.0), &cube, 0.0, f32::MAX, true);
+    let hit = cast_shapes_nonlinear(&a, &cube, &sliding(1.5, 0.0), &cube, 0.0, f32::MAX, true);
     assert!(hit.expect("served").is_none());
 }
 
-/// A box as a mesh with outward normals.
+/// Returns a box as a mesh with outward normals.
 fn mesh(flags: TriMeshFlags, faces: usize) -> SharedShape {
     let (vertices, mut indices) = Cuboid::new(Vector::splat(2.0)).to_trimesh();
     indices.truncate(faces);
@@ -219,11 +220,11 @@ fn a_mesh_is_a_surface_unless_the_options_make_it_a_solid() {
             meshes,
             ..Options::default()
         });
-        let flies = slides(0.0, 1.0);
+        let flies = sliding(0.0, 1.0);
         let hit = caster.cast_shapes_nonlinear(
             &flies,
             &ball,
-            &slides(0.0, 0.0),
+            &sliding(0.0, 0.0),
             &mesh(flags, 12),
             0.0,
             9.0,
@@ -277,7 +278,7 @@ fn cylinders_are_early_by_at_most_the_excess() {
         let hit = caster.cast_shapes_nonlinear(
             &flies,
             &wheel,
-            &slides(0.0, 0.0),
+            &sliding(0.0, 0.0),
             &wall,
             0.0,
             9.0,

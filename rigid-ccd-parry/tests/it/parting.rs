@@ -1,4 +1,4 @@
-//! Bodies that overlap at the start, and are ignored while they part.
+//! Tests bodies that overlap at the start, and are ignored while they part.
 
 use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{

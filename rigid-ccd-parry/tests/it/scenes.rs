@@ -1,9 +1,10 @@
-//! Random scenes of all shapes, with single-precision numbers, so that both precisions have exactly the same scene.
+//! Makes random scenes of all shapes, with single-precision numbers, so that both precisions have exactly the same
+//! scene.
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// The parameters of a shape.
+/// The numbers from which a shape is made, in either precision.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Recipe {
     Ball(f32),
@@ -27,7 +28,7 @@ pub(crate) enum Recipe {
     Compound(Vec<([f32; 3], [f32; 4], Recipe)>),
 }
 
-/// The parameters of a motion.
+/// The numbers from which a motion is made, in either precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Moves {
     pub(crate) place: [f32; 3],

@@ -1,5 +1,5 @@
-//! The edges of a planner for an arm of seven joints among obstacles: certified, and compared with checks at equal
-//! steps.
+//! Checks the edges of a planner's graph for an arm of seven joints among obstacles: certified, and compared with
+//! checks at equal steps.
 //!
 //! ```sh
 //! cargo run --release -p rigid-ccd --example arm -- [EDGES [STEPS]]

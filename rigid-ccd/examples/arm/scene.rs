@@ -1,4 +1,4 @@
-//! An arm from a URDF file, among obstacles.
+//! Reads an arm from a URDF file, and places it among obstacles.
 
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -11,9 +11,9 @@ use urdf_rs::{Geometry, JointType, Robot};
 /// An arm and its obstacles.
 pub(crate) struct Scene {
     pub(crate) chain: Chain,
-    /// The bodies of the links, in the frames of the links.
+    /// The bodies of the arm's links, each in its link's frame.
     pub(crate) links: Vec<Body>,
-    /// For each link, the links below it that it may hit: those that are apart from it in the home position.
+    /// For each link, the links nearer to the base that it may hit: those that are apart from it in the home position.
     pub(crate) others: Vec<Vec<usize>>,
     pub(crate) obstacles: Vec<(Body, Motion)>,
 }

@@ -2,24 +2,24 @@
 
 use std::time::Duration;
 
-/// The size of the next batch.
+/// The number of rows in the next batch, adapted to the time that earlier batches took.
 ///
 /// A batch takes about half a second, so that results can be saved that often. It has at most 4,096
 /// items, so that memory is bounded.
 pub struct BatchSize {
     items: usize,
-    /// The minimum size: one item for each thread.
+    /// The smallest allowed number of rows in a batch: one for each thread.
     least: usize,
 }
 
-/// The target time of a batch, which is about the work lost by an interruption.
+/// The target duration of a batch; an interruption loses at most about this much work.
 const BATCH: Duration = Duration::from_millis(500);
 
-/// The maximum number of items in a batch.
+/// The maximum number of rows in a batch.
 const MAX_ITEMS: usize = 4096;
 
 impl BatchSize {
-    /// Starts with one item for each thread.
+    /// Starts with a batch of one row for each thread.
     pub fn new(threads: usize) -> Self {
         BatchSize {
             items: threads,
@@ -27,12 +27,12 @@ impl BatchSize {
         }
     }
 
-    /// Returns the number of items for the next batch.
+    /// Returns the number of rows for the next batch.
     pub fn items(&self) -> usize {
         self.items
     }
 
-    /// Adapts the size to the time that a batch has taken.
+    /// Adapts the number of rows to `taken`, the duration of the last batch.
     ///
     /// Threads wait for the slowest one at the end of a batch, so that sizes grow in few steps.
     pub fn adapt(&mut self, taken: Duration) {

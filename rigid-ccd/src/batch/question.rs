@@ -23,7 +23,7 @@ pub enum Question {
 }
 
 impl Question {
-    /// All questions.
+    /// All questions, in the order of the command's help.
     pub const ALL: [Question; 6] = [
         Question::FirstContact,
         Question::IsFree,
@@ -33,7 +33,7 @@ impl Question {
         Question::Distance,
     ];
 
-    /// Returns the name on the command line.
+    /// Returns the question's name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Question::FirstContact => "first-contact",
@@ -45,7 +45,7 @@ impl Question {
         }
     }
 
-    /// Returns whether the answer is a distance.
+    /// Returns whether the answer is a distance rather than a time of contact.
     pub fn is_for_a_distance(self) -> bool {
         matches!(
             self,

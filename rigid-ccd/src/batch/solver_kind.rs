@@ -15,33 +15,33 @@ use std::fmt;
 /// A schedule with a distance backend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SolverKind {
-    /// The order in which pairs of pieces are advanced.
+    /// The order in which pairs of pieces are advanced in time.
     pub schedule: ScheduleKind,
-    /// The distance backend.
+    /// The backend that computes distances of pieces.
     pub oracle: OracleKind,
-    /// The bound on the motion, for the schedules that [use one](ScheduleKind::uses_a_bound).
+    /// The bound on the bodies' motion over a step, for the schedules that [use one](ScheduleKind::uses_a_bound).
     pub bound: BoundKind,
 }
 
-/// A schedule.
+/// The order in which a solver advances pairs of pieces in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum ScheduleKind {
-    /// Advances the pair whose proof expires first.
+    /// Advances the pair first whose proof of separation expires first.
     #[default]
     BestFirst,
     /// FAST, as published: one step for all pairs in the front of the distance query over hull trees.
     Fast,
-    /// One step for all pairs of pieces: slow, for comparison on small bodies.
+    /// Advances all pairs of pieces together, by one step at a time: slow, for comparison on small bodies.
     Naive,
 }
 
-/// The bound on the motion over a step of all pairs.
+/// The bound on the bodies' motion over one step of all pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum BoundKind {
-    /// A bound that holds for any rotation.
+    /// The bound that holds for any rotation.
     #[default]
     Sound,
-    /// The published bound: times may be late, and contacts may be missed.
+    /// The bound as published: times may be late, and contacts may be missed.
     Published,
 }
 
@@ -72,7 +72,7 @@ impl ScheduleKind {
     }
 }
 
-/// A distance backend.
+/// The backend that computes the distance of two convex pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum OracleKind {
     /// Closed forms for points, segments and triangles; `gjk` for pieces of more points, such as boxes.
@@ -84,7 +84,7 @@ pub enum OracleKind {
     Vmarch,
 }
 
-/// A solver of queries that reuses its memory.
+/// A solver of queries that reuses its memory from query to query.
 pub trait Solve: Send {
     /// Answers a question about two bodies; `None` if the schedule does not answer it. All of them find the first
     /// contact.
@@ -96,7 +96,7 @@ pub trait Solve: Send {
 }
 
 impl SolverKind {
-    /// Returns all combinations with a sound bound.
+    /// Returns all combinations of schedule, backend and bound whose bound is sound.
     pub fn all() -> impl Iterator<Item = SolverKind> {
         ScheduleKind::value_variants().iter().flat_map(|&schedule| {
             OracleKind::value_variants()

@@ -8,7 +8,7 @@ use ccd_core::{Answer, Settings};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// The question for each row, and how its answer is timed.
+/// What is asked about each row, and how often its answer is repeated for timing.
 #[derive(Clone, Debug)]
 pub(crate) struct Timing {
     /// The question that every row answers.
@@ -32,17 +32,17 @@ impl Default for Timing {
     }
 }
 
-/// An answer and how long it took.
+/// An answer, and the time that it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Timed {
-    /// The answer.
+pub(crate) struct TimedAnswer {
+    /// The answer to the question about one row.
     pub(crate) answer: Answer,
     /// The time to pose and solve the query, in microseconds.
     pub(crate) micros: f64,
 }
 
-impl Timed {
-    /// Returns the row of results.
+impl TimedAnswer {
+    /// Returns the row of the table of results for this answer.
     pub(crate) fn row(&self, bodies: Bodies<'_>, course: &Course, timing: &Timing) -> ResultRow {
         let asked = (timing.question, &self.answer);
         let compared = bodies.compared(timing.settings.clearance);
@@ -62,7 +62,7 @@ pub(crate) fn time(
     course: &Course,
     timing: &Timing,
     solver: &mut dyn Solve,
-) -> Result<Timed, RowProblem> {
+) -> Result<TimedAnswer, RowProblem> {
     let mut micros = Vec::with_capacity(timing.repeat.get());
     loop {
         let start = Instant::now();
@@ -72,7 +72,7 @@ pub(crate) fn time(
         micros.push(start.elapsed().as_secs_f64() * 1e6);
         if micros.len() == timing.repeat.get() {
             let micros = median(&mut micros);
-            return Ok(Timed { answer, micros });
+            return Ok(TimedAnswer { answer, micros });
         }
     }
 }

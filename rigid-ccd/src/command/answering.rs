@@ -4,15 +4,15 @@ use super::bad_rows::BadRows;
 use super::files::{Rows, input_name};
 use super::progress::Progress;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, Timed, Timing, on_threads, time};
+use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, Timing, on_threads, time};
 use crate::table::courses::{Course, CourseRow};
 use crate::table::motions::{RowError, RowPosition, RowProblem, TableError};
 use crate::table::results::ResultRow;
 use std::path::Path;
 use std::time::Instant;
 
-/// A run that answers rows.
-pub(super) struct Answering<'a> {
+/// The state of a command that answers the rows of a table in batches.
+pub(super) struct BatchRun<'a> {
     pub(super) bodies: Bodies<'a>,
     pub(super) timing: Timing,
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
@@ -21,24 +21,24 @@ pub(super) struct Answering<'a> {
     pub(super) progress: Progress,
 }
 
-/// Some rows with their answers, and the error that ended the table after them, if any.
+/// Consecutive rows with their answers, and the error that ended the table after them, if any.
 pub(super) struct Batch {
-    pub(super) rows: Vec<(CourseRow, Result<Timed, RowProblem>)>,
+    pub(super) rows: Vec<(CourseRow, Result<TimedAnswer, RowProblem>)>,
     pub(super) broken: Option<TableError>,
 }
 
-/// A row of a table with its row of results.
-pub(super) struct Answered<'b> {
+/// A row of a table of motions, with its row in the table of results.
+pub(super) struct AnsweredRow<'b> {
     pub(super) position: RowPosition,
-    /// The motions or paths; `None` for a row that cannot be read.
+    /// The motions or paths of the row; `None` for a row that cannot be read.
     pub(super) course: Option<&'b Course>,
     pub(super) row: ResultRow,
-    /// The answer; `None` for an error.
-    pub(super) timed: Option<&'b Timed>,
+    /// The answer with its duration; `None` for a row with an error.
+    pub(super) timed: Option<&'b TimedAnswer>,
 }
 
-impl<'a> Answering<'a> {
-    /// Starts a run over the table of a file, with one solver for each of `threads`.
+impl<'a> BatchRun<'a> {
+    /// Starts to answer the table in a file, with one solver for each of `threads`.
     pub(super) fn new(
         bodies: Bodies<'a>,
         timing: Timing,
@@ -49,7 +49,7 @@ impl<'a> Answering<'a> {
         let solver = on_threads(threads, || {
             timing.method.solver(timing.settings.instructions)
         });
-        Answering {
+        BatchRun {
             bodies,
             batch: BatchSize::new(solver.threads()),
             timing,
@@ -61,7 +61,7 @@ impl<'a> Answering<'a> {
 
     /// Reads some rows, but no more than `most`, and answers them; `None` at the end of the table.
     pub(super) fn next(&mut self, rows: &mut Rows, most: usize) -> Option<Batch> {
-        let (batch, broken) = read(rows, self.batch.items().min(most));
+        let (batch, broken) = read_rows(rows, self.batch.items().min(most));
         if batch.is_empty() && broken.is_none() {
             return None;
         }
@@ -81,11 +81,11 @@ impl<'a> Answering<'a> {
         Some(Batch { rows, broken })
     }
 
-    /// Makes the row of results of a row, and reports a bad one.
-    pub(super) fn answered<'b>(
+    /// Returns the row of results for a row of motions, and reports the row if it is bad.
+    pub(super) fn answered_row<'b>(
         &mut self,
-        (asked, answer): &'b (CourseRow, Result<Timed, RowProblem>),
-    ) -> Answered<'b> {
+        (asked, answer): &'b (CourseRow, Result<TimedAnswer, RowProblem>),
+    ) -> AnsweredRow<'b> {
         let (position, id, course) = match asked {
             Ok((position, course)) => (*position, course.id(), Some(course)),
             Err(error) => (error.position, error.id.as_str(), None),
@@ -97,7 +97,7 @@ impl<'a> Answering<'a> {
                 ResultRow::error(id, problem)
             }
         };
-        Answered {
+        AnsweredRow {
             position,
             course,
             row,
@@ -107,7 +107,7 @@ impl<'a> Answering<'a> {
 }
 
 /// Reads up to `count` rows, and returns the error that ended the table early, if any.
-fn read(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
+fn read_rows(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
     let mut batch = Vec::new();
     for row in rows.take(count) {
         match row {

@@ -1,6 +1,6 @@
 //! `ccd audit`: certifies motions that another checker has called free, and lists those that are not.
 
-use super::answering::{Answered, Answering};
+use super::answering::{AnsweredRow, BatchRun};
 use super::counts::Counts;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::numbers::{not_negative, seconds, tolerance};
@@ -9,7 +9,7 @@ use super::pair::{BodiesArgs, Pair};
 use super::progress::Progress;
 use super::table::Table;
 use super::view::title;
-use super::{Exit, complain, complain_of};
+use super::{Exit, complain, print_remarks};
 use crate::batch::{Question, SolverKind, Timing};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
 use crate::table::results::{COLUMNS, Line, Status, names};
@@ -40,7 +40,7 @@ pub(super) struct AuditArgs {
     #[arg(long, value_name = "N", default_value_t = 100, requires = "pages")]
     most_pages: usize,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", default_value_t = SHARP, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: f64,
     /// Distance that the checker was to keep between the bodies, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
@@ -75,13 +75,13 @@ proven free are counted, and left out. The others are:
 
 Exit code: 0 if all rows are proven free, 3 if some are not, 2 for bad input, 1 if nothing can be written.";
 
-/// The default tolerance: small, so that close passes are not reported as contacts.
-const SHARP: f64 = 1e-6;
+/// The default tolerance, in the scene's unit of length: so small that close passes are not reported as contacts.
+const DEFAULT_TOLERANCE: f64 = 1e-6;
 
-/// The name of the column of pages; it follows the columns of the results.
-const PAGE: &str = "page";
+/// The name of the column that holds the pages' file names; it follows the columns of the results.
+const PAGE_COLUMN: &str = "page";
 
-/// Certifies all rows.
+/// Runs `ccd audit`: certifies all rows of a table.
 pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files()?);
@@ -92,11 +92,11 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     let out = Output::claim_table(&args.out)?;
     let pair = args.bodies.load(SolverKind::default(), args.quiet)?;
     let mut columns = names(&COLUMNS);
-    columns.extend(args.pages.as_ref().map(|_| PAGE));
+    columns.extend(args.pages.as_ref().map(|_| PAGE_COLUMN));
     let (timing, progress) = (timing(args), Progress::of_rows(length, args.quiet));
     let mut audit = Audit {
         args,
-        answering: Answering::new(pair.bodies(), timing, args.threads, &args.motions, progress),
+        answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
         counts: Counts::default(),
@@ -104,7 +104,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     audit.all(&mut rows)?;
     let exit = audit.finish()?;
     if !args.quiet {
-        complain_of(
+        print_remarks(
             pair.remark(args.tolerance)
                 .into_iter()
                 .chain(rows.remarks()),
@@ -126,10 +126,10 @@ fn timing(args: &AuditArgs) -> Timing {
     }
 }
 
-/// Pages and the claim of their folder, which excludes other runs.
-type Folder<'a> = (Pages<'a>, ccd_file::Claim);
+/// The pages in a folder, and the claim that excludes other processes from the folder.
+type PageFolder<'a> = (Pages<'a>, ccd_file::Claim);
 
-fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, CannotWrite> {
+fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<PageFolder<'a>>, CannotWrite> {
     let Some(folder) = &args.pages else {
         return Ok(None);
     };
@@ -151,9 +151,9 @@ fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<Folder<'a>>, Can
 
 struct Audit<'a> {
     args: &'a AuditArgs,
-    answering: Answering<'a>,
+    answering: BatchRun<'a>,
     out: Table,
-    pages: Option<Folder<'a>>,
+    pages: Option<PageFolder<'a>>,
     counts: Counts,
 }
 
@@ -164,8 +164,8 @@ impl Audit<'_> {
                 return Ok(());
             };
             for row in &batch.rows {
-                let answered = self.answering.answered(row);
-                self.take(&answered)?;
+                let answered = self.answering.answered_row(row);
+                self.record_row(&answered)?;
             }
             self.out.flush()?;
             if let Some(error) = batch.broken {
@@ -174,8 +174,8 @@ impl Audit<'_> {
         }
     }
 
-    /// Counts a row, and writes it unless it is free.
-    fn take(&mut self, Answered { course, row, .. }: &Answered<'_>) -> Result<()> {
+    /// Counts a row by its status, and writes it unless it is free.
+    fn record_row(&mut self, AnsweredRow { course, row, .. }: &AnsweredRow<'_>) -> Result<()> {
         self.counts.add(row.status);
         if row.status == Status::Free {
             return Ok(());
@@ -184,7 +184,7 @@ impl Audit<'_> {
             (Some((pages, _)), Some(course))
                 if row.status != Status::Error && pages.len() < self.args.most_pages =>
             {
-                page(pages.write(course, row))?
+                page_path(pages.write(course, row))?
             }
             _ => None,
         };
@@ -202,7 +202,7 @@ impl Audit<'_> {
         self.answering.bad_rows.close();
         let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
-            let others = self.counts.some();
+            let others = self.counts.nonzero();
             let others: String = others
                 .filter(|(status, _)| *status != Status::Free)
                 .map(|(status, count)| format!(", {count} {}", status.name()))
@@ -228,8 +228,8 @@ impl Audit<'_> {
     }
 }
 
-/// Returns the path of a page as text; `None` for a row that cannot be shown.
-fn page(written: Result<PathBuf, PagesError>) -> Result<Option<String>, CannotWrite> {
+/// Returns the path of a page as text; `None` for a row that cannot be drawn.
+fn page_path(written: Result<PathBuf, PagesError>) -> Result<Option<String>, CannotWrite> {
     match written {
         Ok(path) => Ok(Some(path.display().to_string())),
         Err(PagesError::Page(PageError::Write { path, source })) => Err(CannotWrite {

@@ -1,18 +1,18 @@
-//! Messages about bad rows.
+//! Reports rows of a table that cannot be read.
 
 use super::complain;
 use crate::command::progress::Progress;
 use crate::table::motions::RowPosition;
 use std::fmt::Display;
 
-/// A counter of bad rows that prints the first few at once.
+/// A counter of unreadable rows that prints the first few as they occur.
 pub struct BadRows {
     input: String,
     count: usize,
 }
 
-/// The maximum number of bad rows printed.
-const PRINTED: usize = 5;
+/// The maximum number of unreadable rows that are printed one by one.
+const MOST_PRINTED: usize = 5;
 
 impl BadRows {
     /// Creates a counter for the table named `input`.
@@ -23,15 +23,15 @@ impl BadRows {
     /// Counts a bad row, and prints it if it is among the first.
     pub fn report(&mut self, position: RowPosition, problem: &dyn Display, progress: &Progress) {
         self.count += 1;
-        if self.count <= PRINTED {
+        if self.count <= MOST_PRINTED {
             let message = format!("{}, {position}: {problem}", self.input);
             progress.aside(|| complain(&message));
         }
     }
 
-    /// Prints the number of bad rows, if more than the first few.
+    /// Prints the total number of bad rows, if not all of them were printed.
     pub fn close(&self) {
-        if self.count > PRINTED {
+        if self.count > MOST_PRINTED {
             let BadRows { input, count } = self;
             complain(&format!(
                 "{input}: {count} bad rows in all; see column `reason` of the results"

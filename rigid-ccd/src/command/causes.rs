@@ -4,7 +4,7 @@
 pub(super) fn message(error: &anyhow::Error) -> String {
     let mut message = String::new();
     for cause in error.chain() {
-        let cause = without_numbers(&cause.to_string());
+        let cause = without_error_numbers(&cause.to_string());
         // Most errors repeat the message of their cause.
         if message.contains(&cause) {
             continue;
@@ -18,18 +18,18 @@ pub(super) fn message(error: &anyhow::Error) -> String {
 }
 
 /// The text before the error number of the operating system.
-const NUMBER: &str = " (os error ";
+const ERROR_NUMBER: &str = " (os error ";
 
 /// Removes the error numbers of the operating system, whose messages the text already has.
-fn without_numbers(text: &str) -> String {
-    let mut parts = text.split(NUMBER);
+fn without_error_numbers(text: &str) -> String {
+    let mut parts = text.split(ERROR_NUMBER);
     let mut out = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let digits = part.trim_start_matches(|c: char| c.is_ascii_digit());
         match digits.strip_prefix(')') {
             Some(rest) if digits.len() < part.len() => out += rest,
             _ => {
-                out += NUMBER;
+                out += ERROR_NUMBER;
                 out += part;
             }
         }
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn every_cause_is_reported_once() {
         let source = io::Error::from_raw_os_error(2);
-        let words = without_numbers(&source.to_string());
+        let words = without_error_numbers(&source.to_string());
         assert!(!words.contains("os error"), "{words}");
         let place = "out.csv".to_owned();
         let error = anyhow::Error::from(CannotWrite { place, source });
@@ -64,7 +64,7 @@ mod tests {
             ("a (os error x)", "a (os error x)"),
             ("a (os error )", "a (os error )"),
         ] {
-            assert_eq!(without_numbers(text), expected);
+            assert_eq!(without_error_numbers(text), expected);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The numbers of rows of each status.
+//! Counts of rows by status.
 
 use crate::table::results::Status;
 use serde::{Deserialize, Serialize};
@@ -8,23 +8,23 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Counts([usize; Status::ALL.len()]);
 
 impl Counts {
-    /// Counts a row.
+    /// Adds one row with the given status.
     pub(super) fn add(&mut self, status: Status) {
         self.0[status as usize] += 1;
     }
 
-    /// Returns the number of rows of a status.
+    /// Returns the number of rows with the given status.
     pub(super) fn of(&self, status: Status) -> usize {
         self.0[status as usize]
     }
 
-    /// Returns the number of all rows.
+    /// Returns the total number of rows.
     pub(super) fn rows(&self) -> usize {
         self.0.iter().sum()
     }
 
-    /// Returns the statuses that some row has, each with the number of its rows.
-    pub(super) fn some(&self) -> impl Iterator<Item = (Status, usize)> {
+    /// Returns the statuses with at least one row, each with its number of rows.
+    pub(super) fn nonzero(&self) -> impl Iterator<Item = (Status, usize)> {
         let all = Status::ALL.into_iter().zip(self.0);
         all.filter(|&(_, count)| count > 0)
     }

@@ -5,7 +5,7 @@ mod statistics;
 use super::Exit;
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
-use super::named::{ORDERS, named};
+use super::named::{ORDERS, named_value_parser};
 use super::output::{CannotWrite, Output};
 use super::pieces::PiecesArgs;
 use crate::command::progress::Progress;
@@ -35,7 +35,7 @@ pub(super) struct DecomposeArgs {
     #[command(flatten)]
     pieces: PiecesArgs,
     /// Order in which --pieces patches grow [default: cresting]
-    #[arg(long, value_parser = named(ORDERS))]
+    #[arg(long, value_parser = named_value_parser(ORDERS))]
     order: Option<Order>,
     /// Also build the tree of convex hulls, for `ccd query --schedule fast`
     #[arg(long)]
@@ -102,14 +102,14 @@ enum FormatArg {
     Json,
 }
 
-/// The form of an output file.
+/// The kind of file that `--out` writes: pieces or a prepared body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     Pieces,
     Body,
 }
 
-/// Prepares the mesh, writes the output file if any, and prints the statistics.
+/// Runs `ccd decompose`: prepares the mesh, writes the output file if any, and prints the statistics.
 pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let mut source = MeshSource::try_from(args.mesh.clone())?;
     source.adjustments = source.adjustments.and(&args.meshes.adjustments())?;
@@ -139,7 +139,8 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Claims the output before the work, which may take long.
+/// Opens the output file before the decomposition, which may take long, so that a file that cannot be written is
+/// reported at once.
 fn claim(out: &Path, mesh: &Path) -> Result<(Form, Output)> {
     let form = Form::from_path(out)?;
     refuse_overwriting(("the mesh", mesh), ("--out", out))?;

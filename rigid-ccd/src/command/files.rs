@@ -1,6 +1,6 @@
 //! Input tables from files or standard input, and the names of files in messages.
 
-use super::output::{RESUME, is_standard, is_standard_output};
+use super::output::{JOURNAL_EXTENSION, is_standard, is_standard_output};
 use crate::table::courses::Courses;
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
@@ -23,7 +23,7 @@ pub fn refuse_overwriting(
         bail!("{written} would overwrite the file of {read}; give {written} another file");
     }
     let end = end_of_links(target).unwrap_or_else(|_| target.to_owned());
-    for ending in [PARTIAL, RESUME] {
+    for ending in [PARTIAL, JOURNAL_EXTENSION] {
         let mut name = end.clone().into_os_string();
         name.push(ending);
         let pending = PathBuf::from(name);
@@ -37,17 +37,17 @@ pub fn refuse_overwriting(
     Ok(())
 }
 
-/// The bytes of a table from any source.
+/// A reader of a table's bytes, from a file or standard input.
 type Source = Box<dyn Read>;
 
-/// Opens the table of motions, and returns its length in bytes if known.
+/// Opens a table of motions, and returns its length in bytes if known.
 pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Option<u64>)> {
     let (input, length) = open_table(path)?;
     let rows = MotionRows::new(input).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
 
-/// The rows of a table of motions or paths from any source.
+/// The rows of a table of motions or paths, from a file or standard input.
 pub(super) type Rows = Courses<CsvRecords<Source>>;
 
 /// Opens a table of motions or paths, and returns its length in bytes if known.
@@ -78,7 +78,7 @@ fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
     Ok((Box::new(file), length))
 }
 
-/// Returns the name of an input for messages.
+/// Returns the name that messages give to an input: its path, or standard input.
 pub fn input_name(path: &Path) -> String {
     if is_standard(path) {
         "standard input".to_owned()

@@ -28,7 +28,7 @@ pub(super) fn run(args: &ManArgs) -> Result<Exit> {
     Ok(Exit::AllAnswered)
 }
 
-/// Writes the pages of a command and of all its subcommands.
+/// Writes the man pages of a command and of all its subcommands into a folder.
 fn write(command: Command, folder: &Path) -> Result<(), CannotWrite> {
     for below in command.get_subcommands().filter(|c| !c.is_hide_set()) {
         write(below.clone(), folder)?;

@@ -1,6 +1,6 @@
 //! The options for reading mesh files, shared by the subcommands.
 
-use super::named::{AXES, UNITS, name_of, named};
+use super::named::{AXES, UNITS, name_of, named_value_parser};
 use super::pieces::NOT_GIVEN;
 use crate::text::Number;
 use ccd_decomp::{Adjustments, Axis, Unit};
@@ -11,13 +11,13 @@ use clap::Args;
 pub(super) struct MeshArgs {
     /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
     /// are taken to be in it [default: the numbers of the files]
-    #[arg(long, value_name = "UNIT", value_parser = named(UNITS), hide_possible_values = false)]
+    #[arg(long, value_name = "UNIT", value_parser = named_value_parser(UNITS), hide_possible_values = false)]
     unit: Option<Unit>,
     /// Multiply the coordinates of all mesh files by this; of one of them: part.stl@scale=0.001
     #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
     scale: Option<f64>,
     /// Mirror all mesh files across an axis; one of them: part.stl@mirror=x
-    #[arg(long, value_name = "AXIS", value_parser = named(AXES))]
+    #[arg(long, value_name = "AXIS", value_parser = named_value_parser(AXES))]
     mirror: Option<Axis>,
     /// Take all mesh files as hollow surfaces, also closed ones; one of them: part.stl@surface
     #[arg(long, conflicts_with = "pieces")]
@@ -31,7 +31,7 @@ fn factor(text: &str) -> Result<f64, String> {
 }
 
 impl MeshArgs {
-    /// Returns the corresponding value of the library.
+    /// Returns the options as the library's adjustments of a mesh.
     pub(super) fn adjustments(&self) -> Adjustments {
         let mut all = Adjustments::NONE;
         if let Some(unit) = self.unit {
@@ -53,7 +53,7 @@ impl MeshArgs {
         self.unit
     }
 
-    /// Returns the options with their values, as the journal records them.
+    /// Returns the names and values of these options, as the journal records them.
     pub(super) fn recorded(&self) -> [(&'static str, String); 4] {
         let scale = self.scale.map(|factor| Number(factor).to_string());
         let surface = self.surface.then(|| "given".to_owned());

@@ -1,15 +1,15 @@
-//! Options whose values are those of a library type, by name.
+//! Parsers for options whose values are those of a library type, by name.
 
 use ccd_core::schedule::Shortcut;
 use ccd_core::{Instructions, StartPolicy};
 use ccd_decomp::{Axis, Order, Unit};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-/// The values of an option, each with its name and its help.
+/// The values of an option, each with its name on the command line and its help.
 pub(super) type Named<T> = [(&'static str, T, &'static str)];
 
-/// Parses a value by its name.
-pub(super) fn named<T>(all: &'static Named<T>) -> impl TypedValueParser<Value = T>
+/// Returns a parser that maps the names in `all` to their values.
+pub(super) fn named_value_parser<T>(all: &'static Named<T>) -> impl TypedValueParser<Value = T>
 where
     T: Copy + Send + Sync + 'static,
 {
@@ -24,20 +24,20 @@ where
     })
 }
 
-/// Returns the name of a value.
+/// Returns the command-line name of a value.
 pub(super) fn name_of<T: PartialEq>(all: &Named<T>, value: &T) -> String {
     let found = all.iter().find(|(_, known, _)| known == value);
     found.map_or_else(String::new, |&(name, ..)| name.to_owned())
 }
 
-/// Coordinate axes to mirror across.
+/// The coordinate axes of `--mirror`.
 pub(super) const AXES: &Named<Axis> = &[
     ("x", Axis::X, "Change the signs of x"),
     ("y", Axis::Y, "Change the signs of y"),
     ("z", Axis::Z, "Change the signs of z"),
 ];
 
-/// Units of length, by their symbols.
+/// The units of length of `--unit`, by their symbols.
 pub(super) const UNITS: &Named<Unit> = &[
     ("um", Unit::Micrometre, "Micrometre"),
     ("mm", Unit::Millimetre, "Millimetre"),
@@ -47,7 +47,7 @@ pub(super) const UNITS: &Named<Unit> = &[
     ("ft", Unit::Foot, "Foot, 12 inches"),
 ];
 
-/// Orders in which patches grow.
+/// The orders in which patches grow, for `--order`.
 pub(super) const ORDERS: &Named<Order> = &[
     (
         "cresting",
@@ -66,7 +66,7 @@ pub(super) const ORDERS: &Named<Order> = &[
     ),
 ];
 
-/// Treatments of bodies in contact at the start.
+/// The treatments of bodies in contact at the start, for `--start`.
 pub(super) const STARTS: &Named<StartPolicy> = &[
     (
         "report",
@@ -80,7 +80,7 @@ pub(super) const STARTS: &Named<StartPolicy> = &[
     ),
 ];
 
-/// Shortcuts of the search.
+/// The shortcuts of the search that `--without` can disable.
 pub(super) const SHORTCUTS: &Named<Shortcut> = &[
     (
         "balls",
@@ -119,7 +119,7 @@ pub(super) const SHORTCUTS: &Named<Shortcut> = &[
     ),
 ];
 
-/// Vector instructions to compute with.
+/// The sets of vector instructions of `--instructions`.
 pub(super) const INSTRUCTIONS: &Named<Instructions> = &[
     ("best", Instructions::Best, "The best of this machine"),
     (

@@ -1,4 +1,4 @@
-//! Numbers on the command line.
+//! Parsers for numbers on the command line.
 
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use std::time::Duration;
@@ -24,7 +24,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
-/// Parses a time in seconds.
+/// Parses a duration in seconds.
 pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     number(text)
         .and_then(|value| Duration::try_from_secs_f64(value).ok())

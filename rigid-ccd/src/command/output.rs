@@ -4,13 +4,13 @@ use ccd_file::{Claim, Destination};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// An output cannot be written.
+/// The error of an output that cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {place}: {source}")]
 pub struct CannotWrite {
-    /// The file or stream.
+    /// The path of the file, or the name of the stream.
     pub place: String,
-    /// The reason.
+    /// The error of the operating system.
     pub source: io::Error,
 }
 
@@ -22,19 +22,19 @@ impl CannotWrite {
 }
 
 /// The file extension of a query's journal, which lies beside its results.
-pub(super) const RESUME: &str = ".resume";
+pub(super) const JOURNAL_EXTENSION: &str = ".resume";
 
-/// An output before it is written.
+/// A destination that is checked and reserved before anything is written to it.
 pub(super) enum Output {
-    /// A file, by the given path, claimed against other processes. An older file of its name is kept until it is
-    /// complete.
+    /// A file with the path as it was given, reserved so that no other process writes it. An older file of its name is
+    /// kept until it is complete.
     File(Claim, PathBuf),
     /// Standard output, a pipe, a terminal or a device.
     Stream(PathBuf),
 }
 
 impl Output {
-    /// Claims an output before the work starts, so that an output that cannot be written fails at once.
+    /// Reserves an output before the work starts, so that an output that cannot be written fails at once.
     pub(super) fn claim(path: &Path) -> Result<Self, CannotWrite> {
         let claim = || {
             if is_standard_output(path) {
@@ -48,11 +48,13 @@ impl Output {
         claim().map_err(|source| CannotWrite::at(path, source))
     }
 
-    /// Claims an output for a table other than a query's results; refuses to overwrite an interrupted query.
+    /// Reserves an output for a table other than a query's results; refuses to overwrite an interrupted query.
     pub(super) fn claim_table(path: &Path) -> Result<Self, CannotWrite> {
         let output = Output::claim(path)?;
         match &output {
-            Output::File(claim, _) if claim.left() > 0 && claim.sibling(RESUME).exists() => {
+            Output::File(claim, _)
+                if claim.left() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
+            {
                 let problem = format!(
                     "{} has rows of an interrupted query; continue that with --resume, or delete the file",
                     claim.partial().display()
@@ -64,7 +66,7 @@ impl Output {
         }
     }
 
-    /// Returns the name for messages.
+    /// Returns the name that messages give to the output.
     pub(super) fn name(&self) -> String {
         match self {
             Output::File(_, path) | Output::Stream(path) => output_name(path),
@@ -75,7 +77,7 @@ impl Output {
         matches!(self, Output::Stream(_))
     }
 
-    /// Writes the whole output at once.
+    /// Writes the whole output with one call of `fill`.
     pub(super) fn write(
         self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -90,12 +92,12 @@ impl Output {
     }
 }
 
-/// Returns whether a path stands for standard output, even one redirected to a file: such a file is not replaced.
+/// Returns whether a path stands for standard output, even if that is redirected to a file, which is then not replaced.
 pub(super) fn is_standard_output(path: &Path) -> bool {
     is_standard(path) || path == Path::new("/dev/stdout")
 }
 
-/// Returns whether a path stands for a standard stream.
+/// Returns whether a path is `-`, which stands for standard input or output.
 pub(super) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }

@@ -1,4 +1,4 @@
-//! The two bodies of queries.
+//! The options that name the two bodies of a query, and the loading of these bodies.
 
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
@@ -47,21 +47,22 @@ impl BodiesArgs {
         Ok(found)
     }
 
-    /// Loads both bodies, and prepares them for a method. If `quiet`, messages about them are suppressed.
+    /// Loads both bodies, and prepares them for a solver of the given kind. If `quiet`, messages about them are
+    /// suppressed.
     pub(super) fn load(&self, method: SolverKind, quiet: bool) -> Result<Pair> {
         let source = |text: &str| text.parse::<BodySource>();
         let source_a = source(&self.a).context("--a")?;
         let source_b = source(&self.b).context("--b")?;
         let load = |option, text, source| self.load_one((option, text), source, method, quiet);
         let (a, unit_a) = load("--a", &self.a, &source_a)?;
-        let b = if same(&source_a, &source_b) {
+        let b = if same_source(&source_a, &source_b) {
             None
         } else {
             Some(load("--b", &self.b, &source_b)?)
         };
         if let (Some((b, unit_b)), false) = (&b, quiet) {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
-            match mixed_units(sources) {
+            match warn_of_mixed_units(sources) {
                 Some(remark) => complain(&remark),
                 None => Size::compare(Size::of(&a), Size::of(b)),
             }
@@ -72,7 +73,7 @@ impl BodiesArgs {
         Ok(Pair { a, b, checksums })
     }
 
-    /// Loads one body, and returns it with the unit of its file.
+    /// Loads one body, and returns it with the unit of length that its file states.
     fn load_one(
         &self,
         (option, text): (&str, &str),
@@ -105,11 +106,11 @@ impl BodiesArgs {
     }
 }
 
-/// Both bodies; `b` is `None` when both come from the same file or primitive.
+/// Both bodies of a query; `b` is `None` when both come from the same file or primitive.
 pub(super) struct Pair {
     a: Body,
     b: Option<Body>,
-    /// The checksums of the bodies' files, by option.
+    /// The checksums of the bodies' files, each with the option that names the file.
     pub(super) checksums: [(&'static str, String); 2],
 }
 
@@ -130,7 +131,9 @@ impl Pair {
 
 /// Warns if two files have different units, or if the unit of only one is known. Shapes have none: their numbers are
 /// the user's own.
-fn mixed_units([(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2]) -> Option<String> {
+fn warn_of_mixed_units(
+    [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
+) -> Option<String> {
     let (known, unit, other) = match (a, b) {
         (Some(a), Some(b)) if a != b => {
             return Some(format!(
@@ -156,7 +159,7 @@ fn with_hull_tree(body: Body) -> Result<Body> {
     Ok(body.with_hull_tree(tree)?)
 }
 
-fn same(a: &BodySource, b: &BodySource) -> bool {
+fn same_source(a: &BodySource, b: &BodySource) -> bool {
     match (a, b) {
         (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
         (BodySource::Mesh(a), BodySource::Mesh(b)) => {
@@ -167,7 +170,7 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
     }
 }
 
-/// Returns the files of a body; empty for a primitive.
+/// Returns the files that a body is read from; empty for a primitive.
 fn files(source: &BodySource) -> Vec<PathBuf> {
     // An unreadable file is reported when its body is made.
     source.files().unwrap_or_else(|_| match source {
@@ -177,7 +180,7 @@ fn files(source: &BodySource) -> Vec<PathBuf> {
     })
 }
 
-/// Returns the checksum of the files of a body; 0 for a primitive or files that cannot be read.
+/// Returns the checksum of all files of a body; 0 for a primitive or files that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
     let mut sum = Crc(crc32fast::Hasher::new());
     let files = files(source);

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use ccd_decomp::{Detail, Order};
 use clap::{Args, ValueEnum};
 
-/// The kind of pieces that a mesh is split into.
+/// The options that choose the convex pieces of a mesh.
 #[derive(Clone, Debug, Args)]
 pub(super) struct PiecesArgs {
     /// Convex pieces to split a mesh into; a prepared body (.ccd) keeps its pieces
@@ -15,13 +15,13 @@ pub(super) struct PiecesArgs {
     hulls: Option<u32>,
 }
 
-/// The recorded value of an option that was not given.
+/// The value that the journal records for an option that was not given.
 pub(super) const NOT_GIVEN: &str = "not given";
 
 const DEFAULT_HULLS: u32 = 32;
 const MOST_HULLS: i64 = 4096;
 
-/// The kinds of pieces.
+/// The values of `--pieces`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum PiecesArg {
     /// The fewest pieces that are exact: hull, patches or triangles
@@ -49,7 +49,7 @@ impl PiecesArgs {
         [("--pieces", pieces), ("--hulls", hulls)]
     }
 
-    /// Returns the corresponding value of the library.
+    /// Returns the options as the library's description of the wanted pieces.
     pub(super) fn detail(&self) -> Result<Detail> {
         if self.hulls.is_some() && self.pieces != PiecesArg::Vhacd {
             bail!("--hulls needs --pieces vhacd");

@@ -1,6 +1,6 @@
-//! Progress on standard error, for work that takes a while.
+//! Shows the progress of long work on standard error.
 
-use super::program;
+use super::program_name;
 use crate::text::Printable;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
@@ -10,7 +10,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// The progress of work longer than a second: a bar on a terminal, otherwise a line every few seconds.
+/// Shows the progress of work that takes longer than a second: a bar on a terminal, otherwise a line every few seconds.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
@@ -19,12 +19,12 @@ pub struct Progress {
     /// For a total in bytes: the input bytes of a step, and the ends of the steps that have begun.
     bytes_of_step: AtomicU64,
     end: AtomicU64,
-    /// The end of a channel that closes when the work is done.
+    /// The sender whose drop tells the displaying thread that the work is done.
     working: Option<Sender<()>>,
     showing: Option<JoinHandle<()>>,
 }
 
-/// The amount of work.
+/// The total amount of work, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Total {
     /// A known number of steps.
@@ -33,18 +33,18 @@ pub enum Total {
     Bytes(u64),
     /// An unknown number of steps.
     Unknown,
-    /// One long step.
+    /// One long step of unknown duration.
     One,
 }
 
-/// The delay before anything is shown.
-const DELAY: Duration = Duration::from_secs(1);
+/// The time from the start of the work until progress is first shown.
+const SHOWN_AFTER: Duration = Duration::from_secs(1);
 
-/// The time between two frames of a bar.
-const FRAME: Duration = Duration::from_millis(120);
+/// The time between two redraws of the bar on a terminal.
+const REDRAW_INTERVAL: Duration = Duration::from_millis(120);
 
-/// The time between two lines.
-const LINE: Duration = Duration::from_secs(5);
+/// The time between two printed lines of progress, without a terminal.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Progress {
     /// Starts to show progress; dropping the value ends it.
@@ -64,16 +64,21 @@ impl Progress {
         let (working, done) = mpsc::channel();
         let show = move || {
             let still_working = |time| done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
-            if !still_working(DELAY) {
+            if !still_working(SHOWN_AFTER) {
                 return;
             }
             if io::stderr().is_terminal() {
                 bar.set_draw_target(ProgressDrawTarget::stderr());
-                bar.enable_steady_tick(FRAME);
+                bar.enable_steady_tick(REDRAW_INTERVAL);
                 return;
             }
-            while still_working(LINE) {
-                let _ = writeln!(io::stderr(), "{}: {}", program(), line(&bar, total, &steps));
+            while still_working(LINE_INTERVAL) {
+                let _ = writeln!(
+                    io::stderr(),
+                    "{}: {}",
+                    program_name(),
+                    line(&bar, total, &steps)
+                );
             }
         };
         // Without a thread nothing is shown, but the work is done.
@@ -82,7 +87,7 @@ impl Progress {
         progress
     }
 
-    /// Starts to show progress through an input of known or unknown length in bytes, or shows nothing.
+    /// Starts to show progress through an input of rows, `length` bytes long if known; shows nothing if `quiet`.
     pub fn of_rows(length: Option<u64>, quiet: bool) -> Self {
         if quiet {
             Progress::hidden()
@@ -91,7 +96,7 @@ impl Progress {
         }
     }
 
-    /// Starts to show one long step with a message, or shows nothing.
+    /// Starts to show `message` during one long step; shows nothing if `quiet`.
     pub fn of(message: &str, quiet: bool) -> Self {
         if quiet {
             return Progress::hidden();
@@ -114,7 +119,7 @@ impl Progress {
         }
     }
 
-    /// Counts a step.
+    /// Counts one finished step.
     pub fn step(&self) {
         self.steps.fetch_add(1, Ordering::Relaxed);
         match self.total {
@@ -134,12 +139,12 @@ impl Progress {
         }
     }
 
-    /// Redraws the bar.
+    /// Redraws the bar with the current time.
     pub fn tick(&self) {
         self.bar.tick();
     }
 
-    /// Sets the message.
+    /// Replaces the message beside the bar.
     pub fn say(&self, message: &str) {
         self.bar.set_message(Printable(message).to_string());
     }

@@ -11,11 +11,11 @@ mod summary;
 
 pub(super) use args::QueryArgs;
 
-use super::answering::Answering;
+use super::answering::BatchRun;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
-use super::view::{Chosen, Drawn, title, write_rows};
-use super::{Exit, complain, complain_of};
+use super::view::{ChosenRows, RowsPage, title, write_rows};
+use super::{Exit, complain, print_remarks};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
@@ -23,28 +23,28 @@ use crate::picture::{Asked, Claim};
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
-use journal::{CONTENT, Checkpoint, Recorded};
-use outputs::{Opened, Places};
+use journal::{CONTENT_PREFIX, Checkpoint, RecordedOptions};
+use outputs::{ClaimedFiles, OpenedTables};
 use run::Run;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
 
-/// Answers all valid rows; an invalid row gets the status `error` and a reason.
+/// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
-    check_check(args)?;
+    refuse_unproven_check(args)?;
     let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
     check_rows(args, &rows)?;
-    let places = Places::claim(args)?;
+    let places = ClaimedFiles::claim(args)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
-    let (mut outputs, earlier) = match Opened::new(args, places, &recorded(args, &pair))? {
-        Opened::New(outputs) => (outputs, None),
-        Opened::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
-        Opened::Finished(end) => return resume::leave_finished(args, &mut rows, end),
+    let (mut outputs, earlier) = match OpenedTables::new(args, places, &recorded(args, &pair))? {
+        OpenedTables::New(outputs) => (outputs, None),
+        OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
+        OpenedTables::Finished(end) => return resume::report_finished(args, &mut rows, end),
     };
     if args.resume {
         resume::report(args, earlier);
@@ -58,12 +58,12 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     let progress = Progress::of_rows(length, args.quiet);
     let mut run = Run {
         args,
-        answering: Answering::new(pair.bodies(), timing, args.threads, &args.motions, progress),
+        answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         outputs,
         shown: args
             .html
             .as_ref()
-            .map(|_| Chosen::new(args.html_ids.clone())),
+            .map(|_| ChosenRows::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
     };
     let end = run.answer_all(&mut rows, start)?;
@@ -76,7 +76,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     }
     if !args.quiet {
         print_summary(args, &run.summary);
-        complain_of(
+        print_remarks(
             pair.remark(args.tolerance)
                 .into_iter()
                 .chain(rows.remarks()),
@@ -89,11 +89,11 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
 }
 
 /// Writes the page of the chosen rows, if a page was requested.
-fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> Result<Exit> {
+fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(ChosenRows, Output)>) -> Result<Exit> {
     let Some((chosen, html)) = page else {
         return Ok(Exit::AllAnswered);
     };
-    let subject = Drawn {
+    let subject = RowsPage {
         title: &title(&args.bodies),
         pair,
         asked: page_context(args),
@@ -101,13 +101,13 @@ fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(Chosen, Output)>) -> 
     write_rows(subject, chosen, html, args.quiet)
 }
 
-/// Returns the context in which a page interprets the answers.
+/// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
 fn page_context(args: &QueryArgs) -> Asked {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => Claim::Published,
         (_, Question::IsFree) => Claim::Any,
         (_, Question::Distance) => Claim::Then,
-        _ if leaves(args) => Claim::FirstLater,
+        _ if leaves_start_contacts(args) => Claim::FirstLater,
         (_, Question::GreatestDistance) => Claim::Farthest,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
             Claim::First
@@ -142,7 +142,7 @@ fn check_paths(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a bound for a schedule that uses none.
+/// Refuses `--bound` for a schedule that uses no bound on the motion.
 fn check_bound(args: &QueryArgs) -> Result<()> {
     match args.bound {
         Some(bound) if !args.schedule.uses_a_bound() => {
@@ -152,7 +152,7 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
     }
 }
 
-/// Refuses options that do not apply to the question.
+/// Refuses options that do not apply to the question of `--ask`.
 fn check_question(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if args.clearance.is_some() && ask == Question::GreatestDistance {
@@ -176,14 +176,14 @@ fn check_question(args: &QueryArgs) -> Result<()> {
     if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
         bail!("--ask {ask} needs --schedule best-first");
     }
-    if leaves(args) && !ask.is_for_one_contact() {
+    if leaves_start_contacts(args) && !ask.is_for_one_contact() {
         bail!("--start leave needs --ask first-contact or is-free");
     }
     Ok(())
 }
 
 /// Refuses `--check` with options under which no answer is a proof.
-fn check_check(args: &QueryArgs) -> Result<()> {
+fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
     if !args.check {
         return Ok(());
@@ -212,26 +212,26 @@ fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
                 args.schedule
             )
         }
-        Rows::Paths(_) if leaves(args) => {
+        Rows::Paths(_) if leaves_start_contacts(args) => {
             bail!("--start leave needs a table of motions, not of paths")
         }
         Rows::Paths(_) => Ok(()),
     }
 }
 
-fn leaves(args: &QueryArgs) -> bool {
+fn leaves_start_contacts(args: &QueryArgs) -> bool {
     args.start == StartPolicy::Leave
 }
 
-/// Returns all settings that determine the tables, except the motions.
-fn recorded(args: &QueryArgs, pair: &Pair) -> Recorded {
+/// Returns all options and checksums that determine the tables of the run, except the motions.
+fn recorded(args: &QueryArgs, pair: &Pair) -> RecordedOptions {
     let owned = |(option, value): (&str, String)| (option.to_owned(), value);
     let mut recorded = vec![owned(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
     recorded.extend(args.recorded().into_iter().map(owned));
     for (option, checksum) in &pair.checksums {
-        recorded.push((format!("{CONTENT}{option}"), checksum.clone()));
+        recorded.push((format!("{CONTENT_PREFIX}{option}"), checksum.clone()));
     }
-    Recorded(recorded)
+    RecordedOptions(recorded)
 }
 
 fn method(args: &QueryArgs) -> SolverKind {
@@ -261,7 +261,7 @@ fn timing(args: &QueryArgs) -> Timing {
     }
 }
 
-/// Warns that no row was answered.
+/// Warns that no row was answered, and says why.
 fn report_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
     if args.rows.is_all() {
@@ -285,9 +285,12 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
     }
 }
 
-/// Returns the exit of a run, and prints how many rows failed a check.
+/// Returns the exit status of a run, and prints how many rows failed `--check`.
 fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
-    let failed = end.counts.some().filter(|(status, _)| !status.is_proof());
+    let failed = end
+        .counts
+        .nonzero()
+        .filter(|(status, _)| !status.is_proof());
     let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
         let rows = end.counts.rows();

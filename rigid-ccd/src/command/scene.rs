@@ -69,10 +69,10 @@ Pairs that are not listed are proven free.
 
 Exit code: 0 if every pair has an answer, 2 for bad input, 1 if nothing can be written.";
 
-/// The columns of results that contacts of a scene do not have.
-const LEFT_OUT: &[&str] = &["id", "iterations", "oracle_calls", "micros"];
+/// The columns of a query's results that the table of `ccd scene` omits.
+const OMITTED_COLUMNS: &[&str] = &["id", "iterations", "oracle_calls", "micros"];
 
-/// Runs `ccd scene`.
+/// Runs `ccd scene`: writes the table of contacts.
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     let how = SceneArgs {
         meshes: &args.meshes,
@@ -95,7 +95,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         complain(&scene_verdict(&table.shown(), &contacts, table.duration));
     }
     let ids: Vec<&str> = table.ids().collect();
-    let columns = columns_of(&[], LEFT_OUT);
+    let columns = columns_of(&[], OMITTED_COLUMNS);
     let header = [vec!["a", "b"], names(&columns)].concat();
     let mut out = Table::start(out, &header)?;
     let mut exit = Exit::AllAnswered;
@@ -114,7 +114,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     Ok(exit)
 }
 
-/// Returns the row of a pair, as of a table of results.
+/// Returns the row of the table of results for the contact or error of a pair.
 fn row(contact: &Result<Impact, PairError>) -> ResultRow {
     match contact.as_ref().map_err(|pair| &pair.error) {
         Ok(impact) => ResultRow::of_hit(&impact.hit),

@@ -1,9 +1,9 @@
-//! The table of a scene: one row for each body.
+//! Reads the table of a scene: one row for each body.
 
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::pieces::PiecesArgs;
-use super::{complain, complain_of, print_line};
+use super::{complain, print_line, print_remarks};
 use crate::picture::Shown;
 use crate::scene::{Impact, PairError};
 use crate::table::columns::{BODY_NAME, Columns, Form};
@@ -19,46 +19,46 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// The default end of all motions.
-const DURATION: f64 = 1.0;
+/// The time at which all motions end by default.
+const DEFAULT_DURATION: f64 = 1.0;
 
-/// The options for loading a scene.
+/// The options that name a scene's table and the end of its motions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
     pub(super) pieces: &'a PiecesArgs,
-    /// The end of all motions, if given.
+    /// The time at which all motions end; `None` for the default.
     pub(super) duration: Option<f64>,
 }
 
-/// The bodies of a scene.
+/// The bodies of a scene, loaded from its table.
 pub(super) struct SceneTable {
-    /// The bodies, by their descriptions.
+    /// The loaded bodies, by their descriptions in the column `body`.
     bodies: HashMap<String, Body>,
     files: Vec<PathBuf>,
-    /// The messages from loading the bodies.
+    /// The messages from loading the bodies' files.
     reports: Vec<String>,
-    /// The remarks about the motions.
+    /// The remarks about probable mistakes in the motions.
     remarks: Vec<Remark>,
     rows: Vec<Row>,
-    /// The end of all motions.
+    /// The time at which all motions end.
     pub(super) duration: f64,
-    /// Whether the duration is the default.
-    is_usual: bool,
+    /// Whether `duration` is the default because none was given.
+    is_default_duration: bool,
 }
 
-/// A body of a scene.
+/// One row of the table: a body, its name and its motion.
 struct Row {
-    /// The description of the body.
+    /// The description of the body in the column `body`.
     text: String,
     id: String,
-    /// The id, with the description if the id is a number.
+    /// The name in messages and results: the id, with the description if the id is a number.
     name: String,
     motion: Motion,
 }
 
-/// Reads a table that `option` names, and loads each distinct body once. Refuses an output that would overwrite a file
-/// that is read.
+/// Reads the table that the command-line option `option` names, and loads each distinct body once. Refuses an output
+/// that would overwrite a file that is read.
 pub(super) fn read(
     (option, path): (&str, &Path),
     how: SceneArgs<'_>,
@@ -66,7 +66,7 @@ pub(super) fn read(
 ) -> Result<SceneTable> {
     refuse_overwriting((option, path), ("--out", out))?;
     let name = || path.display().to_string();
-    let duration = how.duration.unwrap_or(DURATION);
+    let duration = how.duration.unwrap_or(DEFAULT_DURATION);
     let (rows, remarks) = read_rows(path, duration).with_context(name)?;
     let mut scene = SceneTable {
         bodies: HashMap::new(),
@@ -75,7 +75,7 @@ pub(super) fn read(
         remarks,
         rows: Vec::new(),
         duration,
-        is_usual: how.duration.is_none(),
+        is_default_duration: how.duration.is_none(),
     };
     for (position, BodyRow { id, text, motion }) in rows {
         scene
@@ -98,11 +98,11 @@ pub(super) fn read(
     Ok(scene)
 }
 
-/// A row of a table, and its position.
-type Placed = (RowPosition, BodyRow);
+/// A parsed row of a table, with its position for messages.
+type PlacedRow = (RowPosition, BodyRow);
 
-/// Reads the rows of a table, and returns them with the remarks about them.
-fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
+/// Reads the rows of a table, and returns them with remarks about probable mistakes.
+fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)> {
     let mut records = CsvRecords::new(File::open(path)?)?;
     let header = records.header()?;
     if !header.iter().any(|column| column == BODY_NAME) {
@@ -112,17 +112,17 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
     }
     if let Some(time) = header
         .iter()
-        .find(|column| TIMES.contains(&column.as_str()))
+        .find(|column| LIKELY_TIME_COLUMNS.contains(&column.as_str()))
     {
         bail!(
             "all motions of a scene end together: give --duration in place of the column `{time}`"
         );
     }
     let columns = Columns::of_form(&header, Form::Scene)?;
-    let mut rows: Vec<Placed> = Vec::new();
+    let mut rows: Vec<PlacedRow> = Vec::new();
     while let Some(position) = records.advance()? {
         let row = body(&columns, records.current(), position.row, duration);
-        let row = row.map_err(|problem| anyhow!("{position}: {}", in_words(&problem)))?;
+        let row = row.map_err(|problem| anyhow!("{position}: {}", message_of(&problem)))?;
         rows.push((position, row));
     }
     if rows.is_empty() {
@@ -132,11 +132,11 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<Placed>, Vec<Remark>)> {
     Ok((rows, columns.remarks()))
 }
 
-/// Likely names of a column of times, which a scene does not have.
-const TIMES: [&str; 3] = ["duration", "t", "time"];
+/// The likely names of a column of times, which the table of a scene does not have.
+const LIKELY_TIME_COLUMNS: [&str; 3] = ["duration", "t", "time"];
 
-/// Words a problem of a row for a table of bodies that end together.
-fn in_words(problem: &RowProblem) -> String {
+/// Returns the message for a bad row of a scene's table, in which all motions end together.
+fn message_of(problem: &RowProblem) -> String {
     let words = problem.to_string().replace("column duration", "--duration");
     match problem {
         RowProblem::WrongLength { .. } => {
@@ -147,7 +147,7 @@ fn in_words(problem: &RowProblem) -> String {
 }
 
 /// Refuses rows with the same id, which contacts could not distinguish.
-fn refuse_equal_ids(rows: &[Placed]) -> Result<()> {
+fn refuse_equal_ids(rows: &[PlacedRow]) -> Result<()> {
     let mut known = HashMap::new();
     for (position, BodyRow { id, .. }) in rows {
         if let Some(first) = known.insert(id, position) {
@@ -171,12 +171,12 @@ impl SceneTable {
         Ok(())
     }
 
-    /// Prints the messages about the bodies, the duration and the remarks.
+    /// Prints the messages from loading, the duration, and the remarks.
     pub(super) fn report(&self, tolerance: f64) {
         for report in &self.reports {
             print_line(report);
         }
-        if self.is_usual {
+        if self.is_default_duration {
             complain(&format!(
                 "without --duration, all motions end at {}",
                 self.duration
@@ -185,10 +185,10 @@ impl SceneTable {
         let sizes = self.bodies.values().map(Remark::size);
         let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);
         let remarks = self.remarks.iter().copied();
-        complain_of(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
+        print_remarks(remarks.chain(Remark::of_tolerance(tolerance, [least; 2])));
     }
 
-    /// Returns the bodies in the order of their rows.
+    /// Returns the bodies to draw, in the order of their rows.
     pub(super) fn shown(&self) -> Vec<Shown<'_>> {
         let shown = self.rows.iter().filter_map(|row| {
             let body = self.bodies.get(&row.text)?;

@@ -1,4 +1,4 @@
-//! The sizes of bodies, for detecting different units of length.
+//! Compares the sizes of bodies, to detect different units of length.
 
 use super::complain;
 use crate::remark::{corners, sides};
@@ -8,20 +8,20 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::fmt;
 
-/// The side lengths of a body's axis-aligned bounding box.
+/// The side lengths of a body's axis-aligned bounding box, in the body's unit of length.
 #[derive(Clone, Copy, Debug)]
 pub struct Size(DVec3);
 
 /// The ratio of sizes above which the command warns; millimetres and metres differ by 1000.
-const RATIO: f64 = 100.0;
+const WARNING_RATIO: f64 = 100.0;
 
 impl Size {
-    /// Returns the size of a body.
+    /// Returns the side lengths of a body's bounding box.
     pub fn of(body: &Body) -> Self {
         Size(sides(corners(body)))
     }
 
-    /// Returns the size of a set of points.
+    /// Returns the side lengths of the bounding box of points.
     pub fn of_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         Size(sides(points))
     }
@@ -38,10 +38,10 @@ impl Size {
         } else {
             ("--b", "--a", of_b / of_a)
         };
-        if ratio > RATIO && ratio.is_finite() {
+        if ratio > WARNING_RATIO && ratio.is_finite() {
             complain(&format!(
                 "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
-                Figure(ratio)
+                WithFourDigits(ratio)
             ));
         }
     }
@@ -49,15 +49,15 @@ impl Size {
 
 impl fmt::Display for Size {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array().map(Figure);
+        let [x, y, z] = self.0.to_array().map(WithFourDigits);
         write!(f, "{x} × {y} × {z}")
     }
 }
 
-/// A number rounded to four digits.
-struct Figure(f64);
+/// Displays a number rounded to four digits.
+struct WithFourDigits(f64);
 
-impl fmt::Display for Figure {
+impl fmt::Display for WithFourDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
         write!(f, "{}", Number(rounded))

@@ -1,4 +1,4 @@
-//! Tables written row by row.
+//! Writes a table row by row.
 
 use super::output::{CannotWrite, Output, is_standard_output};
 use ccd_file::Claim;
@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, Write};
 use std::path::Path;
 
-/// A table that is written row by row.
+/// A CSV table that is written row by row.
 ///
 /// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
 /// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
@@ -17,9 +17,9 @@ pub struct Table {
     claim: Option<Claim>,
 }
 
-/// The length in bytes and the checksum of what has been written.
+/// The length in bytes and the checksum of the part of a table that has been written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Written {
+pub(super) struct WrittenSize {
     pub(super) bytes: u64,
     pub(super) checksum: u32,
 }
@@ -37,7 +37,7 @@ impl Table {
         Table::start(Output::claim_table(path)?, header)
     }
 
-    /// Starts a table in an output, and discards what an earlier run left there.
+    /// Starts a table in a reserved output, and discards what an earlier run left there.
     pub(super) fn start(output: Output, header: &[&str]) -> Result<Self, CannotWrite> {
         let name = output.name();
         let opened = match output {
@@ -69,7 +69,10 @@ impl Table {
 
     /// Continues a table after its first `written` bytes, and truncates the rest. Returns none if that is not there any
     /// more as it was written.
-    pub(super) fn resume(mut claim: Claim, written: Written) -> Result<Option<Self>, CannotWrite> {
+    pub(super) fn resume(
+        mut claim: Claim,
+        written: WrittenSize,
+    ) -> Result<Option<Self>, CannotWrite> {
         let name = claim.target().display().to_string();
         let opened = (|| {
             claim.file().rewind()?;
@@ -104,7 +107,7 @@ impl Table {
         }
     }
 
-    /// Adds a row.
+    /// Adds a row, which the function `row` writes.
     pub fn write(
         &mut self,
         row: impl FnOnce(&mut csv::Writer<Measured>) -> Result<(), csv::Error>,
@@ -112,18 +115,18 @@ impl Table {
         row(&mut self.writer).map_err(|error| self.failed(csv_cause(error)))
     }
 
-    /// Adds a row of cells.
+    /// Adds a row, given as serialisable cells.
     pub(super) fn row(&mut self, cells: &impl Serialize) -> Result<(), CannotWrite> {
         self.write(|writer| writer.serialize(cells))
     }
 
-    /// Flushes all rows; they survive an interruption from then on.
+    /// Flushes all rows to the file, so that they survive an interruption.
     pub fn flush(&mut self) -> Result<(), CannotWrite> {
         self.written().map(|_| ())
     }
 
-    /// Flushes all rows, and returns the length and checksum of the table.
-    pub(super) fn written(&mut self) -> Result<Written, CannotWrite> {
+    /// Flushes all rows to the file, and returns the length and checksum of the table.
+    pub(super) fn written(&mut self) -> Result<WrittenSize, CannotWrite> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.failed(source))?;
         if let Some(claim) = &mut self.claim {
@@ -132,13 +135,13 @@ impl Table {
         let Measured {
             bytes, checksum, ..
         } = self.writer.get_ref();
-        Ok(Written {
+        Ok(WrittenSize {
             bytes: *bytes,
             checksum: checksum.clone().finalize(),
         })
     }
 
-    /// Gives the file its final name.
+    /// Renames the complete table to its final name.
     pub fn finish(mut self) -> Result<(), CannotWrite> {
         self.flush()?;
         match self.claim.take().map_or(Ok(()), Claim::place) {
@@ -172,8 +175,11 @@ fn file_of(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
     Ok(Box::new(claim.file().try_clone()?))
 }
 
-/// Measures up to `bytes` bytes of a table.
-pub(super) fn measure(table: impl Read, bytes: u64) -> io::Result<(Written, crc32fast::Hasher)> {
+/// Returns the length and checksum of the first `bytes` bytes of a table.
+pub(super) fn measure(
+    table: impl Read,
+    bytes: u64,
+) -> io::Result<(WrittenSize, crc32fast::Hasher)> {
     let mut measured = Measured {
         to: Box::new(io::sink()),
         bytes: 0,
@@ -181,7 +187,7 @@ pub(super) fn measure(table: impl Read, bytes: u64) -> io::Result<(Written, crc3
     };
     io::copy(&mut table.take(bytes), &mut measured)?;
     let checksum = measured.checksum;
-    let written = Written {
+    let written = WrittenSize {
         bytes: measured.bytes,
         checksum: checksum.clone().finalize(),
     };

@@ -5,13 +5,13 @@ mod chosen;
 
 use args::Subject;
 pub(super) use args::ViewArgs;
-pub(super) use chosen::Chosen;
+pub(super) use chosen::ChosenRows;
 
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, complain, complain_of};
+use super::{Exit, complain, print_remarks};
 use crate::batch::{Bodies, Question, Solve, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::courses::Course;
@@ -23,10 +23,10 @@ use std::collections::{HashMap, VecDeque};
 use std::fs::File;
 use std::path::Path;
 
-/// The maximum number of rows read to choose some for the page.
-const MOST_READ: usize = 10_000;
+/// The maximum number of rows read from which some are chosen for the page.
+const MOST_ROWS_READ: usize = 10_000;
 
-/// Runs `ccd view`.
+/// Runs `ccd view`: writes the page.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
     match args.subject() {
         Some(Subject::Rows(bodies, motions)) => view_rows(args, &bodies, motions),
@@ -49,7 +49,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
-    let mut chosen = Chosen::new(args.ids.clone());
+    let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
     let asked = Asked {
         claim: match known {
@@ -60,7 +60,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         clearance: None,
     };
     let mut solver = timing.method.solver(Instructions::Best);
-    for row in rows.by_ref().take(MOST_READ) {
+    for row in rows.by_ref().take(MOST_ROWS_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
@@ -68,15 +68,15 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
                 continue;
             }
         };
-        if chosen.is_named(course.id()) == Some(false) {
+        if chosen.is_requested(course.id()) == Some(false) {
             continue;
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answered(pair.bodies(), &course, &timing, solver.as_mut())),
+            None => Some(answer_row(pair.bodies(), &course, &timing, solver.as_mut())),
         };
         if let Some(row) = row {
-            chosen.offer(&course, &row);
+            chosen.add_if_wanted(&course, &row);
         }
         if chosen.is_full() {
             break;
@@ -90,7 +90,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
             results.display()
         );
     }
-    let subject = Drawn {
+    let subject = RowsPage {
         title: &title(bodies),
         pair: &pair,
         asked,
@@ -102,13 +102,13 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
 fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
     if args.results.is_none() && !args.quiet {
         let of_tolerance = pair.remark(args.tolerance);
-        complain_of(of_tolerance.into_iter().chain(rows.remarks()));
+        print_remarks(of_tolerance.into_iter().chain(rows.remarks()));
     }
 }
 
-/// The subject of a page of rows.
+/// The two bodies, their title and their context, for a page of rows.
 #[derive(Clone, Copy)]
-pub(super) struct Drawn<'a> {
+pub(super) struct RowsPage<'a> {
     pub(super) title: &'a str,
     pub(super) pair: &'a Pair,
     pub(super) asked: Asked,
@@ -128,8 +128,8 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
 }
 
-/// Returns the row of results for a row of motions or paths.
-fn answered(
+/// Answers a row of motions or paths, and returns its row of results.
+fn answer_row(
     bodies: Bodies<'_>,
     course: &Course,
     timing: &Timing,
@@ -143,8 +143,8 @@ fn answered(
 
 /// Writes the page of the chosen rows. Without any there is none, which is told.
 pub(super) fn write_rows(
-    Drawn { title, pair, asked }: Drawn<'_>,
-    mut chosen: Chosen,
+    RowsPage { title, pair, asked }: RowsPage<'_>,
+    mut chosen: ChosenRows,
     out: Output,
     quiet: bool,
 ) -> Result<Exit> {
@@ -160,7 +160,7 @@ pub(super) fn write_rows(
             Err(error) => chosen.leave_out(format!("row {}: {error}", row.id)),
         }
     }
-    if let Some(faults) = chosen.faults() {
+    if let Some(faults) = chosen.describe_faults() {
         complain(&faults);
     }
     if views.is_empty() {
@@ -168,7 +168,7 @@ pub(super) fn write_rows(
         return Ok(Exit::SomeRowsBad);
     }
     write_page(&painter.page(title, views), out, quiet)?;
-    Ok(if all_found && chosen.is_whole() {
+    Ok(if all_found && chosen.is_complete() {
         Exit::AllAnswered
     } else {
         Exit::SomeRowsBad
@@ -185,7 +185,7 @@ fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
     Ok(())
 }
 
-/// Reads a table of results, by id; rows of the same id stay in their order.
+/// Reads a table of results into lists by id; rows with the same id stay in their order.
 fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     let name = || path.display().to_string();
     let file = File::open(path).with_context(name)?;

@@ -12,13 +12,13 @@ fn capsule() -> Body {
     Body::capsule(0.1, 0.6).unwrap()
 }
 
-/// A rotating motion that comes nearer with each `k`.
-fn flies(k: u32) -> Motion {
+/// Returns a rotating motion that comes nearer to the other body with each `k`.
+fn approaching(k: u32) -> Motion {
     let from = Pose::at([-3.0, 1.5 - 0.01 * f64::from(k), 0.1]).unwrap();
     Motion::new(from, [5.0, 0.0, 0.0], [0.3, 2.0, f64::from(k)]).unwrap()
 }
 
-/// The bits that identify answers.
+/// Returns answers as text with all their digits, so that equal texts mean equal bits.
 fn bits(found: &[Result<Answer, QueryError>]) -> Vec<String> {
     found.iter().map(|found| format!("{found:?}")).collect()
 }
@@ -34,7 +34,7 @@ fn answers_are_the_same_bits_in_order_on_any_number_of_threads() {
     let queries: Vec<_> = (0..200)
         .map(|k| {
             let target = targets[k as usize % targets.len()];
-            ((&capsule, flies(k)), (target, Motion::STILL), 1.0)
+            ((&capsule, approaching(k)), (target, Motion::STILL), 1.0)
         })
         .collect();
     let mut one = Solver::new();
@@ -82,7 +82,7 @@ fn results_are_in_order_when_queries_take_unlike_times() {
 #[test]
 fn no_queries_and_more_threads_than_queries() {
     let capsule = capsule();
-    let query = |k| ((&capsule, flies(k)), (&capsule, Motion::STILL), 1.0);
+    let query = |k| ((&capsule, approaching(k)), (&capsule, Motion::STILL), 1.0);
     for threads in [1, 2, 5] {
         let queries = [query(130), query(0)];
         assert!(solver(threads).first_contacts(&queries[..0]).is_empty());
@@ -99,7 +99,13 @@ fn no_queries_and_more_threads_than_queries() {
 #[test]
 fn an_error_has_the_index_of_its_query() {
     let capsule = capsule();
-    let query = |k, duration| ((&capsule, flies(k)), (&capsule, Motion::STILL), duration);
+    let query = |k, duration| {
+        (
+            (&capsule, approaching(k)),
+            (&capsule, Motion::STILL),
+            duration,
+        )
+    };
     let mut queries = [query(130, 1.0); 40];
     queries[7].2 = -1.0;
     queries[31].2 = f64::NAN;
@@ -130,17 +136,17 @@ fn limits_are_those_of_each_solver() {
         ..Settings::DEFAULT
     };
     let mut solver = ParallelSolver::new(|| Solver::new().with_settings(config.clone()));
-    let query = ((&capsule, flies(130)), (&cuboid, Motion::STILL), 1.0);
+    let query = ((&capsule, approaching(130)), (&cuboid, Motion::STILL), 1.0);
     for found in solver.first_contacts(&[query; 3]) {
         let outcome = found.unwrap().outcome;
         assert!(matches!(outcome, Outcome::Unresolved(_)), "{outcome:?}");
     }
 }
 
-/// Sets a flag once a panic has printed its message.
-struct Unwinds<'f>(&'f AtomicBool);
+/// A flag that is set when a panic drops this value, after the panic has printed its message.
+struct SetOnUnwind<'f>(&'f AtomicBool);
 
-impl Drop for Unwinds<'_> {
+impl Drop for SetOnUnwind<'_> {
     fn drop(&mut self) {
         self.0.store(true, Ordering::SeqCst);
     }
@@ -184,7 +190,7 @@ fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
         let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
         let answer = |count: &mut usize, query: usize| {
             if query == 3 {
-                let _unwinds = Unwinds(&panicked);
+                let _unwinds = SetOnUnwind(&panicked);
                 panic!("query 3 is broken");
             }
             // The other threads wait until the panic unwinds.

@@ -1,10 +1,10 @@
-//! Conversion of a row's motions to those of a page.
+//! Converts the motions of a row to those of a page.
 
 use crate::table::courses::Course;
 use ccd_core::{InputError, Trajectory};
 use ccd_view::{Key, ShownMotion};
 
-/// Returns the motions of both bodies.
+/// Returns the motions of both bodies, as a page shows them.
 ///
 /// # Errors
 /// If a path has no pose at one of its times.

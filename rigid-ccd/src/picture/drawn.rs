@@ -1,4 +1,4 @@
-//! Bodies as triangles for drawing.
+//! Converts bodies to triangles for drawing.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -11,9 +11,9 @@ use std::f64::consts::PI;
 /// The number of directions in which each point of a rounded piece is sampled.
 const DIRECTIONS: u32 = 320;
 
-/// Returns the surface of a body: the faces of its mesh, or the hulls of its pieces.
+/// Returns the triangles of a body's surface: the faces of its mesh, or the hulls of its pieces.
 pub fn drawn(body: &Body) -> DrawnMesh {
-    let mut sketch = Sketch::default();
+    let mut sketch = MeshBuilder::default();
     for piece in body.pieces().iter() {
         let mut bare = true;
         if piece.radius == 0.0 {
@@ -31,7 +31,12 @@ pub fn drawn(body: &Body) -> DrawnMesh {
 
 /// Returns the corners of a feature to highlight, in the world: one for a vertex, two for an edge, three for each
 /// triangle of a face.
-pub(super) fn lit(body: &Body, pose: &Pose, feature: &str, witness: DVec3) -> Vec<DVec3> {
+pub(super) fn feature_corners(
+    body: &Body,
+    pose: &Pose,
+    feature: &str,
+    witness: DVec3,
+) -> Vec<DVec3> {
     let here = pose.inverse().transform_point(witness);
     let triangles = || {
         body.pieces()
@@ -66,13 +71,13 @@ fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
 
 /// A mesh under construction, with duplicate vertices and faces merged.
 #[derive(Default)]
-struct Sketch {
+struct MeshBuilder {
     mesh: DrawnMesh,
     numbers: HashMap<[u64; 3], u32>,
     drawn: HashSet<[u32; 3]>,
 }
 
-impl Sketch {
+impl MeshBuilder {
     fn push(&mut self, corners: [DVec3; 3]) {
         let numbers = corners.map(|corner| self.number(corner));
         let mut sorted = numbers;
@@ -120,7 +125,7 @@ impl Sketch {
     }
 }
 
-/// Returns evenly distributed directions: a spiral from pole to pole.
+/// Returns evenly distributed unit vectors on a spiral from pole to pole.
 fn directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
     (0..DIRECTIONS).map(move |k| {

@@ -8,51 +8,51 @@ use ccd_core::{Body, InputError, Settings, Stretch};
 use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
-/// The maximum number of ghosts of one query, besides the first.
-const GHOSTS: f64 = 12.0;
+/// The maximum number of poses that are drawn as ghosts for one query, besides the start.
+const MOST_GHOSTS: f64 = 12.0;
 /// The number of times at which the distance is measured.
-const TIMES: usize = 96;
+const MOST_MEASUREMENTS: usize = 96;
 /// The maximum number of steps of conservative advancement.
-const STEPS: usize = 48;
-/// The time limit for measuring one query, checked after each measurement.
+const MOST_STEPS: usize = 48;
+/// The time limit for all measurements of one query, checked after each measurement.
 const TIME_LIMIT: Duration = Duration::from_secs(1);
-/// The budget of one measurement.
+/// The work limit of one measurement of a distance.
 const BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
 
-/// A lower bound that is proven for all times.
+/// A lower bound of the distance that an answer proves for the whole duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
-    /// No bound.
+    /// No distance is proven for the whole duration.
     Nothing,
-    /// The bodies are at least this far apart.
+    /// The bodies are at least this far apart at all times, in the scene's unit of length.
     Throughout(f64),
 }
 
-/// The gap over time, and the steps of conservative advancement.
+/// The distance of two bodies over time, and the steps of conservative advancement.
 #[derive(Clone, Debug)]
 pub struct GapOverTime {
-    /// The curve of the distance and its lower bound.
+    /// The measured distances, and the proven lower bound between them.
     pub gap: Gap,
-    /// The times of the steps, starting with 0: after each, the bodies stay apart until the next.
+    /// The times of the steps, starting with 0: at each, the bodies are proven to stay apart until the next.
     pub steps: Vec<f64>,
 }
 
 impl GapOverTime {
-    /// Returns the least value of the proven lower bound.
+    /// Returns the least value of the proven lower bound; `None` without a bound.
     pub(super) fn least(&self) -> Option<f64> {
         let gaps = self.gap.proven.iter().map(|[_, gap]| *gap);
         gaps.reduce(lesser)
     }
 
-    /// Returns the steps to draw, thinned out.
+    /// Returns the times of the steps at which ghosts are drawn, so far apart that ghosts are few.
     pub fn ghosts(&self, duration: f64) -> Vec<f64> {
         let mut drawn: Vec<f64> = Vec::new();
         for &step in &self.steps {
             if drawn
                 .last()
-                .is_none_or(|last| step - last > duration / GHOSTS)
+                .is_none_or(|last| step - last > duration / MOST_GHOSTS)
             {
                 drawn.push(step);
             }
@@ -60,7 +60,7 @@ impl GapOverTime {
         drawn
     }
 
-    /// Returns the time of the least measured distance.
+    /// Returns the time at which the measured distance is least.
     pub fn nearest(&self) -> f64 {
         let points = self.gap.points.iter();
         let nearest = points.min_by(|one, two| one.upper.total_cmp(&two.upper));
@@ -87,7 +87,7 @@ pub fn gap(
         budget: BUDGET,
         ..Settings::DEFAULT
     });
-    let mut survey = Survey {
+    let mut survey = GapSampler {
         solver,
         bodies,
         course,
@@ -105,7 +105,7 @@ pub fn gap(
     })
 }
 
-struct Survey<'a> {
+struct GapSampler<'a> {
     solver: &'a mut Solver,
     bodies: Bodies<'a>,
     course: &'a Course,
@@ -113,23 +113,23 @@ struct Survey<'a> {
     time_limit: Instant,
 }
 
-/// The maximum closing speed between two times, and the bodies' deviation from their motions.
+/// The maximum closing speed of two bodies between two times, and a bound on their deviation from their motions.
 #[derive(Clone, Copy, Debug)]
-struct Shrinking {
+struct ClosingSpeed {
     speed: f64,
     deviation: f64,
 }
 
-impl Survey<'_> {
+impl GapSampler<'_> {
     /// Advances conservatively from the start until the bodies may touch, then measures at the end.
     fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
         let end = self.course.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
-        while points.len() < STEPS && Instant::now() < self.time_limit {
+        while points.len() < MOST_STEPS && Instant::now() < self.time_limit {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let Shrinking { speed, deviation } = self.shrinking(time, end)?;
+            let ClosingSpeed { speed, deviation } = self.closing_speed(time, end)?;
             let next = time + (point.lower - deviation) / speed;
             // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
@@ -147,29 +147,30 @@ impl Survey<'_> {
     fn refine(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
-            worths.push(self.worth(points[k - 1], points[k])?);
+            worths.push(self.gain(points[k - 1], points[k])?);
         }
-        while points.len() < TIMES && Instant::now() < self.time_limit {
+        while points.len() < MOST_MEASUREMENTS && Instant::now() < self.time_limit {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
             let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
                 return Ok(());
             };
             let (before, after) = (points[worst], points[worst + 1]);
             let middle = self.measure(0.5 * before.time + 0.5 * after.time)?;
-            worths[worst] = self.worth(before, middle)?;
-            worths.insert(worst + 1, self.worth(middle, after)?);
+            worths[worst] = self.gain(before, middle)?;
+            worths.insert(worst + 1, self.gain(middle, after)?);
             points.insert(worst + 1, middle);
         }
         Ok(())
     }
 
-    /// Returns the gain of a measurement between two others: the area between the distance and the proven bound.
-    fn worth(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
+    /// Returns how much a measurement between two others would improve the plot: the area between the distance and the
+    /// proven bound.
+    fn gain(&self, before: GapPoint, after: GapPoint) -> Result<f64, InputError> {
         let time = after.time - before.time;
         if !(time > 1e-6 * self.course.duration()) {
             return Ok(0.0);
         }
-        let Shrinking { speed, deviation } = self.shrinking(before.time, after.time)?;
+        let ClosingSpeed { speed, deviation } = self.closing_speed(before.time, after.time)?;
         let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
@@ -184,15 +185,15 @@ impl Survey<'_> {
         Ok(GapPoint { time, lower, upper })
     }
 
-    /// Bounds the closing speed of the bodies' points between two times.
-    fn shrinking(&self, from: f64, to: f64) -> Result<Shrinking, InputError> {
+    /// Bounds the closing speed of the bodies' points, and their deviation from the motions, between two times.
+    fn closing_speed(&self, from: f64, to: f64) -> Result<ClosingSpeed, InputError> {
         let [a, b] = self.course.trajectories();
         let (a, b) = (a.stretch(from, to)?, b.stretch(from, to)?);
         let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
-        Ok(Shrinking {
+        Ok(ClosingSpeed {
             speed: (shift + turns + gains) * ROUNDED_UP,
             // Bound the deviation both at the measured times and between them.
             deviation: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
@@ -206,7 +207,7 @@ impl Survey<'_> {
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let Shrinking { speed, deviation } = self.shrinking(one.time, two.time)?;
+            let ClosingSpeed { speed, deviation } = self.closing_speed(one.time, two.time)?;
             let height = |point: GapPoint| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);

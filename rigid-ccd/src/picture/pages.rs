@@ -16,13 +16,13 @@ pub struct Pages<'a> {
     names: HashSet<String>,
 }
 
-/// A page cannot be made.
+/// The error of a page that cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PagesError {
-    /// The row cannot be shown.
+    /// The row cannot be drawn.
     #[error(transparent)]
     View(#[from] ViewError),
-    /// The page cannot be written.
+    /// The file of the page cannot be written.
     #[error(transparent)]
     Page(#[from] PageError),
 }
@@ -47,12 +47,12 @@ impl<'a> Pages<'a> {
         })
     }
 
-    /// Returns the number of pages.
+    /// Returns the number of pages written so far.
     pub fn len(&self) -> usize {
         self.names.len()
     }
 
-    /// Returns whether there is no page.
+    /// Returns whether no page has been written yet.
     pub fn is_empty(&self) -> bool {
         self.names.is_empty()
     }
@@ -71,7 +71,7 @@ impl<'a> Pages<'a> {
         Ok(path)
     }
 
-    /// Returns a unique name, also on file systems that ignore case.
+    /// Returns a unique file name for an id, also on file systems that ignore case.
     fn name(&mut self, id: &str) -> String {
         let plain = |c: char| {
             if c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.') {

@@ -1,6 +1,6 @@
-//! The view of a scene of many bodies.
+//! Draws a scene of many bodies as a view of a page.
 
-use super::drawn::{drawn, lit};
+use super::drawn::{drawn, feature_corners};
 use super::verdict::number;
 use crate::HitKind;
 use crate::scene::{Impact, PairError};
@@ -9,12 +9,12 @@ use ccd_core::{Body, Feature, Motion};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
 use std::collections::HashMap;
 
-/// The colour of bodies that do not move.
-const FIXED: &str = "#b8b8b8";
+/// The colour of bodies that do not move, in CSS.
+const FIXED_COLOR: &str = "#b8b8b8";
 /// The step in hue from one body to the next, in degrees: the golden angle.
-const HUE: f64 = 137.508;
+const HUE_STEP: f64 = 137.508;
 
-/// A body of a scene, with its name.
+/// A body of a scene to draw, with its name in the legend.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     pub(crate) name: &'a str,
@@ -22,8 +22,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) motion: Motion,
 }
 
-/// Returns the view of all bodies and their contacts, in order of time. Bodies that are the same are drawn from one
-/// mesh.
+/// Returns the view of all bodies and their contacts; the contacts are in order of time. Bodies that are the same are
+/// drawn from one mesh.
 pub(crate) fn scene_view(
     name: &str,
     bodies: &[Shown<'_>],
@@ -39,9 +39,12 @@ pub(crate) fn scene_view(
             .or_insert_with(|| meshes.add(&drawn(shown.body)));
         let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
         let color = if moves {
-            format!("hsl({:.0}, 55%, 52%)", (150.0 + HUE * k as f64) % 360.0)
+            format!(
+                "hsl({:.0}, 55%, 52%)",
+                (150.0 + HUE_STEP * k as f64) % 360.0
+            )
         } else {
-            FIXED.to_owned()
+            FIXED_COLOR.to_owned()
         };
         ShownBody::new(shown.name, mesh, &color, &shown.motion)
     });
@@ -68,7 +71,7 @@ pub(crate) fn scene_view(
     (meshes, view)
 }
 
-/// Describes which bodies touch.
+/// Describes in words which bodies touch.
 pub(crate) fn scene_verdict(
     bodies: &[Shown<'_>],
     contacts: &[Result<Impact, PairError>],
@@ -132,7 +135,7 @@ fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
     let at = |shown: &Shown<'_>, feature: Option<Feature>, witness: DVec3| {
         let pose = shown.motion.pose(hit.time);
         let feature = feature.map_or_else(String::new, |feature| feature.to_string());
-        lit(shown.body, &pose, &feature, witness)
+        feature_corners(shown.body, &pose, &feature, witness)
     };
     ShownContact {
         time: hit.time,

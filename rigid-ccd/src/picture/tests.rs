@@ -171,20 +171,23 @@ fn features_are_lit_where_they_are() {
         DVec3::new(1.0, 0.3, -0.4),
     ]
     .map(|point| pose.transform_point(point));
-    assert_eq!(lit(&cuboid, &pose, "v7", corner).len(), 1);
-    let ends = lit(&cuboid, &pose, "e3-7", edge);
+    assert_eq!(feature_corners(&cuboid, &pose, "v7", corner).len(), 1);
+    let ends = feature_corners(&cuboid, &pose, "e3-7", edge);
     assert!(
         ends.iter()
             .all(|end| (end.distance(edge) - 2.3).abs() < 1e-9
                 || (end.distance(edge) - 3.7).abs() < 1e-9)
     );
     let number = (0..6).find(|k| {
-        let corners = lit(&cuboid, &pose, &format!("f{k}"), face);
+        let corners = feature_corners(&cuboid, &pose, &format!("f{k}"), face);
         let local = corners.iter().map(|c| pose.inverse().transform_point(*c));
         corners.len() == 6 && local.into_iter().all(|c| (c.x - 1.0).abs() < 1e-9)
     });
     assert!(number.is_some());
-    assert!(lit(&cuboid, &pose, "p0", face).is_empty() && lit(&cuboid, &pose, "", face).is_empty());
+    assert!(
+        feature_corners(&cuboid, &pose, "p0", face).is_empty()
+            && feature_corners(&cuboid, &pose, "", face).is_empty()
+    );
 }
 
 #[test]

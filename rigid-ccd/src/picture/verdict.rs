@@ -1,39 +1,39 @@
-//! Descriptions of rows of results, in words.
+//! Describes rows of results in words.
 
 use crate::table::results::{ResultRow, Status};
 
-/// The context of an answer, as far as it is known.
+/// What is known about the query that an answer belongs to.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
     /// The meaning of the answer's time.
     pub claim: Claim,
-    /// The margin of the query.
+    /// The margin of the query, in the scene's unit of length.
     pub margin: f64,
-    /// The clearance of the query.
+    /// The required distance that the query's answer is compared with, if any.
     pub clearance: Option<f64>,
 }
 
-/// The meaning of an answer's time.
+/// The meaning of the time in an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Claim {
-    /// A contact, with none before it.
+    /// The time of the first contact.
     First,
     /// As [`First`](Claim::First), except for contacts at the start, which are ignored until the bodies part.
     FirstLater,
-    /// A contact, perhaps not the first one.
+    /// The time of some contact, perhaps not the first one.
     Any,
-    /// The time of the measured distance.
+    /// The time at which the distance was measured.
     Then,
-    /// The time of the greatest distance.
+    /// The time at which the distance is greatest.
     Farthest,
-    /// A first contact by the published bound, which is no proof.
+    /// The time of the first contact by the published bound, which is no proof.
     Published,
     /// A time from a table of results, whose question and bound are unknown.
     Told,
 }
 
-/// Describes the answer of a row. `end` is the end of its motions, and `proven` a lower bound of the distance at all
-/// times.
+/// Describes the answer of a row in words, for motions that end at `end`. `end` is the end of its motions, and `proven`
+/// a lower bound of the distance at all times.
 pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f64>) -> String {
     let time = row.time.map_or("an unknown time".to_owned(), number);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
@@ -42,34 +42,56 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         None => "The clearance".to_owned(),
     };
     match row.status {
-        Status::Contact => on_the_way(row, asked, &time),
-        Status::Free => free(asked, end, proven),
+        Status::Contact => later_contact(row, asked, &time),
+        Status::Free => describe_free(asked, end, proven),
         Status::Touching if asked.margin > 0.0 => {
             format!(
                 "Within the margin at the start: {}.{}",
                 contact(row),
-                after(row)
+                after_start_contact(row)
             )
         }
-        Status::Touching => format!("In contact at the start: {}.{}", contact(row), after(row)),
+        Status::Touching => format!(
+            "In contact at the start: {}.{}",
+            contact(row),
+            after_start_contact(row)
+        ),
         Status::Overlapping => {
-            format!("Overlapping at the start: {}.{}", contact(row), after(row))
+            format!(
+                "Overlapping at the start: {}.{}",
+                contact(row),
+                after_start_contact(row)
+            )
         }
-        Status::Measured if asked.claim == Claim::Then => format!("At {time}: {}.", apart(row)),
+        Status::Measured if asked.claim == Claim::Then => {
+            format!("At {time}: {}.", describe_distance(row))
+        }
         Status::Measured if asked.claim == Claim::Farthest => {
-            format!("Farthest at {time}: {}. Proven: never farther.", apart(row))
+            format!(
+                "Farthest at {time}: {}. Proven: never farther.",
+                describe_distance(row)
+            )
         }
-        Status::Measured => format!("Nearest at {time}: {}.", apart(row)),
+        Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
         Status::Kept => match row.distance_upper {
-            Some(_) => format!("{clearance} is kept: nearest at {time}, {}.", apart(row)),
-            None => format!("{clearance} is kept, to the end at {time}: {}.", apart(row)),
+            Some(_) => format!(
+                "{clearance} is kept: nearest at {time}, {}.",
+                describe_distance(row)
+            ),
+            None => format!(
+                "{clearance} is kept, to the end at {time}: {}.",
+                describe_distance(row)
+            ),
         },
         Status::Violated => match row.distance_upper {
             Some(upper) if !is_overlap(row) => {
                 let upper = number_up(upper);
                 format!("{clearance} is violated: at {time} at most {upper} apart.")
             }
-            _ => format!("{clearance} is violated at {time}: {}.", apart(row)),
+            _ => format!(
+                "{clearance} is violated at {time}: {}.",
+                describe_distance(row)
+            ),
         },
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
         Status::Unresolved => match asked.claim {
@@ -88,14 +110,14 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
 }
 
 /// Describes what is proven after a contact at the start; empty if the question was about the first contact only.
-fn after(row: &ResultRow) -> String {
+fn after_start_contact(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
         format!(" Proven: not after {}.", number_up(last))
     })
 }
 
-/// Describes a contact after the start.
-fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
+/// Describes in words a contact that begins after the start.
+fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
         (
@@ -130,7 +152,7 @@ fn on_the_way(row: &ResultRow, asked: Asked, time: &str) -> String {
     }
 }
 
-fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
+fn describe_free(asked: Asked, end: f64, proven: Option<f64>) -> String {
     let end = number(end);
     match (asked.claim, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
@@ -150,14 +172,18 @@ fn free(asked: Asked, end: f64, proven: Option<f64>) -> String {
     }
 }
 
-/// Describes the touching or nearest features.
+/// Describes in words which features touch or are nearest.
 pub(super) fn contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
-        (Some(a), Some(b)) => format!("{} of A at {} of B", feature(a), feature(b)),
+        (Some(a), Some(b)) => format!(
+            "{} of A at {} of B",
+            feature_in_words(a),
+            feature_in_words(b)
+        ),
         _ => "one body is inside the other".to_owned(),
     };
     match row.distance_upper {
-        Some(_) => format!("{features}, {}", apart(row)),
+        Some(_) => format!("{features}, {}", describe_distance(row)),
         None => features,
     }
 }
@@ -166,7 +192,7 @@ fn is_overlap(row: &ResultRow) -> bool {
     row.distance_lower.is_some_and(|lower| lower < 0.0)
 }
 
-fn apart(row: &ResultRow) -> String {
+fn describe_distance(row: &ResultRow) -> String {
     match (row.distance_lower, row.distance_upper) {
         (Some(lower), Some(_)) if lower < 0.0 => format!(
             "two pieces that a shift by {} would part; the bodies may overlap by more",
@@ -183,8 +209,8 @@ fn apart(row: &ResultRow) -> String {
     }
 }
 
-/// Returns `vertex 7` for `v7`.
-fn feature(name: &str) -> String {
+/// Returns the name of a feature in words: `vertex 7` for `v7`.
+fn feature_in_words(name: &str) -> String {
     let kinds = [
         ('v', "vertex"),
         ('e', "edge"),
@@ -200,24 +226,24 @@ fn feature(name: &str) -> String {
 
 /// Formats a number with at most seven digits, rounded down, so that the text is a lower bound.
 pub(super) fn number(value: f64) -> String {
-    let text = short(value);
+    let text = with_few_digits(value);
     match text.parse::<f64>() {
-        Ok(read) if value < read => short(value - last_digit(value)),
+        Ok(read) if value < read => with_few_digits(value - last_digit(value)),
         _ => text,
     }
 }
 
 /// Formats a number with at most seven digits, rounded up.
 fn number_up(value: f64) -> String {
-    let text = short(value);
+    let text = with_few_digits(value);
     match text.parse::<f64>() {
-        Ok(read) if read < value => short(value + last_digit(value)),
+        Ok(read) if read < value => with_few_digits(value + last_digit(value)),
         _ => text,
     }
 }
 
-fn short(value: f64) -> String {
-    if is_plain(value) {
+fn with_few_digits(value: f64) -> String {
+    if needs_no_exponent(value) {
         let text = format!("{value:.6}");
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -225,15 +251,15 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Returns the value of one unit in the last written digit.
+/// Returns the value of one unit in the last digit that [`number`] writes.
 fn last_digit(value: f64) -> f64 {
-    if is_plain(value) {
+    if needs_no_exponent(value) {
         1e-6
     } else {
         10f64.powf(value.abs().log10().floor() - 3.0)
     }
 }
 
-fn is_plain(value: f64) -> bool {
+fn needs_no_exponent(value: f64) -> bool {
     value == 0.0 || (1e-3..1e12).contains(&value.abs())
 }

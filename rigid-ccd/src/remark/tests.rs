@@ -1,4 +1,4 @@
-//! Typical mistakes give a remark, and usual input does not.
+//! Tests that typical mistakes give a remark, and that usual input gives none.
 
 use super::*;
 use std::f64::consts::PI;
@@ -50,7 +50,8 @@ fn degrees_are_remarked_upon() {
     }
 }
 
-/// Usual input in radians: rest, rotations of parts and robots, shafts at round or whole numbers of turns.
+/// Tests that usual input in radians gives no remark: rest, rotations of parts and robots, shafts at round or whole
+/// numbers of turns.
 #[test]
 fn radians_are_not() {
     for rate in [

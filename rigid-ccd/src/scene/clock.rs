@@ -1,4 +1,4 @@
-//! The remaining time of a query on a scene.
+//! The time limit of a query on a scene, shared by all pairs.
 
 use ccd_core::Settings;
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// Starts the clock.
+    /// Starts to measure the time until the deadline.
     pub(super) fn new(duration: f64, settings: &Settings) -> Self {
         Clock {
             duration,
@@ -19,7 +19,7 @@ impl Clock {
         }
     }
 
-    /// Returns the remaining time; `None` without a deadline.
+    /// Returns the time left until the deadline; `None` without a deadline.
     pub(super) fn left(&self) -> Option<Duration> {
         let (begun, limit) = self.deadline?;
         Some(limit.saturating_sub(begun.elapsed()))

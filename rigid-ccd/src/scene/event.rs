@@ -1,4 +1,4 @@
-//! The contact or the error of two bodies of a scene.
+//! The result for one pair of bodies of a scene: a contact or an error.
 
 use crate::Error;
 use ccd_core::order::greater;
@@ -8,19 +8,19 @@ use std::cmp::Ordering;
 /// The first contact of two bodies of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// The indices of the bodies, the lower one first. A and B of the hit.
+    /// The indices of the two bodies, the lower one first. A and B of the hit.
     pub bodies: [usize; 2],
-    /// Their first contact.
+    /// The first contact of the two bodies.
     pub hit: Hit,
 }
 
-/// The error of two bodies of a scene.
+/// The error of a pair of bodies of a scene.
 #[derive(Debug, thiserror::Error)]
 #[error("bodies {} and {}: {error}", bodies[0], bodies[1])]
 pub struct PairError {
-    /// The indices of the bodies, the lower one first.
+    /// The indices of the two bodies, the lower one first.
     pub bodies: [usize; 2],
-    /// The error; `Unresolved` has a time before which the bodies do not touch.
+    /// The error of the pair's query; `Unresolved` has a time before which the bodies do not touch.
     #[source]
     pub error: Error,
 }
@@ -31,23 +31,23 @@ pub(super) struct Event {
     /// The time before which the bodies do not touch.
     pub(super) time: f64,
     pub(super) bodies: [usize; 2],
-    what: What,
+    what: EventKind,
 }
 
 #[allow(clippy::large_enum_variant, reason = "most events are hits")]
 #[derive(Clone, Debug)]
-enum What {
+enum EventKind {
     Hit(Hit),
     Unresolved(Unresolved),
     Refused(InputError),
 }
 
 impl Event {
-    /// Returns the event of an answer; `None` for bodies that stay apart.
-    pub(super) fn answered(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
+    /// Returns the event for the answer to a pair's query; `None` for bodies that stay apart.
+    pub(super) fn from_answer(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
         let (time, what) = match answer.hit() {
-            Ok(hit) => hit.map(|hit| (hit.time, What::Hit(hit)))?,
-            Err(known) => (known.safe_until, What::Unresolved(known)),
+            Ok(hit) => hit.map(|hit| (hit.time, EventKind::Hit(hit)))?,
+            Err(known) => (known.safe_until, EventKind::Unresolved(known)),
         };
         Some(Event {
             // Times are compared by their bits, so that a negative zero must not occur.
@@ -57,25 +57,25 @@ impl Event {
         })
     }
 
-    pub(super) fn refused(bodies: [usize; 2], error: InputError) -> Self {
+    pub(super) fn from_error(bodies: [usize; 2], error: InputError) -> Self {
         Event {
             time: 0.0,
             bodies,
-            what: What::Refused(error),
+            what: EventKind::Refused(error),
         }
     }
 
-    /// Returns the event of a pair that was not examined.
+    /// Returns the event of a pair that was not examined because a limit was reached.
     pub(super) fn unresolved(bodies: [usize; 2]) -> Self {
         Event {
             time: 0.0,
             bodies,
-            what: What::Unresolved(Unresolved::until(0.0, Limit::Undecided)),
+            what: EventKind::Unresolved(Unresolved::until(0.0, Limit::Undecided)),
         }
     }
 
-    /// Returns the event of a query that started at time `from`, shifted by `from` and rounded down.
-    pub(super) fn later(self, from: f64) -> Self {
+    /// Returns this event of a query that started at time `from`, with its times shifted by `from` and rounded down.
+    pub(super) fn delayed(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
                 greater(from, (from + time).next_down())
@@ -84,7 +84,7 @@ impl Event {
             }
         };
         let what = match self.what {
-            What::Hit(hit) => What::Hit(Hit {
+            EventKind::Hit(hit) => EventKind::Hit(Hit {
                 time: later(hit.time),
                 ..hit
             }),
@@ -97,32 +97,32 @@ impl Event {
         }
     }
 
-    /// Returns the event, moved to time 0.
-    pub(super) fn at_once(self) -> Self {
+    /// Returns the same event at time 0.
+    pub(super) fn at_start(self) -> Self {
         Event { time: 0.0, ..self }
     }
 
     /// Returns whether the bodies are in contact, and not certainly at least `distance` apart.
     pub(super) fn is_nearer_than(&self, distance: f64) -> bool {
         let contact = match &self.what {
-            What::Hit(hit) => hit.contact(),
-            What::Unresolved(_) | What::Refused(_) => None,
+            EventKind::Hit(hit) => hit.contact(),
+            EventKind::Unresolved(_) | EventKind::Refused(_) => None,
         };
         // The comparison treats NaN as nearer.
         contact.is_some_and(|contact| !(contact.separation.lower >= distance))
     }
 
-    /// Returns whether the bodies overlap at the start.
+    /// Returns whether the event is an overlap at the start.
     pub(super) fn overlaps(&self) -> bool {
-        matches!(&self.what, What::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
+        matches!(&self.what, EventKind::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
     }
 
-    /// Returns whether the query was invalid.
+    /// Returns whether the event is the error of an invalid query.
     pub(super) fn is_refused(&self) -> bool {
-        matches!(self.what, What::Refused(_))
+        matches!(self.what, EventKind::Refused(_))
     }
 
-    /// Compares two events by time, and then by indices.
+    /// Compares two events by time, and at equal times by the bodies' indices.
     pub(super) fn order(&self, other: &Event) -> Ordering {
         (self.time.total_cmp(&other.time)).then(self.bodies.cmp(&other.bodies))
     }
@@ -130,9 +130,9 @@ impl Event {
     pub(super) fn impact(&self) -> Result<Impact, PairError> {
         let bodies = self.bodies;
         let error = match &self.what {
-            What::Hit(hit) => return Ok(Impact { bodies, hit: *hit }),
-            What::Refused(error) => error.clone().into(),
-            What::Unresolved(known) => Error::Unresolved(Unresolved {
+            EventKind::Hit(hit) => return Ok(Impact { bodies, hit: *hit }),
+            EventKind::Refused(error) => error.clone().into(),
+            EventKind::Unresolved(known) => Error::Unresolved(Unresolved {
                 safe_until: self.time,
                 ..*known
             }),

@@ -1,14 +1,14 @@
-//! The goal of a scene's query, and the time until which a pair can matter.
+//! The goal of a query on a scene, and the time up to which a pair of bodies can contribute to it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The goal of a query, with the times of the earliest events so far.
+/// Which contacts a query on a scene asks for, with the times of the earliest events so far.
 pub(super) enum Goal {
-    /// The first contact of all.
+    /// The first contact of any two bodies.
     First(Earliest),
-    /// The first contact of each body.
+    /// The first contact of each body with any other one.
     OfEach(Vec<Earliest>),
-    /// The first contact of each pair.
+    /// The first contact of each pair of bodies.
     All,
 }
 
@@ -21,8 +21,8 @@ impl Goal {
         Goal::OfEach((0..bodies).map(|_| Earliest::default()).collect())
     }
 
-    /// Returns the last time at which an event of the pair can matter.
-    pub(super) fn limit(&self, [a, b]: [usize; 2]) -> f64 {
+    /// Returns the time after which an event of the pair cannot change the answer.
+    pub(super) fn last_useful_time(&self, [a, b]: [usize; 2]) -> f64 {
         match self {
             Goal::First(earliest) => earliest.time(),
             Goal::OfEach(earliest) => {
@@ -42,7 +42,7 @@ impl Goal {
     }
 }
 
-/// The earliest time that any thread recorded; infinite without one.
+/// The earliest time that any thread has recorded; infinite without one.
 ///
 /// It only saves work: what a thread does not see yet is proven further than needed.
 pub(super) struct Earliest(AtomicU64);
@@ -52,7 +52,7 @@ impl Earliest {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
 
-    /// Records a time, which is not negative: such floats order as their bits do.
+    /// Records a time if it is the earliest; bits of floats that are not negative sort as the floats do.
     fn record(&self, time: f64) {
         self.0.fetch_min(time.to_bits(), Ordering::Relaxed);
     }

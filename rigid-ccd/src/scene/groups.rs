@@ -1,6 +1,6 @@
-//! Groups of bodies, which select the pairs to examine.
+//! Collision groups, which select the pairs of bodies to examine.
 
-/// The groups of a body, and the groups that it is checked against, as 32-bit masks.
+/// The collision groups that a body is in, and those that it is checked against, as 32-bit masks.
 ///
 /// ```
 /// use rigid_ccd::scene::Groups;
@@ -10,14 +10,14 @@
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Groups {
-    /// The groups that the body is in.
+    /// The mask of the groups that the body is in.
     pub memberships: u32,
-    /// The groups that the body is checked against.
+    /// The mask of the groups that the body is checked against.
     pub filter: u32,
 }
 
 impl Groups {
-    /// All groups, checked against all groups: the default.
+    /// Membership in all groups, checked against all groups: the default.
     pub const ALL: Groups = Groups {
         memberships: u32::MAX,
         filter: u32::MAX,

@@ -1,4 +1,4 @@
-//! The pairs of bodies whose boxes meet.
+//! Finds the pairs of bodies whose swept boxes meet.
 
 use ccd_core::SweptBox;
 use parry3d_f64::bounding_volume::Aabb;
@@ -9,7 +9,10 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 ///
 /// # Guarantee
 /// All pairs, whatever the tree is like: a box that it does not hold is compared with all others.
-pub(super) fn meeting(boxes: &[SweptBox], asked: impl Fn([usize; 2]) -> bool) -> Vec<[usize; 2]> {
+pub(super) fn meeting_pairs(
+    boxes: &[SweptBox],
+    asked: impl Fn([usize; 2]) -> bool,
+) -> Vec<[usize; 2]> {
     let corner = |point: ccd_core::glam::DVec3| Vector::from_array(point.to_array());
     let leaves = boxes
         .iter()
@@ -24,7 +27,7 @@ pub(super) fn meeting(boxes: &[SweptBox], asked: impl Fn([usize; 2]) -> bool) ->
         }
     });
     for (lost, leaf) in leaves.iter().enumerate() {
-        if !holds(&tree, lost, leaf) {
+        if !is_within_ancestors(&tree, lost, leaf) {
             let others = (0..boxes.len()).filter(|&other| other != lost);
             let others = others.map(|other| ordered(lost, other));
             pairs.extend(others.filter(|&pair| asked(pair)));
@@ -36,14 +39,14 @@ pub(super) fn meeting(boxes: &[SweptBox], asked: impl Fn([usize; 2]) -> bool) ->
     pairs
 }
 
-/// Returns whether every ancestor of a leaf contains the leaf's box. A search for boxes that meet it does not pass it
-/// by then.
-fn holds(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
+/// Returns whether every ancestor of a leaf in the tree contains the leaf's box. A search for boxes that meet it does
+/// not pass it by then.
+fn is_within_ancestors(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
     let mut leaves = tree.leaves(|node| node.contains_aabb(leaf));
     leaves.any(|held| held as usize == index)
 }
 
-/// Returns two indices, the lower one first.
+/// Returns two indices in ascending order.
 pub(super) fn ordered(a: usize, b: usize) -> [usize; 2] {
     if a < b { [a, b] } else { [b, a] }
 }

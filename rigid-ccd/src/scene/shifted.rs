@@ -1,10 +1,10 @@
-//! The remainder of a trajectory after a time.
+//! A trajectory from a later time on.
 
 use ccd_core::rounding::U64;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Movement, Stray, Stretch, Trajectory};
 
-/// A trajectory shifted in time: its time 0 is a given time of the inner one.
+/// A trajectory whose time 0 is a given time of another trajectory.
 pub(super) struct Shifted<'a> {
     pub(super) inner: Movement<'a>,
     pub(super) from: f64,

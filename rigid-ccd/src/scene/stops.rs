@@ -1,10 +1,10 @@
-//! Bodies that stop at their first contact, each at its own time.
+//! Finds when each body stops if it stops at its first contact.
 
 use super::clock::Clock;
-use super::due::Due;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::ordered;
+use super::queue_entry::QueueEntry;
 use super::shifted::Shifted;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
@@ -19,7 +19,7 @@ use ccd_core::{
 use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
 
-/// The time at which a body stops.
+/// When and why a body stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
     /// The time at which the body stops; the duration if it does not stop.
@@ -66,7 +66,8 @@ impl Scene<'_> {
     /// continue. A simulation that sets these poses after each step lets nothing pass through anything.
     ///
     /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
-    /// slide and part, but not come nearer than half of their distance. Bodies that overlap at the start do not stop
+    /// slide and part, but not come nearer than half of their distance. Both have to move by a [`Motion`](crate::Motion)
+    /// or be at rest; if one is on another trajectory, both stop at once. Bodies that overlap at the start do not stop
     /// each other.
     ///
     /// # Guarantee
@@ -94,18 +95,19 @@ impl Scene<'_> {
     /// ```
     pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.clone();
-        self.settings = keeping_half(&given);
+        self.settings = with_half_tolerance_kept(&given);
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
-        let events = self.race(&pairs, &clock, &Goal::All);
-        let stops = Stopping::new(self, &pairs, clock).run(events);
+        let events = self.run_pair_queue(&pairs, &clock, &Goal::All);
+        let stops = StopSearch::new(self, &pairs, clock).run(events);
         self.settings = given;
         stops
     }
 }
 
-/// Returns the settings with half of the tolerance added to the margin: bodies at rest do not sink in over many steps.
-fn keeping_half(given: &Settings) -> Settings {
+/// Returns the settings with half of the tolerance moved into the margin, so that bodies at rest do not sink into each
+/// other over many steps.
+fn with_half_tolerance_kept(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
         margin: lesser(given.margin + half, MAX_COORDINATE),
@@ -115,35 +117,35 @@ fn keeping_half(given: &Settings) -> Settings {
     }
 }
 
-/// The bodies that have stopped, and the contacts still to come.
-struct Stopping<'s, 'a> {
+/// The state of the search: the bodies that have stopped so far, and solvers for the contacts still to come.
+struct StopSearch<'s, 'a> {
     scene: &'s Scene<'a>,
-    /// The possible contact partners of each body.
-    others: Vec<Vec<usize>>,
+    /// For each body, the indices of the bodies that it may touch.
+    partners: Vec<Vec<usize>>,
     stops: Vec<Stop>,
     clock: Clock,
     schedule: BestFirst<Direct>,
     oracle: Direct,
 }
 
-/// A future contact of two bodies, of which at most one has stopped, and which of them moved when it was found.
-type FutureContact = Due<(Event, [bool; 2])>;
+/// A contact that is still to come, with which of the two bodies moved when it was found; at most one has stopped.
+type FutureContact = QueueEntry<(Event, [bool; 2])>;
 
-impl<'s, 'a> Stopping<'s, 'a> {
+impl<'s, 'a> StopSearch<'s, 'a> {
     fn new(scene: &'s Scene<'a>, pairs: &[[usize; 2]], clock: Clock) -> Self {
-        let mut others = vec![Vec::new(); scene.len()];
+        let mut partners = vec![Vec::new(); scene.len()];
         for &[a, b] in pairs {
-            others[a].push(b);
-            others[b].push(a);
+            partners[a].push(b);
+            partners[b].push(a);
         }
         let goes_on = Stop {
             time: clock.duration,
             by: None,
             contact: None,
         };
-        Stopping {
+        StopSearch {
             scene,
-            others,
+            partners,
             stops: vec![goes_on; scene.len()],
             clock,
             schedule: BestFirst::default(),
@@ -157,8 +159,8 @@ impl<'s, 'a> Stopping<'s, 'a> {
         for event in events {
             let [a, b] = event.bodies;
             if event.overlaps() {
-                self.others[a].retain(|&other| other != b);
-                self.others[b].retain(|&other| other != a);
+                self.partners[a].retain(|&other| other != b);
+                self.partners[b].retain(|&other| other != a);
             } else {
                 coming.push(self.future_contact(event, 0.0));
             }
@@ -191,39 +193,39 @@ impl<'s, 'a> Stopping<'s, 'a> {
         Ok(self.stops)
     }
 
-    /// Returns the future contacts of a body that has just stopped.
+    /// Returns the contacts that others will have with a body that has just stopped.
     fn contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
-        let others = std::mem::take(&mut self.others[index]);
-        let moving = others.iter().filter(|&&other| self.moves(other));
+        let partners = std::mem::take(&mut self.partners[index]);
+        let moving = partners.iter().filter(|&&other| self.moves(other));
         let pairs: Vec<[usize; 2]> = moving.map(|&other| ordered(index, other)).collect();
-        self.others[index] = others;
+        self.partners[index] = partners;
         let found = pairs
             .into_iter()
             .filter_map(|pair| self.contact_after(time, pair));
         found.collect()
     }
 
-    /// Returns the contact of two bodies after a time at which one of them stopped.
+    /// Returns the contact of two bodies after `time`, at which one of them stopped.
     fn contact_after(&mut self, time: f64, bodies: [usize; 2]) -> Option<FutureContact> {
         let event = match self.answer(time, bodies) {
-            Ok(answer) => Event::answered(bodies, &answer)?,
+            Ok(answer) => Event::from_answer(bodies, &answer)?,
             // The pose of a body is out of range, so the body stops here.
             Err(_) => Event::unresolved(bodies),
         };
         Some(self.future_contact(event, time))
     }
 
-    /// Returns the future contact for an event that was found from a time on. Bodies that rest on each other, and are
-    /// nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
+    /// Returns the queue entry for an event of a query that started at time `from`. Bodies that rest on each other, and
+    /// are nearer than the distance to keep, do not move at all: they would come nearer by rounding, step by step.
     fn future_contact(&self, event: Event, from: f64) -> FutureContact {
         let kept = self.scene.settings.margin;
         let event = if event.is_nearer_than(kept) {
-            event.at_once()
+            event.at_start()
         } else {
             event
         };
-        let event = event.later(from);
+        let event = event.delayed(from);
         let moving = event.bodies.map(|index| self.moves(index));
         FutureContact {
             time: event.time,
@@ -242,8 +244,9 @@ impl<'s, 'a> Stopping<'s, 'a> {
         let duration = self.clock.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
         let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
+        let stray = self.stray_at_stop(bodies[0])? + self.stray_at_stop(bodies[1])?;
         let settings = Settings {
-            margin: self.scene.settings.margin + rounding,
+            margin: self.scene.settings.margin + rounding + stray,
             deadline: self.clock.left(),
             ..self.scene.settings.clone()
         };
@@ -251,7 +254,7 @@ impl<'s, 'a> Stopping<'s, 'a> {
         self.schedule.first_contact(&query, &mut self.oracle)
     }
 
-    /// Returns the motion or trajectory of a body from a time on.
+    /// Returns the motion or trajectory of a body from a given time on.
     fn movement_from<'r>(
         &self,
         shifted: &'r Shifted<'a>,
@@ -267,12 +270,23 @@ impl<'s, 'a> Stopping<'s, 'a> {
         Ok(Motion::about(motion.pose(shifted.from), velocity, spin, motion.centre())?.into())
     }
 
+    /// Bounds how far the points of a stopped body may be from those of its computed pose; 0 for a body that moves.
+    fn stray_at_stop(&self, index: usize) -> Result<f64, InputError> {
+        if self.moves(index) {
+            return Ok(0.0);
+        }
+        let (member, time) = (&self.scene.members[index], self.stops[index].time);
+        let stretch = member.movement.stretch(time, time)?;
+        let reach = member.body.span() + length(stretch.motion.centre());
+        Ok(stretch.stray.at(reach))
+    }
+
     fn moves(&self, index: usize) -> bool {
         self.scene.members[index].mobility == Mobility::Moving && self.stops[index].by.is_none()
     }
 }
 
-/// Bounds the deviation of a body that continues from a rounded pose.
+/// Bounds how far a body is off when it continues from a pose that is rounded.
 fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
     let stretch = movement.stretch(0.0, 0.0)?;
     let motion = &stretch.motion;

@@ -1,4 +1,4 @@
-//! Scenes compared with queries on every pair.
+//! Tests that scenes agree with queries on every pair.
 
 use super::*;
 use crate::body::{Pieces, Volume};
@@ -14,10 +14,10 @@ use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// A body, its motion, whether it is fixed, and its groups.
+/// A body's index, its motion, whether it is fixed, and its groups.
 pub(super) type Part = (usize, Motion, Mobility, Groups);
 
-/// Bodies of all kinds; the last one is a wide terrain.
+/// Returns bodies of all kinds; the last one is a wide terrain.
 pub(super) fn bodies(rng: &mut Pcg64) -> Vec<Body> {
     let mut bodies = vec![
         Body::sphere(0.4).unwrap(),
@@ -97,7 +97,7 @@ fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settin
     scene
 }
 
-/// Queries every accepted pair: returns its time, indices and result.
+/// Queries every accepted pair by itself, and returns its time, indices and result.
 fn one_by_one(
     bodies: &[Body],
     parts: &[Part],
@@ -365,7 +365,7 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
     assert!(stopped.first_contact(1.0).is_ok());
 }
 
-/// A body inside a solid overlaps it at the start, so its event comes first.
+/// Tests that a body inside a solid has its contact at the start, so that its event comes first.
 #[test]
 fn a_body_inside_a_solid_is_first() {
     let shell = crate::load("tests/data/knot216.obj").unwrap();
@@ -390,7 +390,7 @@ fn a_body_inside_a_solid_is_first() {
     assert_eq!(scene.contacts(1.0).len(), 2);
 }
 
-/// A point inside a solid, behind one of its triangles.
+/// Returns a point inside a solid tube, behind one of its triangles.
 fn middle_of_tube(body: &Body) -> DVec3 {
     let piece = body.pieces().get(0);
     let [a, b, c] = [0, 1, 2].map(|k| piece.points[k]);
@@ -398,7 +398,7 @@ fn middle_of_tube(body: &Body) -> DVec3 {
     (a + b + c) / 3.0 - 0.02 * outwards
 }
 
-/// Durations of a few times the least positive number.
+/// Tests durations of a few times the least positive number.
 #[test]
 fn the_shortest_durations_end() {
     let size = 1e-20;
@@ -431,7 +431,7 @@ fn the_shortest_durations_end() {
     assert!(met > 50, "{met}");
 }
 
-/// Two fixed bodies are never checked against each other, so a fixed body must not move.
+/// Tests that a fixed body cannot be given a motion, because two fixed bodies are never checked against each other.
 #[test]
 fn a_fixed_body_takes_no_motion() {
     let ball = Body::sphere(0.5).unwrap();
@@ -451,7 +451,7 @@ fn a_fixed_body_takes_no_motion() {
     assert_eq!(scene.movement(other).as_motion(), Some(Motion::still(pose)));
 }
 
-/// Bodies that are thrown, and one that rests: the answers are those of the pairs, one by one.
+/// Tests thrown bodies and one at rest: the scene's answers are those of the pairs, one by one.
 #[test]
 fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
     let mut rng = Pcg64::seed_from_u64(8);
@@ -498,7 +498,7 @@ fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
     assert!(contacts > 100 && none > 1_000, "{contacts} {none}");
 }
 
-/// A throw towards the middle, under an acceleration.
+/// Returns a random throw towards the middle of the scene, under a constant acceleration.
 pub(super) fn thrown(rng: &mut Pcg64) -> Ballistic {
     let mut any =
         |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));

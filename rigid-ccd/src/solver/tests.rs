@@ -16,7 +16,7 @@ fn thrown(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]) -> Ballistic
     Ballistic::new(thrown, acceleration).unwrap()
 }
 
-/// The enclosures of a segment may overlap at the start although the bodies do not.
+/// Tests bodies side by side along a segment: the enclosures may overlap at the start although the bodies do not.
 #[test]
 fn bodies_beside_each_other_do_not_overlap() {
     let (ball, slab) = (ball(0.5), Body::cuboid([9.0, 9.0, 1.0]).unwrap());
@@ -39,7 +39,7 @@ fn bodies_beside_each_other_do_not_overlap() {
     assert!(matches!(any, Outcome::Overlapping { .. }), "{any:?}");
 }
 
-/// Later segments are examined first, and there one body may be inside the other.
+/// Tests a body that begins inside another one, although later segments are examined first.
 #[cfg(feature = "meshes")]
 #[test]
 fn a_body_that_begins_inside_is_never_said_to_be_outside() {
@@ -76,7 +76,7 @@ fn a_body_that_begins_inside_is_never_said_to_be_outside() {
     }
 }
 
-/// A half turn can go either way: a path and a motion choose the same one.
+/// Tests that a path and a motion resolve the ambiguity of a half turn in the same way.
 #[test]
 fn half_turns_go_the_way_of_motions() {
     let turns: [f64; 4] = [
@@ -146,8 +146,8 @@ fn queries_after_the_end_of_a_trajectory_are_answered() {
     assert_eq!(hit.unwrap().hit(), Ok(None));
 }
 
-/// A ball flies at a cylinder and a cone from all sides. The contact is no later than that of the true shapes, and
-/// earlier by at most the excess and the tolerance.
+/// Tests a ball that flies at a cylinder and a cone from all sides. The contact is no later than that of the true
+/// shapes, and earlier by at most the excess and the tolerance.
 #[test]
 fn round_bodies_are_touched_when_the_true_shapes_are() {
     let (radius, half_height, ball_radius) = (1.5, 2.0, 0.25);

@@ -3,17 +3,17 @@
 use crate::Remark;
 use crate::table::error::TableError;
 use crate::table::foreign;
-use crate::table::oddities::Oddities;
+use crate::table::remark_collector::RemarkCollector;
 use std::ops::Range;
 
-/// One of the two bodies.
+/// Body A or body B of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::table) enum Side {
     A,
     B,
 }
 
-/// A quantity of a body, held by consecutive columns.
+/// A vector or quaternion of a body, whose components are in consecutive columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::table) enum Quantity {
     Position,
@@ -25,30 +25,30 @@ pub(in crate::table) enum Quantity {
     Centre,
 }
 
-/// The content of a row.
+/// Which kind of table a row belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// The motions of both bodies.
+    /// Each row has the motions of both bodies.
     Motions,
-    /// The poses of both bodies at a time.
+    /// Each row has the poses of both bodies at a time.
     Paths,
-    /// A body of a scene, and its motion.
+    /// Each row has a body of a scene, and its motion.
     Scene,
 }
 
 /// The columns of a body in a table of motions, without the body's prefix.
-const OF_BODY: [&str; 23] = [
+const BODY_COLUMNS: [&str; 23] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
     "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
 /// The columns of a body in a table of paths, without the body's prefix.
-const OF_POSE: [&str; 13] = [
+const POSE_COLUMNS: [&str; 13] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
 impl Form {
-    /// Returns all columns in order.
+    /// Returns the names of all columns in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = self.prefixes().iter().flat_map(|prefix| {
             let of_body = self.of_body().iter();
@@ -63,7 +63,7 @@ impl Form {
         owned(before).chain(bodies).chain(owned(after)).collect()
     }
 
-    /// Returns the prefixes of the columns of each body.
+    /// Returns the prefixes of column names, one for each body.
     fn prefixes(self) -> &'static [&'static str] {
         match self {
             Form::Motions | Form::Paths => &["a_", "b_"],
@@ -71,13 +71,14 @@ impl Form {
         }
     }
 
-    /// Returns the bodies of a row.
+    /// Returns the bodies that a row describes.
     fn sides(self) -> impl Iterator<Item = Side> {
         [Side::A, Side::B].into_iter().take(self.prefixes().len())
     }
 
-    /// Returns the slots of a quantity's components; empty if such a table does not have it.
-    pub(in crate::table) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
+    /// Returns the known columns that hold a quantity's components, as indices into [`Form::names`]; empty if tables of
+    /// this kind do not have it.
+    pub(in crate::table) fn column_range(self, side: Side, quantity: Quantity) -> Range<usize> {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
@@ -101,16 +102,16 @@ impl Form {
         first + within.start..first + within.end
     }
 
-    /// Returns the columns of a body.
+    /// Returns the names of a body's columns, without its prefix.
     fn of_body(self) -> &'static [&'static str] {
         match self {
-            Form::Motions | Form::Scene => &OF_BODY,
-            Form::Paths => &OF_POSE,
+            Form::Motions | Form::Scene => &BODY_COLUMNS,
+            Form::Paths => &POSE_COLUMNS,
         }
     }
 
-    /// Lists the columns for messages.
-    pub(in crate::table) fn listed(self) -> &'static str {
+    /// Returns the names of all columns as text for messages.
+    pub(in crate::table) fn listed_names(self) -> &'static str {
         match self {
             Form::Motions => {
                 "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
@@ -129,15 +130,15 @@ impl Form {
     }
 }
 
-/// The columns of a table of motions, of paths or of a scene.
+/// Which of the known columns a table of motions, of paths or of a scene has, and where.
 #[derive(Debug)]
 pub struct Columns {
     form: Form,
     names: Vec<String>,
-    /// The cell of each known column.
+    /// For each known column, the index of its cell in a row; `None` if the table does not have it.
     cells: Vec<Option<usize>>,
     len: usize,
-    oddities: Oddities,
+    remark_collector: RemarkCollector,
 }
 
 impl Columns {
@@ -164,13 +165,13 @@ impl Columns {
         }
         let names = form.names();
         if let Some(number) = number_without_names(header, &names) {
-            let known = form.listed();
+            let known = form.listed_names();
             return Err(TableError::NoHeader { number, known });
         }
         let mut cells = vec![None; names.len()];
         for (cell, column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(unknown(header, column, form));
+                return Err(unknown_column(header, column, form));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -183,7 +184,7 @@ impl Columns {
             names,
             cells,
             len: header.len(),
-            oddities: Oddities::default(),
+            remark_collector: RemarkCollector::default(),
         };
         columns.check_whole()?;
         Ok(columns)
@@ -200,7 +201,7 @@ impl Columns {
             for &quantity in [Quantity::Orientation].iter().chain(further) {
                 let is_there = |&slot: &usize| self.cells[slot].is_some();
                 let (given, missing): (Vec<usize>, Vec<usize>) =
-                    self.slots(side, quantity).partition(is_there);
+                    self.column_range(side, quantity).partition(is_there);
                 if let (Some(&given), Some(&missing)) = (given.first(), missing.first()) {
                     return Err(self.missing(given, missing));
                 }
@@ -213,9 +214,9 @@ impl Columns {
     /// Refuses angular velocities in a table of paths without orientations.
     fn check_spin(&self, side: Side) -> Result<(), TableError> {
         let is_there = |&slot: &usize| self.cells[slot].is_some();
-        let spin = self.slots(side, Quantity::Spin).find(is_there);
+        let spin = self.column_range(side, Quantity::Spin).find(is_there);
         let orientation = self
-            .slots(side, Quantity::Orientation)
+            .column_range(side, Quantity::Orientation)
             .find(|slot| !is_there(slot));
         match (self.form, spin, orientation) {
             (Form::Paths, Some(given), Some(missing)) => Err(self.missing(given, missing)),
@@ -237,19 +238,19 @@ impl Columns {
 
     /// Returns the remarks about the rows read so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
-        self.oddities.remarks()
+        self.remark_collector.remarks()
     }
 
-    pub(in crate::table) fn oddities(&self) -> &Oddities {
-        &self.oddities
+    pub(in crate::table) fn remark_collector(&self) -> &RemarkCollector {
+        &self.remark_collector
     }
 
-    /// Returns the slots of a quantity's components.
-    pub(in crate::table) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
-        self.form.slots(side, quantity)
+    /// Returns the known columns that hold a quantity's components.
+    pub(in crate::table) fn column_range(&self, side: Side, quantity: Quantity) -> Range<usize> {
+        self.form.column_range(side, quantity)
     }
 
-    /// Returns the number of columns of the table.
+    /// Returns the number of columns in the table's header.
     pub(in crate::table) fn len(&self) -> usize {
         self.len
     }
@@ -258,12 +259,12 @@ impl Columns {
         &self.names[slot]
     }
 
-    /// Returns the index of the cell of a column.
+    /// Returns the index of a known column's cell in a row; `None` if the table does not have it.
     pub(in crate::table) fn index(&self, slot: usize) -> Option<usize> {
         self.cells[slot]
     }
 
-    /// Returns the name of the column at a cell's index.
+    /// Returns the name of the column of the cell at an index.
     pub(in crate::table) fn name_at(&self, index: usize) -> &str {
         let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
@@ -284,7 +285,7 @@ fn number_without_names(header: &[String], names: &[String]) -> Option<String> {
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown(header: &[String], column: &str, form: Form) -> TableError {
+fn unknown_column(header: &[String], column: &str, form: Form) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::separator(column)) {
         return TableError::Separator {
             found: separator,
@@ -299,7 +300,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     if lower == "time" {
         return TableError::UnknownColumn {
             column: column.to_owned(),
-            known: form.listed(),
+            known: form.listed_names(),
             nearest: Some(TIME_NAME.to_owned()),
         };
     }
@@ -314,7 +315,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     let of_other_form = form == Form::Paths && Form::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
-        known: form.listed(),
+        known: form.listed_names(),
         // Names are short, so that a larger edit distance means another name.
         nearest: nearest
             .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
@@ -323,7 +324,7 @@ fn unknown(header: &[String], column: &str, form: Form) -> TableError {
     }
 }
 
-/// Returns the body's prefix of a name of an Euler angle or a rotation vector.
+/// Returns the body's prefix of a column name that is an Euler angle or a rotation vector; `None` for other names.
 fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
     let (prefixes, usual): (&[&str], _) = match form {
         Form::Motions | Form::Paths => (&["a_end_", "b_end_", "a_", "b_"], "a_"),
@@ -332,25 +333,25 @@ fn prefix_of_angle(lower: &str, form: Form) -> Option<&'static str> {
     let found = prefixes.iter().find(|prefix| lower.starts_with(*prefix));
     let prefix = found.copied().unwrap_or(usual);
     let name = lower.strip_prefix(prefix).unwrap_or(lower);
-    ANGLES.contains(&name).then_some(prefix)
+    ANGLE_NAMES.contains(&name).then_some(prefix)
 }
 
 /// Typical names of columns of angles, without the body's prefix.
-const ANGLES: [&str; 27] = [
+const ANGLE_NAMES: [&str; 27] = [
     "rx", "ry", "rz", "roll", "pitch", "yaw", "heading", "rpy", "euler", "alpha", "beta", "gamma",
     "phi", "theta", "psi", "rot_x", "rot_y", "rot_z", "rotx", "roty", "rotz", "euler_x", "euler_y",
     "euler_z", "angle_x", "angle_y", "angle_z",
 ];
 
-/// The slot of the id.
-pub(in crate::table) const ID: usize = 0;
-/// The slot of the duration of motions.
-pub(in crate::table) const DURATION: usize = 2 * OF_BODY.len() + 1;
-/// The slot of the time of poses.
-pub(in crate::table) const TIME: usize = 1;
+/// The index of the column `id` among the known columns.
+pub(in crate::table) const ID_COLUMN: usize = 0;
+/// The index of the column `duration` among those of a table of motions.
+pub(in crate::table) const DURATION_COLUMN: usize = 2 * BODY_COLUMNS.len() + 1;
+/// The index of the column `t` among those of a table of paths.
+pub(in crate::table) const TIME_COLUMN: usize = 1;
 const TIME_NAME: &str = "t";
-/// The slot of the description of a scene's body.
+/// The index of the column `body` among those of a scene's table.
 #[cfg(feature = "command")]
-pub(crate) const BODY: usize = OF_BODY.len() + 1;
-/// The name of the column of the description of a scene's body.
+pub(crate) const BODY: usize = BODY_COLUMNS.len() + 1;
+/// The name of the column that describes a body in a scene's table.
 pub(crate) const BODY_NAME: &str = "body";

@@ -8,7 +8,7 @@ use crate::table::courses::Course;
 use crate::table::results::{Column, ResultRow, columns_of};
 use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Settings};
 
-/// Returns the columns, in order.
+/// Returns the columns of the table of contacts, in order.
 pub(crate) fn columns() -> Vec<Column> {
     columns_of(
         &["id", "time", "feature_a", "feature_b"],

@@ -11,7 +11,7 @@ use crate::Remark;
 use ccd_core::{InputError, Pose, Trajectory};
 use std::io;
 
-/// The motions of both bodies in a query.
+/// The motions or paths of both bodies in one query.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Course {
     /// Motions at constant velocities.
@@ -28,7 +28,7 @@ impl Course {
         }
     }
 
-    /// Returns the duration.
+    /// Returns the duration of the motions or paths, in their unit of time.
     pub fn duration(&self) -> f64 {
         match *self {
             Course::Motions(Motions { duration, .. }) | Course::Path(Path { duration, .. }) => {
@@ -37,7 +37,7 @@ impl Course {
         }
     }
 
-    /// Returns the table's time at the start.
+    /// Returns the table's time that corresponds to the query's time 0.
     pub fn start(&self) -> f64 {
         match self {
             Course::Motions(_) => 0.0,
@@ -45,7 +45,7 @@ impl Course {
         }
     }
 
-    /// Returns how both bodies move.
+    /// Returns the trajectories of both bodies.
     pub fn trajectories(&self) -> [&dyn Trajectory; 2] {
         match self {
             Course::Motions(Motions { a, b, .. }) => [a, b],
@@ -53,7 +53,7 @@ impl Course {
         }
     }
 
-    /// Returns the poses of both bodies at a time from the start.
+    /// Returns the poses of both bodies at a time, measured from the start.
     ///
     /// # Errors
     /// A pose is out of range.
@@ -64,7 +64,7 @@ impl Course {
         }
     }
 
-    /// Converts a time from the start to the table's time, rounded down.
+    /// Converts a time measured from the start to the table's time, rounded down.
     pub fn earliest(&self, time: f64) -> f64 {
         match self {
             Course::Motions(_) => time,
@@ -72,7 +72,7 @@ impl Course {
         }
     }
 
-    /// Converts a time from the start to the table's time, rounded up.
+    /// Converts a time measured from the start to the table's time, rounded up.
     pub fn latest(&self, time: f64) -> f64 {
         match self {
             Course::Motions(_) => time,
@@ -81,7 +81,7 @@ impl Course {
     }
 }
 
-/// An iterator over the rows of a table of motions or paths.
+/// An iterator over the queries in a table of motions or paths.
 #[derive(Debug)]
 pub enum Courses<S> {
     /// Each row is a query.
@@ -90,7 +90,7 @@ pub enum Courses<S> {
     Paths(PathRows<S>),
 }
 
-/// A valid row, or the error of a bad one.
+/// The motions or paths of a query with its position in the table, or the error of a bad row.
 pub type CourseRow = Result<(RowPosition, Course), RowError>;
 
 impl<R: io::Read> Courses<CsvRecords<R>> {

@@ -1,4 +1,4 @@
-//! The records of a CSV table, with their positions and a checksum.
+//! Reads a CSV table record by record, with positions and a checksum.
 
 use crate::table::columns::Columns;
 use crate::table::error::{RowProblem, TableError};
@@ -149,7 +149,7 @@ impl Cells for Vec<&str> {
     }
 }
 
-/// Adds the cells of a record and their ends to a checksum.
+/// Adds the cells of a record, each with a separator, to a checksum.
 fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     checksum.update(record.as_slice());
     for cell in record {
@@ -157,7 +157,7 @@ fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     }
 }
 
-/// Returns the line of an unclosed quote in the last record.
+/// Returns the line of a quote that the last record opens and does not close; `None` without one.
 fn unclosed<R: Read>(reader: &Reader<R>) -> Option<u64> {
     let (quotes, _) = reader.get_ref().get_ref();
     quotes.unclosed(reader.position().line())

@@ -15,7 +15,7 @@ pub enum TableError {
     /// The file has another format.
     #[error("is {format}, not CSV; export it as CSV, in UTF-8")]
     NotCsv {
-        /// The format.
+        /// The name of the other format.
         format: &'static str,
     },
     /// The file is a Git LFS pointer.
@@ -52,7 +52,7 @@ pub enum TableError {
         /// The header.
         header: String,
     },
-    /// A column is unknown. To ignore it could silently drop a motion.
+    /// The header has a column that is not known. To ignore it could silently drop a motion.
     #[error("header: unknown column `{column}`; {}", Suggestion(.nearest.as_deref(), .known))]
     UnknownColumn {
         /// The name of the column.
@@ -82,7 +82,7 @@ pub enum TableError {
         /// The placeholder name.
         column: String,
     },
-    /// A column appears twice.
+    /// A column appears twice in the header.
     #[error("header: column `{column}` appears twice")]
     RepeatedColumn {
         /// The name of the column.
@@ -91,12 +91,12 @@ pub enum TableError {
     /// A column is missing that another one requires.
     #[error("header: no column `{missing}`, but column `{given}` needs it")]
     MissingColumn {
-        /// The column that is there.
+        /// The column that the header has.
         given: String,
-        /// The missing column.
+        /// The column that the header lacks.
         missing: String,
     },
-    /// The table is empty.
+    /// The table has no header.
     #[error("is empty: the first line must name the columns")]
     Empty,
 }
@@ -118,7 +118,7 @@ impl fmt::Display for RowOrHeader<'_> {
     }
 }
 
-/// The most similar column, or a list of all columns.
+/// Displays the most similar column, or a list of all columns.
 struct Suggestion<'a>(Option<&'a str>, &'a str);
 
 impl fmt::Display for Suggestion<'_> {
@@ -130,19 +130,19 @@ impl fmt::Display for Suggestion<'_> {
     }
 }
 
-/// The error of a row.
+/// The error of one row of a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{position}: {problem}")]
 pub struct RowError {
-    /// The position of the row.
+    /// The position of the row in the table.
     pub position: RowPosition,
     /// The id of the row.
     pub id: String,
-    /// The problem.
+    /// What is wrong with the row.
     pub problem: RowProblem,
 }
 
-/// A problem of a row.
+/// What is wrong with a row.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowProblem {
@@ -181,9 +181,9 @@ pub enum RowProblem {
         .value.map(|part| Number(part).to_string()).join(" ")
     )]
     ZeroQuaternion {
-        /// The four columns.
+        /// The four columns of the quaternion.
         columns: Vec<String>,
-        /// The four values.
+        /// The four values of the quaternion.
         value: [f64; 4],
     },
     /// A row gives both the end pose and a velocity of a body.
@@ -197,9 +197,9 @@ pub enum RowProblem {
     /// The duration is out of range.
     #[error("column duration: {} is not {allowed}", Number(*.value))]
     BadDuration {
-        /// The duration.
+        /// The given duration.
         value: f64,
-        /// The allowed values.
+        /// The allowed durations, in words.
         allowed: &'static str,
     },
     /// The times of a path do not increase.
@@ -223,7 +223,7 @@ pub enum RowProblem {
     TooLate {
         /// The time of the row.
         time: f64,
-        /// The first time of the path.
+        /// The time of the path's first row.
         first: f64,
     },
     /// A row has no id, in a table with ids.
@@ -240,7 +240,7 @@ pub enum RowProblem {
         "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
     )]
     CentreMoves {
-        /// The prefix of the body.
+        /// The letter of the body, as in the columns' prefix.
         body: char,
     },
     /// The angular velocity of the row before does not lead to the orientation of this one.
@@ -249,7 +249,7 @@ pub enum RowProblem {
          a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
     )]
     LedElsewhere {
-        /// The prefix of the body.
+        /// The letter of the body, as in the columns' prefix.
         body: char,
         /// The angle between both orientations, in radians.
         left: f64,

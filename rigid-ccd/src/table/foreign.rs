@@ -1,7 +1,7 @@
-//! Detection of files that are not CSV by their first bytes.
+//! Recognises files that are not CSV by their first bytes.
 
-/// The first bytes of other formats, with their names.
-const BEGINNINGS: [(&[u8], &str); 8] = [
+/// The first bytes of other file formats, each with the name of the format.
+const FILE_SIGNATURES: [(&[u8], &str); 8] = [
     (b"PAR1", "Parquet"),
     (b"ARROW1", "Arrow"),
     (b"\x1f\x8b", "gzip"),
@@ -13,17 +13,17 @@ const BEGINNINGS: [(&[u8], &str); 8] = [
 ];
 
 /// The first bytes of a Git LFS pointer, which stands for a file that is not fetched yet.
-const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
+const LFS_SIGNATURE: &[u8] = b"version https://git-lfs";
 
 /// Returns whether a header belongs to a Git LFS pointer.
 pub(super) fn is_lfs_pointer(header: &csv::ByteRecord) -> bool {
-    header.as_slice().starts_with(LFS_BEGINNING)
+    header.as_slice().starts_with(LFS_SIGNATURE)
 }
 
-/// Returns the format of a binary file from its header.
+/// Returns the format of a binary file, recognised by its header; `None` for text.
 pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
-    let known = BEGINNINGS
+    let known = FILE_SIGNATURES
         .iter()
         .find(|(begin, _)| bytes.starts_with(begin));
     known
@@ -36,7 +36,7 @@ pub(super) fn is_index_of_pandas(column: &str) -> bool {
     column.is_empty() || column.starts_with("__index_level_")
 }
 
-/// Returns the separator of a header without commas.
+/// Returns the separator in a header that has no commas; `None` if there is none.
 pub(super) fn separator(header: &str) -> Option<char> {
     [';', '\t', '|']
         .into_iter()

@@ -1,4 +1,4 @@
-//! Normalisation of line ends.
+//! Converts line ends to `\n`.
 
 use std::io::{self, Read};
 
@@ -31,10 +31,10 @@ impl<R: Read> Lines<R> {
         self.bytes.min(taken + self.left_out)
     }
 
-    /// Reads some bytes of the input; the first read has more bytes than a byte order mark.
-    fn some(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        const MARK: usize = 3;
-        let (start, least) = (self.bytes == 0, out.len().min(MARK + 1));
+    /// Reads some bytes of the input; the first call reads enough for a byte order mark.
+    fn read_some(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        const MARK_LENGTH: usize = 3;
+        let (start, least) = (self.bytes == 0, out.len().min(MARK_LENGTH + 1));
         let mut read = 0;
         loop {
             match self.input.read(&mut out[read..]) {
@@ -53,7 +53,7 @@ impl<R: Read> Lines<R> {
 impl<R: Read> Read for Lines<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         loop {
-            let read = self.some(out)?;
+            let read = self.read_some(out)?;
             self.bytes += read as u64;
             // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
             if !self.after_return && !out[..read].contains(&b'\r') {

@@ -1,4 +1,4 @@
-//! The table of motions: CSV read as motions of two bodies, and written.
+//! Reads and writes the table of motions: CSV with one row for each query.
 
 pub(in crate::table) mod row;
 #[cfg(test)]
@@ -24,9 +24,9 @@ use std::io;
 pub struct Motions {
     /// The id of the row in the results.
     pub id: String,
-    /// The motion of body A.
+    /// The motion of body A, from time 0.
     pub a: Motion,
-    /// The motion of body B.
+    /// The motion of body B, from time 0.
     pub b: Motion,
     /// The end of the motions, in their unit of time.
     pub duration: f64,
@@ -74,7 +74,7 @@ pub struct MotionRows<S> {
     columns: Columns,
 }
 
-/// A valid row, or the error of a bad one.
+/// The motions of a valid row with its position, or the error of a bad row.
 pub type MotionRow = Result<(RowPosition, Motions), RowError>;
 
 impl<R: io::Read> MotionRows<CsvRecords<R>> {

@@ -1,4 +1,4 @@
-//! The table of paths: CSV with a row for each pose of two bodies, grouped by id.
+//! Reads the table of paths: CSV with a row for each pose of two bodies, grouped by id.
 
 #[cfg(test)]
 mod tests;
@@ -10,14 +10,14 @@ use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
 use crate::trajectory;
-use crate::trajectory::poses::{MOST_LEFT, leftover};
+use crate::trajectory::poses::{MOST_LEFTOVER, leftover};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Pose, Trajectory};
 use std::collections::HashSet;
 use std::hash::{BuildHasher, RandomState};
 
-/// The paths of two bodies over one duration.
+/// The paths of two bodies over the same time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// The id of the row in the results.
@@ -26,20 +26,20 @@ pub struct Path {
     pub a: trajectory::Poses,
     /// The path of body B, from time 0.
     pub b: trajectory::Poses,
-    /// The table's time at time 0.
+    /// The time in the table's column `t` that corresponds to the query's time 0.
     pub start: f64,
-    /// The table's time at the end.
+    /// The time in the table's column `t` at which the path ends.
     pub end: f64,
-    /// The end of the paths.
+    /// The duration of the paths: `end − start`, rounded.
     pub duration: f64,
 }
 
-/// The rows of a table that form one path.
+/// Which rows of a table form one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// All consecutive rows with the same id.
+    /// All consecutive rows with the same id form a path.
     ById,
-    /// Each row alone, at rest.
+    /// Each row alone is a query of two bodies at rest.
     EachRow,
 }
 
@@ -58,14 +58,14 @@ pub struct PathRows<S> {
     next: Option<RowPosition>,
     /// The checksum of the header and of all rows of the paths read.
     checksum: u32,
-    /// The number of bytes up to the end of these rows.
+    /// The number of bytes of the input up to the end of the paths read.
     bytes: u64,
-    /// Hashes of the ids of the paths read.
+    /// The hashes of the ids of the paths read, to find ids that appear again.
     known: HashSet<u64>,
     hasher: RandomState,
 }
 
-/// A valid path, or the error of a bad one.
+/// The paths of a query with their position, or the error of a bad row.
 type PathRow = Result<(RowPosition, Path), RowError>;
 
 impl<S: Records> PathRows<S> {
@@ -124,7 +124,7 @@ impl<S: Records> PathRows<S> {
     fn read(
         &mut self,
         mut row: impl FnMut(RowPosition, &Columns, &S::Record),
-    ) -> Result<Option<Beginning>, TableError> {
+    ) -> Result<Option<FirstRow>, TableError> {
         let Some(position) = self.next.take() else {
             return Ok(None);
         };
@@ -151,7 +151,7 @@ impl<S: Records> PathRows<S> {
         }
         let index = self.paths;
         self.paths += 1;
-        Ok(Some(Beginning {
+        Ok(Some(FirstRow {
             position,
             id: id.unwrap_or_else(|| index.to_string()),
             seen,
@@ -163,14 +163,14 @@ impl<S: Records> PathRows<S> {
         let mut bad: Option<(RowPosition, RowProblem)> = None;
         let read = self.read(|position, columns, record| {
             if bad.is_none() {
-                let found = row::poses(columns, record).and_then(|row| after(&poses, row));
+                let found = row::poses(columns, record).and_then(|row| checked_after(&poses, row));
                 match found {
                     Ok(row) => poses.push(row),
                     Err(problem) => bad = Some((position, problem)),
                 }
             }
         })?;
-        let Some(Beginning { position, id, seen }) = read else {
+        let Some(FirstRow { position, id, seen }) = read else {
             return Ok(None);
         };
         if seen {
@@ -192,16 +192,16 @@ impl<S: Records> PathRows<S> {
     }
 }
 
-/// The first row of a path.
-struct Beginning {
+/// What the first row says about its path.
+struct FirstRow {
     position: RowPosition,
     id: String,
     /// Whether an earlier path has the same id.
     seen: bool,
 }
 
-/// Refuses a row that is not later than the row before, also after subtracting the first time.
-fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
+/// Returns `row`, or an error if it is not later than the row before, also after subtracting the first time.
+fn checked_after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
@@ -219,19 +219,23 @@ fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
             first: first.time,
         });
     }
-    follows('a', [before.a, row.a], since - since_before)?;
-    follows('b', [before.b, row.b], since - since_before)?;
+    check_orientation('a', [before.a, row.a], since - since_before)?;
+    check_orientation('b', [before.b, row.b], since - since_before)?;
     Ok(row)
 }
 
-/// Refuses a row whose orientation the angular velocity of the row before does not lead to.
-fn follows(body: char, [before, row]: [BodyPose; 2], duration: f64) -> Result<(), RowProblem> {
+/// Refuses a row whose orientation is not where the angular velocity of the row before leads.
+fn check_orientation(
+    body: char,
+    [before, row]: [BodyPose; 2],
+    duration: f64,
+) -> Result<(), RowProblem> {
     if before.centre != row.centre {
         return Err(RowProblem::CentreMoves { body });
     }
     let left = length(leftover([&before.pose, &row.pose], before.spin, duration));
     // Written so that NaN is refused.
-    if before.spin == DVec3::ZERO || left <= MOST_LEFT {
+    if before.spin == DVec3::ZERO || left <= MOST_LEFTOVER {
         Ok(())
     } else {
         Err(RowProblem::LedElsewhere { body, left })
@@ -239,7 +243,7 @@ fn follows(body: char, [before, row]: [BodyPose; 2], duration: f64) -> Result<()
 }
 
 impl Path {
-    /// Creates a path through `rows`, which is not empty.
+    /// Creates the paths of both bodies from at least one row.
     fn new(id: &str, rows: &[Poses]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
         let of = |body: fn(&Poses) -> BodyPose| {
@@ -263,7 +267,7 @@ impl Path {
         })
     }
 
-    /// Returns the poses of both bodies at a time from the start.
+    /// Returns the poses of both bodies at a time, measured from the start.
     ///
     /// # Errors
     /// [`InputError`]: a pose is out of range.
@@ -276,12 +280,12 @@ impl Path {
         self.a.times()
     }
 
-    /// Converts a time from the start to the table's time, rounded down.
+    /// Converts a time measured from the start to the table's time, rounded down.
     pub fn earliest(&self, time: f64) -> f64 {
         self.in_table(time, -1.0)
     }
 
-    /// Converts a time from the start to the table's time, rounded up.
+    /// Converts a time measured from the start to the table's time, rounded up.
     pub fn latest(&self, time: f64) -> f64 {
         self.in_table(time, 1.0)
     }

@@ -1,4 +1,4 @@
-//! The position of a row.
+//! The position of a row in a table, for messages.
 
 use std::fmt;
 

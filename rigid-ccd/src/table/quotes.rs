@@ -1,4 +1,4 @@
-//! Detection of unclosed quotes in CSV, which would turn the rest of the table into one cell.
+//! Detects unclosed quotes in CSV, which would turn the rest of the table into one cell.
 
 #[cfg(test)]
 mod tests;
@@ -14,20 +14,20 @@ pub struct Quotes<R> {
     line: u64,
     /// The line on which the last quoted cell began.
     opened: u64,
-    /// The number of bytes of a byte order mark read so far; `None` after its place.
+    /// The number of bytes of a byte order mark read so far; `None` once the mark or the first cell is read.
     mark: Option<usize>,
 }
 
-/// The position of the next byte within a cell.
+/// The state of the reader between two bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// At the first byte, the only place where a quote opens.
+    /// The next byte is the first of a cell, the only place where a quote opens.
     Start,
-    /// Within a cell without quotes, or after the closing quote.
+    /// The next byte is within a cell without quotes, or after the closing quote.
     Plain,
-    /// Between quotes.
+    /// The next byte is between quotes.
     Quoted,
-    /// After a quote that closes the cell unless another quote follows.
+    /// The last byte was a quote that closes the cell unless another quote follows.
     Closing,
 }
 
@@ -45,7 +45,7 @@ impl<R> Quotes<R> {
         }
     }
 
-    /// Returns the input.
+    /// Returns the reader from which this one reads.
     pub fn input(&self) -> &R {
         &self.input
     }

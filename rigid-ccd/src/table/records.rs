@@ -1,4 +1,4 @@
-//! Tables of any format, as rows of cells.
+//! Interfaces for tables of any format that are read as rows of cells.
 
 use super::columns::Columns;
 use super::error::{RowProblem, TableError};
@@ -6,7 +6,7 @@ use super::position::RowPosition;
 
 /// A table that is read row by row.
 pub trait Records {
-    /// A row.
+    /// The type of a row before parsing.
     type Record: Record + ?Sized;
 
     /// Returns the names of the columns; called before the first row is read.
@@ -42,7 +42,7 @@ pub trait Record {
     where
         Self: 'r;
 
-    /// Returns the cells.
+    /// Returns the cells of the row.
     ///
     /// # Errors
     /// The row does not have the cells of the header, as text.

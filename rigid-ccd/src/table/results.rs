@@ -1,4 +1,4 @@
-//! The table of results, written as CSV.
+//! The rows of the table of results, which are written as CSV.
 
 #[cfg(test)]
 mod tests;
@@ -22,7 +22,7 @@ use std::io;
 /// The clearance that distances are compared with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Compared {
-    /// The required distance, if any.
+    /// The required distance of the bodies, if one is given.
     pub clearance: Option<f64>,
     /// The sum of both bodies' [excess](ccd_core::Body::with_excess) over their shapes; named in a reason, never added
     /// to a distance.
@@ -30,8 +30,8 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Returns the reason of a clearance that is not verified.
-    fn within_bounds(&self) -> String {
+    /// Returns the reason for a clearance that is neither proven kept nor proven violated.
+    fn reason_unverified(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
         match self.clearance {
             _ if self.excess > 0.0 => format!(
@@ -45,12 +45,12 @@ impl Compared {
     }
 }
 
-/// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
+/// One row of the table of results, in the order of [`COLUMNS`]; cells that do not apply are empty.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 pub struct ResultRow {
     /// The id in the table of motions.
     pub id: String,
-    /// The status.
+    /// The kind of the answer, or that the row is an error.
     pub status: Status,
     /// The time before which there is no contact, certified unless the bound is the published one; the duration for a
     /// free row.
@@ -67,9 +67,9 @@ pub struct ResultRow {
     pub witness_a: [Option<f64>; 3],
     /// The nearest point of B, in the world frame at `time`.
     pub witness_b: [Option<f64>; 3],
-    /// The feature of A in contact.
+    /// The mesh feature of A in contact, such as `v7`.
     pub feature_a: Option<String>,
-    /// The feature of B in contact.
+    /// The mesh feature of B in contact, such as `e3`.
     pub feature_b: Option<String>,
     /// The number of pairs of nodes visited.
     pub iterations: Option<u64>,
@@ -82,7 +82,7 @@ pub struct ResultRow {
     /// The time after which there is no contact.
     #[serde(skip)]
     pub last_time: Option<f64>,
-    /// The counters.
+    /// The counters of the search's work.
     #[serde(skip)]
     pub counters: Option<Stats>,
 }
@@ -138,7 +138,7 @@ impl ResultRow {
             micros: Some(micros),
             reason: match (outcome.limit(), status) {
                 (Some(limit), _) => Some(limit.to_string()),
-                (None, Status::Unverified) => Some(compared.within_bounds()),
+                (None, Status::Unverified) => Some(compared.reason_unverified()),
                 (None, _) => None,
             },
             counters: Some(answer.stats),
@@ -158,7 +158,7 @@ impl ResultRow {
         }
     }
 
-    /// Adds the contact of an outcome to the row.
+    /// Returns the row with the contact of an outcome added.
     fn with_contacts(self, outcome: &Outcome, duration: f64) -> Self {
         match *outcome {
             Outcome::Free { .. } => self.at(duration),
@@ -177,7 +177,7 @@ impl ResultRow {
         }
     }
 
-    /// Adds the distance of an outcome to the row.
+    /// Returns the row with the distance of an outcome added.
     fn with_distance(self, outcome: &Outcome, duration: f64) -> Self {
         let row = match *outcome {
             Outcome::Overlapping { overlap, upper } => {

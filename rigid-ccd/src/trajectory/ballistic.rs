@@ -1,4 +1,4 @@
-//! A thrown body.
+//! The trajectory of a thrown body.
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
@@ -74,7 +74,7 @@ impl Smooth for Ballistic {
         Ok((self.tangent(time)?, Some(acceleration)))
     }
 
-    /// Bounds the rounding of the rotation since the throw and of the displacement.
+    /// Bounds the rounding errors of poses between two times.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Ballistic {
             thrown,

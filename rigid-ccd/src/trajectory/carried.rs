@@ -49,7 +49,7 @@ impl Smooth for Steady {
         Accelerations::default()
     }
 
-    /// Bounds the rounding of the rotation since time 0 and of the displacement.
+    /// Bounds the rounding errors of the rotation since time 0 and of the displacement.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Speeds { linear, angular } = speeds(&self.0);
         let time = greater(from.abs(), to.abs());
@@ -67,9 +67,9 @@ impl Bounded for Steady {
     }
 }
 
-/// Bounds on the origin of a trajectory between two times.
-struct Origin {
-    /// The motion at the middle time.
+/// Bounds on the motion of a trajectory's origin between two times.
+struct OriginBounds {
+    /// The motion that has the trajectory's pose and velocities at the middle time.
     tangent: Motion,
     speeds: Speeds,
     accelerations: Accelerations,
@@ -77,14 +77,14 @@ struct Origin {
     distance: f64,
 }
 
-impl Origin {
+impl OriginBounds {
     fn new<T: Bounded>(trajectory: &T, from: f64, to: f64) -> Result<Self, InputError> {
         let half = 0.5 * (to - from);
         let tangent = trajectory.tangent(from + half)?;
         let arm = length(tangent.centre());
         let speeds = trajectory.speeds(from, to);
         let origin = speeds.of_origin(arm);
-        Ok(Origin {
+        Ok(OriginBounds {
             accelerations: of_origin(trajectory.accelerations(from, to), speeds, arm),
             distance: length(tangent.start().translation()) + origin.linear * half,
             speeds: origin,
@@ -94,10 +94,10 @@ impl Origin {
 }
 
 impl<C: Bounded, T: Bounded> Carried<C, T> {
-    /// Returns the bounds of both parts; `None` if a part has no pose.
-    fn parts(&self, from: f64, to: f64) -> Option<[Origin; 2]> {
-        let carrier = Origin::new(&self.carrier, from, to).ok()?;
-        let inner = Origin::new(&self.inner, from, to).ok()?;
+    /// Returns the bounds for the carrier and for the carried body; `None` if either has no pose.
+    fn origin_bounds(&self, from: f64, to: f64) -> Option<[OriginBounds; 2]> {
+        let carrier = OriginBounds::new(&self.carrier, from, to).ok()?;
+        let inner = OriginBounds::new(&self.inner, from, to).ok()?;
         Some([carrier, inner])
     }
 }
@@ -118,7 +118,7 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
     }
 
     fn accelerations(&self, from: f64, to: f64) -> Accelerations {
-        let Some([carrier, inner]) = self.parts(from, to) else {
+        let Some([carrier, inner]) = self.origin_bounds(from, to) else {
             return Accelerations {
                 linear: f64::INFINITY,
                 angular: f64::INFINITY,
@@ -142,7 +142,7 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
             self.carrier.rounding(from, to),
             self.inner.rounding(from, to),
         ];
-        let Some([carrier_at, inner_at]) = self.parts(from, to) else {
+        let Some([carrier_at, inner_at]) = self.origin_bounds(from, to) else {
             return Stray::NONE;
         };
         let arms = inner_at.distance
@@ -166,7 +166,7 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
 
 impl<C: Bounded, T: Bounded> Bounded for Carried<C, T> {
     fn speeds(&self, from: f64, to: f64) -> Speeds {
-        match self.parts(from, to) {
+        match self.origin_bounds(from, to) {
             Some([carrier, inner]) => Speeds {
                 linear: carrier.speeds.linear
                     + carrier.speeds.angular * inner.distance

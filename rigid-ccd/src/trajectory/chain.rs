@@ -1,4 +1,4 @@
-//! A serial chain of links.
+//! A serial chain of links connected by joints.
 
 use super::joint::Joint;
 use ccd_core::Pose;
@@ -41,7 +41,7 @@ impl Chain {
         self.base
     }
 
-    /// Returns the joints.
+    /// Returns the joints, in order from the base.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }

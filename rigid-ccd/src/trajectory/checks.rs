@@ -1,4 +1,4 @@
-//! Checks of the numbers that make a trajectory.
+//! Checks numbers from which trajectories are made.
 
 use ccd_core::InputError;
 use ccd_core::glam::DVec3;
@@ -11,7 +11,7 @@ pub(super) fn out_of_range(what: &'static str, value: f64, allowed: &'static str
     }
 }
 
-/// Returns a vector if it is finite.
+/// Returns a vector, or an error with the name `what` if it is not finite.
 pub(super) fn finite(vector: impl Into<[f64; 3]>, what: &'static str) -> Result<DVec3, InputError> {
     let vector = DVec3::from_array(vector.into());
     if vector.is_finite() {

@@ -2,7 +2,7 @@
 
 use super::U;
 use super::checks::{check_duration, finite, out_of_range};
-use super::segments::{self, Segments};
+use super::segments::{self, Segments, greatest};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
@@ -36,7 +36,7 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points or a duration that is not
     /// positive.
     pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        let points = checked(points, 1, duration)?;
+        let points = control_points(points, 1, duration)?;
         Ok(Curve {
             segments: Segments(vec![Segment {
                 from: 0.0,
@@ -53,7 +53,7 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for less than four points or a duration that
     /// is not positive.
     pub fn b_spline(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        let points = checked(points, 4, duration)?;
+        let points = control_points(points, 4, duration)?;
         let count = points.len() - 3;
         let at = |k: usize| duration * (k as f64 / count as f64);
         let segment = |k: usize| {
@@ -71,18 +71,18 @@ impl Curve {
         })
     }
 
-    /// Returns the end time.
+    /// Returns the time at which the curve ends.
     pub fn duration(&self) -> f64 {
         self.last().to
     }
 
-    /// Returns the position at a time.
+    /// Returns the point of the curve at a time.
     pub fn position(&self, time: f64) -> DVec3 {
         let segment = self.at(time);
         segment.derivative(0, segment.share(time))
     }
 
-    /// Returns the velocity at a time.
+    /// Returns the velocity along the curve at a time.
     pub fn velocity(&self, time: f64) -> DVec3 {
         if (0.0..=self.duration()).contains(&time) {
             let segment = self.at(time);
@@ -101,11 +101,11 @@ impl Curve {
         &self.segments.0[self.segments.0.len() - 1]
     }
 
-    /// Bounds the acceleration between two times. A velocity that jumps counts as one that changes in half of
-    /// the time, by which a curve strays farther.
+    /// Bounds the magnitude of the acceleration between two times. A velocity that jumps counts as one that changes in
+    /// half of the time, by which a curve strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         let velocity = |segment: &Segment, time| segment.derivative(1, segment.share(time));
-        self.most(2, from, to) + self.segments.jumps(from, to, velocity)
+        self.derivative_bound(2, from, to) + self.segments.jump_acceleration(from, to, velocity)
     }
 
     /// Returns the acceleration at a time, with a bound on its rate of change between two times; `None` if these span
@@ -116,19 +116,19 @@ impl Curve {
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),
-            jerk: segment.most(3, from, to),
+            jerk: segment.derivative_bound(3, from, to),
         })
     }
 
-    /// Bounds the speed between two times.
+    /// Bounds the speed along the curve between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        self.most(1, from, to)
+        self.derivative_bound(1, from, to)
     }
 
-    /// Bounds the magnitude of a derivative on the segments between two times.
-    fn most(&self, order: usize, from: f64, to: f64) -> f64 {
-        self.segments.most(from, to, |segment| {
-            segment.most(order, greater(from, segment.from), lesser(to, segment.to))
+    /// Bounds the magnitude of the derivative of an order on the segments between two times.
+    fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
+        self.segments.greatest(from, to, |segment| {
+            segment.derivative_bound(order, greater(from, segment.from), lesser(to, segment.to))
         })
     }
 
@@ -137,7 +137,7 @@ impl Curve {
         self.segments.corner(from, to)
     }
 
-    /// Bounds the rounding of a position.
+    /// Bounds the rounding error of a position.
     pub(super) fn rounding(&self) -> f64 {
         let lengths = self.segments.0.iter().flat_map(|segment| {
             let degree = segment.course.len() as f64;
@@ -152,7 +152,7 @@ impl Segment {
         ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0)
     }
 
-    /// Returns a derivative by time, at a share of the segment's duration.
+    /// Returns the derivative of an order with respect to time, at a share of the segment's duration.
     fn derivative(&self, order: usize, share: f64) -> DVec3 {
         let mut points = self.differences(order);
         // De Casteljau's algorithm.
@@ -162,7 +162,7 @@ impl Segment {
         points.first().copied().unwrap_or(DVec3::ZERO)
     }
 
-    /// Returns the control points of a derivative by time; empty if it is zero.
+    /// Returns the control points of the derivative of an order with respect to time; empty if it is zero.
     fn differences(&self, order: usize) -> Vec<DVec3> {
         let mut points = self.course.clone();
         for _ in 0..order {
@@ -172,11 +172,11 @@ impl Segment {
         points
     }
 
-    /// Bounds the magnitude of a derivative between two times of the segment.
-    fn most(&self, order: usize, from: f64, to: f64) -> f64 {
+    /// Bounds the magnitude of the derivative of an order between two times of the segment.
+    fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.differences(order).into_iter();
-            points.map(length).fold(0.0, greater)
+            points.map(length).fold(0.0, greatest)
         };
         let half = 0.5 * (to - from);
         let middle = length(self.derivative(order, self.share(from + half)));
@@ -185,7 +185,11 @@ impl Segment {
     }
 }
 
-fn checked(points: &[[f64; 3]], least: usize, duration: f64) -> Result<Vec<DVec3>, InputError> {
+fn control_points(
+    points: &[[f64; 3]],
+    least: usize,
+    duration: f64,
+) -> Result<Vec<DVec3>, InputError> {
     if points.len() < least {
         let allowed = match least {
             1 => "at least 1",

@@ -1,4 +1,4 @@
-//! A joint, and the motion of the link after it.
+//! A joint of a serial chain, and the motion of the link after it.
 
 use super::checks::out_of_range;
 use super::screw::unit_axis;
@@ -27,7 +27,7 @@ pub struct Joint {
     limits: RangeInclusive<f64>,
 }
 
-/// The degree of freedom of a joint, with an axis of unit length.
+/// The degree of freedom of a joint, whose axis has unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Fixed,
@@ -71,14 +71,14 @@ impl Joint {
         })
     }
 
-    /// Sets the limits of the position. Those beyond by no more than the rounding of a position between both are
-    /// accepted.
+    /// Returns the joint with limits of its position. Those beyond by no more than the rounding of a position between
+    /// both are accepted.
     #[must_use]
     pub fn within(self, limits: RangeInclusive<f64>) -> Self {
         Joint { limits, ..self }
     }
 
-    /// Returns the limits of the position.
+    /// Returns the least and the greatest allowed position.
     pub fn limits(&self) -> &RangeInclusive<f64> {
         &self.limits
     }
@@ -134,7 +134,7 @@ impl Joint {
         }
     }
 
-    /// Refuses a position outside the limits. In a chain the joint has a number.
+    /// Refuses a position outside the joint's limits. In a chain the joint has a number.
     pub(super) fn check(&self, position: f64, joint: Option<usize>) -> Result<(), InputError> {
         let (least, greatest) = (*self.limits.start(), *self.limits.end());
         let rounding = match greater(least.abs(), greatest.abs()) {

@@ -27,7 +27,7 @@ use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, St
 #[derive(Clone, Copy, Debug)]
 pub struct Link<'c> {
     chain: &'c Chain,
-    /// The first and the last link of the moving part of the chain.
+    /// The link in whose frame this link is seen; `None` for the world.
     seen_from: Option<usize>,
     link: usize,
     from: &'c [f64],
@@ -122,7 +122,7 @@ impl<'c> Link<'c> {
         }
     }
 
-    /// Returns the joints between both links, with their positions at a time and their rates.
+    /// Returns the joints between the frame's link and this link, with their positions at a time and their rates.
     fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
         let share = time / self.duration;
         let (from, to, duration) = (self.from, self.to, self.duration);
@@ -138,31 +138,31 @@ impl<'c> Link<'c> {
         })
     }
 
-    /// Returns the pose and the velocities of the link at a time.
+    /// Returns the pose, the velocities and the accelerations of the link at a time.
     fn state(&self, time: f64) -> Result<State, InputError> {
-        let mut state = State::at(match self.seen_from {
+        let mut state = State::at_rest(match self.seen_from {
             Some(_) => Pose::IDENTITY,
             None => self.chain.base(),
         });
         for (joint, position, rate) in self.joints(time) {
-            state.pass(joint, position, rate)?;
+            state.pass_joint(joint, position, rate)?;
         }
         Ok(state)
     }
 
-    /// Returns bounds on the link's velocities and accelerations between two times.
-    fn moved(&self, from: f64, to: f64) -> Moved {
-        let mut moved = Moved::default();
+    /// Bounds the link's velocities and accelerations between two times.
+    fn link_bounds(&self, from: f64, to: f64) -> LinkBounds {
+        let mut moved = LinkBounds::default();
         let starts = self.joints(0.0);
         for ((joint, start, rate), (first, last)) in starts.zip(self.positions(from, to)) {
             let largest = greater(first.abs(), last.abs());
             let positions = Positions {
                 largest,
-                ever: greater(largest, start.abs()),
+                largest_with_start: greater(largest, start.abs()),
                 first,
                 rate: rate.abs(),
             };
-            moved.pass(joint, &positions);
+            moved.pass_joint(joint, &positions);
         }
         moved
     }
@@ -180,7 +180,7 @@ impl Smooth for Link<'_> {
     }
 
     fn accelerations(&self, from: f64, to: f64) -> Accelerations {
-        self.moved(from, to).accelerations
+        self.link_bounds(from, to).accelerations
     }
 
     fn osculating(
@@ -192,19 +192,19 @@ impl Smooth for Link<'_> {
         let state = self.state(time)?;
         let acceleration = Acceleration {
             vector: state.acceleration,
-            jerk: self.moved(from, to).jerks.linear,
+            jerk: self.link_bounds(from, to).jerks.linear,
         };
         Ok((state.tangent()?, Some(acceleration)))
     }
 
-    /// Bounds the rounding: each joint adds that of a product of poses and that of its angle.
+    /// Bounds the rounding errors of poses: each joint adds those of a product of poses and of its angle.
     fn rounding(&self, from: f64, to: f64) -> Stray {
-        let Moved {
+        let LinkBounds {
             joints,
             arms,
             angles,
             ..
-        } = self.moved(from, to);
+        } = self.link_bounds(from, to);
         let base = length(self.chain.base().translation());
         let turn = U * (24.0 * joints + 4.0 * angles);
         Stray {
@@ -216,11 +216,11 @@ impl Smooth for Link<'_> {
 
 impl Bounded for Link<'_> {
     fn speeds(&self, from: f64, to: f64) -> Speeds {
-        self.moved(from, to).speeds
+        self.link_bounds(from, to).speeds
     }
 }
 
-/// The pose of a link and its derivatives, accumulated joint by joint.
+/// The pose of a link and its derivatives at one time, accumulated joint by joint.
 struct State {
     pose: Pose,
     velocity: DVec3,
@@ -232,7 +232,7 @@ struct State {
 
 impl State {
     /// Creates the state of a link at rest.
-    fn at(pose: Pose) -> Self {
+    fn at_rest(pose: Pose) -> Self {
         State {
             pose,
             velocity: DVec3::ZERO,
@@ -246,8 +246,8 @@ impl State {
         Motion::new(self.pose, self.velocity, self.spin)
     }
 
-    /// Advances to the link after a joint.
-    fn pass(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
+    /// Replaces the state of the link before a joint by that of the link after it.
+    fn pass_joint(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
         let before = self.pose.translation();
         let held = self.pose.compose(joint.origin());
         self.pose = self.pose.compose(&joint.placed(position)?);
@@ -274,37 +274,37 @@ impl State {
 
 /// Bounds on the derivatives of a link's pose, accumulated joint by joint.
 #[derive(Clone, Copy, Debug, Default)]
-struct Moved {
+struct LinkBounds {
     speeds: Speeds,
     accelerations: Accelerations,
     /// The bounds on the derivatives of the accelerations.
     jerks: Accelerations,
-    /// The common axis of all rotations so far, in the link's frame, if there is one.
+    /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
     axis: Option<DVec3>,
-    /// The number of joints, the sum of the arms' lengths, and the sum of the angles.
+    /// The number of joints so far, the sum of the arms' lengths, and the sum of the angles in radians.
     joints: f64,
     arms: f64,
     angles: f64,
 }
 
-/// The positions of a joint in an interval of time.
+/// Bounds on the position of a joint in an interval of time, in radians or as a length.
 struct Positions {
-    /// The largest absolute value.
+    /// The largest absolute value of the position in the interval.
     largest: f64,
-    /// The largest absolute value including the position at time 0, from which all others are computed.
-    ever: f64,
+    /// The largest absolute value of the position in the interval and at time 0, from which all positions are computed.
+    largest_with_start: f64,
     first: f64,
-    /// The absolute value of the rate.
+    /// The absolute value of the joint's rate.
     rate: f64,
 }
 
-impl Moved {
-    /// Advances to the link after a joint.
-    fn pass(&mut self, joint: &Joint, positions: &Positions) {
+impl LinkBounds {
+    /// Replaces the bounds for the link before a joint by those for the link after it.
+    fn pass_joint(&mut self, joint: &Joint, positions: &Positions) {
         self.joints += 1.0;
         let length = length(joint.origin().translation());
         self.arms += length;
-        self.arm(length);
+        self.add_arm(length);
         // Rotate into the joint's frame.
         let into = joint.origin().rotation().conjugate();
         self.axis = self.axis.map(|axis| into * axis);
@@ -312,17 +312,17 @@ impl Moved {
         match joint.kind() {
             Kind::Fixed => {}
             Kind::Prismatic(_) => {
-                self.arms += positions.ever;
-                self.arm(positions.largest);
+                self.arms += positions.largest_with_start;
+                self.add_arm(positions.largest);
                 let (turn, turning) = (self.speeds.angular, self.accelerations.angular);
                 self.jerks.linear += 3.0 * rate * (turning + turn * turn);
                 self.accelerations.linear += 2.0 * turn * rate;
                 self.speeds.linear += rate;
             }
             Kind::Revolute(axis) => {
-                self.angles += positions.ever;
+                self.angles += positions.largest_with_start;
                 if rate > 0.0 {
-                    self.turn(axis, rate);
+                    self.add_rotation(axis, rate);
                 } else {
                     let held = DQuat::from_axis_angle(axis, -positions.first);
                     self.axis = self.axis.map(|before| held * before);
@@ -331,8 +331,8 @@ impl Moved {
         }
     }
 
-    /// Adds an arm that rotates with the link.
-    fn arm(&mut self, length: f64) {
+    /// Adds the motion of a point at distance `length` that rotates with the link.
+    fn add_arm(&mut self, length: f64) {
         let Speeds { angular, .. } = self.speeds;
         let turning = self.accelerations.angular;
         self.jerks.linear +=
@@ -341,15 +341,15 @@ impl Moved {
         self.speeds.linear += angular * length;
     }
 
-    /// Adds a rotation about an axis of the joint's frame, at a nonzero rate.
-    fn turn(&mut self, axis: DVec3, rate: f64) {
+    /// Adds a rotation at a nonzero rate about an axis in the joint's frame.
+    fn add_rotation(&mut self, axis: DVec3, rate: f64) {
         let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
                 let across = length(common.cross(axis));
                 // Axes that count as parallel may differ by as much each.
-                let most = across + PARALLEL * self.joints;
-                (most, (across < PARALLEL).then_some(common))
+                let most = across + PARALLEL_SINE * self.joints;
+                (most, (across < PARALLEL_SINE).then_some(common))
             }
             (true, None) => (1.0, None),
         };
@@ -362,4 +362,4 @@ impl Moved {
 }
 
 /// The sine of the largest angle between axes that count as parallel, far above rounding.
-const PARALLEL: f64 = 1e-12;
+const PARALLEL_SINE: f64 = 1e-12;

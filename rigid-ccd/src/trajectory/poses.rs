@@ -2,7 +2,7 @@
 
 mod segment;
 
-pub(crate) use segment::{MOST_LEFT, leftover};
+pub(crate) use segment::{MOST_LEFTOVER, leftover};
 
 use super::U;
 use super::checks::{check_later, finite, out_of_range};
@@ -105,7 +105,7 @@ impl Poses {
             finite(spin, "angular velocity")?;
             let left = length(leftover([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
-            if spin != DVec3::ZERO && !(left <= MOST_LEFT) {
+            if spin != DVec3::ZERO && !(left <= MOST_LEFTOVER) {
                 return Err(out_of_range(
                     "angle from where an angular velocity leads to the next pose",
                     left,
@@ -126,8 +126,8 @@ impl Poses {
         self.poses.iter().map(|&(time, _)| time)
     }
 
-    /// Returns the motion of the segment at a time, as of that time. At a pose, this is the segment before it if `to`
-    /// is not later, else the one after it. Bounds how fast its angular velocity changes, too.
+    /// Returns the motion of the segment at a time, and a bound on its angular acceleration. At a given pose, this is
+    /// the segment before the pose if `to` is not later than `time`, else the one after it.
     fn at(&self, time: f64, to: f64) -> Result<(Motion, f64), InputError> {
         let next = if to > time {
             self.poses.partition_point(|&(at, _)| at <= time)
@@ -156,7 +156,7 @@ impl Poses {
         self.centre
     }
 
-    /// Returns the given angular velocity from a pose to the next; 0 for the shortest rotation.
+    /// Returns the given angular velocity from pose `k` to the next; 0 for the shortest rotation.
     fn spin(&self, k: usize) -> DVec3 {
         self.spins.get(k).copied().unwrap_or_default()
     }
@@ -173,7 +173,7 @@ impl Poses {
     }
 
     /// Returns the poses strictly between two times.
-    fn between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
+    fn poses_between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
         &self.poses[first..last.max(first)]
@@ -186,7 +186,7 @@ impl Poses {
         let mut stray = Stray::NONE;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
         let mut last = (from, Deviation::default());
-        for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
+        for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
             let deviation = Deviation::new(&motion, &pose, self.centre, time - from);
             // The motion of the segment that ends at this pose.
             let (before, acceleration) = self.at(time, time)?;
@@ -203,7 +203,7 @@ impl Poses {
         })
     }
 
-    /// Bounds the rounding of poses between two times, which are computed from the given pose before them.
+    /// Bounds the rounding errors of poses between two times, which are computed from the given pose before them.
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
@@ -224,7 +224,7 @@ impl Poses {
 
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let stretch = if self.between(from, to).is_empty() {
+        let stretch = if self.poses_between(from, to).is_empty() {
             let (motion, acceleration) = self.at(from, to)?;
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
@@ -242,12 +242,12 @@ impl Trajectory for Poses {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let inner = self.between(from, to);
+        let inner = self.poses_between(from, to);
         inner.get(inner.len() / 2).map(|&(time, _)| time)
     }
 }
 
-/// The deviation of a motion from a pose.
+/// How far a motion is from a pose at a time: the shift of the centre, and the angle in radians.
 #[derive(Clone, Copy, Debug, Default)]
 struct Deviation {
     shift: f64,

@@ -1,9 +1,9 @@
-//! Rotation vectors.
+//! Conversion of quaternions to rotation vectors.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::length;
 
-/// Returns the shortest rotation vector of a unit quaternion.
+/// Returns the shortest rotation vector of a unit quaternion, in radians.
 pub(super) fn logarithm(q: DQuat) -> DVec3 {
     let q = if q.w < 0.0 { -q } else { q };
     let sine = length(q.xyz());

@@ -1,4 +1,4 @@
-//! Screw motions.
+//! Motions that rotate about an axis and advance along it.
 
 use super::checks::{finite, out_of_range};
 use ccd_core::glam::DVec3;
@@ -37,7 +37,7 @@ pub fn screw(
     Motion::about(start, axis * advance, axis * turn, centre)
 }
 
-/// Normalises an axis.
+/// Returns the unit vector along an axis, or an error for an axis without a direction.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
     let axis = finite(axis, "axis")?;
     unit(axis).ok_or_else(|| out_of_range("the length of an axis", 0.0, "positive"))

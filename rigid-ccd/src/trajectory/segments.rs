@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::iter::once;
 
-/// The course between two times.
+/// The part of a trajectory between two times.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Segment<T> {
     pub(super) from: f64,
@@ -12,12 +12,21 @@ pub(super) struct Segment<T> {
     pub(super) course: T,
 }
 
-/// Consecutive segments. The body rests before the first one and after the last.
+/// The consecutive segments of a trajectory. The body rests before the first one and after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Segments<T>(pub(super) Vec<Segment<T>>);
 
+/// Returns the greater of two bounds; infinity if the second one is NaN, which bounds nothing.
+pub(super) fn greatest(most: f64, bound: f64) -> f64 {
+    if bound.is_nan() {
+        f64::INFINITY
+    } else {
+        greater(most, bound)
+    }
+}
+
 impl<T> Segments<T> {
-    /// Returns the first segment that does not end before a time.
+    /// Returns the first segment that does not end before a time; `None` after the last one.
     pub(super) fn at(&self, time: f64) -> Option<&Segment<T>> {
         let next = self.0.partition_point(|segment| segment.to < time);
         self.0.get(next)
@@ -30,7 +39,7 @@ impl<T> Segments<T> {
         &rest[..rest.partition_point(|segment| segment.from <= to)]
     }
 
-    /// Returns a knot strictly between two times, about in the middle; `None` without one.
+    /// Returns a knot strictly between two times, near the middle of them; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let segments = self.overlapping(from, to);
         let middle = segments.get(segments.len() / 2)?.from;
@@ -40,15 +49,15 @@ impl<T> Segments<T> {
         knots.find(|knot| *knot > from && *knot < to)
     }
 
-    /// Returns the greatest of a bound over the segments between two times.
-    pub(super) fn most(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
+    /// Returns the greatest value of `bound` over the segments between two times.
+    pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
         let segments = self.overlapping(from, to).iter();
-        segments.map(bound).fold(0.0, greater)
+        segments.map(bound).fold(0.0, greatest)
     }
 
-    /// Returns the acceleration whose deviation over half of an interval equals that of the jumps of the velocity at the
-    /// knots strictly inside.
-    pub(super) fn jumps(
+    /// Bounds the effect of jumps of the velocity at knots strictly inside an interval, as an acceleration with the
+    /// same deviation over half of the interval.
+    pub(super) fn jump_acceleration(
         &self,
         from: f64,
         to: f64,

@@ -1,4 +1,4 @@
-//! A body that follows a curve and rotates.
+//! The trajectory of a body that follows a curve and rotates.
 
 use super::bounded::{Bounded, Speeds};
 use super::checks::finite;

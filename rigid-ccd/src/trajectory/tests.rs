@@ -1,4 +1,4 @@
-//! Random trajectories, sampled adversarially: no deviation exceeds its bound.
+//! Tests random trajectories by adversarial sampling: no deviation exceeds its bound.
 
 mod extremes;
 
@@ -23,7 +23,7 @@ fn pose(rng: &mut Rng, size: f64) -> Pose {
     Pose::new(vector(rng, size), orientation(rng)).unwrap()
 }
 
-/// The number of draws for each motion: `CCD_TEST_CASES` multiplies it; 200 makes a million.
+/// Returns the number of draws for each kind of trajectory: `CCD_TEST_CASES` multiplies it; 200 makes a million.
 fn draws() -> u64 {
     let cases = std::env::var("CCD_TEST_CASES").ok();
     5_000 * cases.map_or(1, |cases| cases.parse().unwrap())
@@ -62,7 +62,7 @@ fn points(rng: &mut Rng, count: usize) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, 3.0).to_array()).collect()
 }
 
-/// Orientations with rotations of less than 1 radian from one to the next.
+/// Returns random orientations with rotations of less than 1 radian from one to the next.
 fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     let mut at = orientation(rng);
     let key = |k| {
@@ -72,12 +72,12 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     (0..count).map(key).collect()
 }
 
-/// The axes of the joints of a chain.
+/// How the axes of a chain's joints are chosen.
 #[derive(Clone, Copy, PartialEq)]
 enum Axes {
     Any,
     Parallel,
-    /// Axes along x, y or z, some of which become parallel again by the joints between them.
+    /// The axes are along x, y or z, so that some are parallel to each other.
     Across,
 }
 
@@ -107,7 +107,7 @@ fn steady() {
     check("steady", 0.0, |rng| Ok(Steady(motion(rng)?)));
 }
 
-/// A thrown body, whose deviation is rounding alone.
+/// Tests a thrown body, whose deviation is due to rounding alone.
 #[test]
 fn thrown() {
     check("ballistic", 0.0, ballistic);
@@ -126,7 +126,7 @@ fn poses() {
     });
 }
 
-/// Rotations by angular velocities that leave over up to a quarter turn.
+/// Tests angular velocities that leave up to a quarter turn over.
 #[test]
 fn poses_of_many_turns() {
     check("poses, many turns", 0.3, |rng| {
@@ -149,7 +149,7 @@ fn poses_of_many_turns() {
     });
 }
 
-/// Rotations that end at the same orientation are distinguished by their angular velocities.
+/// Tests that angular velocities distinguish rotations that end at the same orientation.
 #[test]
 fn angular_velocities_tell_the_number_of_turns() {
     let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
@@ -183,7 +183,7 @@ fn angular_velocities_tell_the_number_of_turns() {
     }
 }
 
-/// Half turns, up to rounding: both directions are possible, and that of the motion from pose to pose is taken.
+/// Tests half turns, up to rounding: of both possible directions, that of the motion between the poses is taken.
 #[test]
 fn poses_of_half_turns() {
     check("poses, half turns", 0.3, |rng| {
@@ -257,7 +257,7 @@ fn squad_alone() {
     });
 }
 
-/// Axes before a held joint are not parallel to those after it, whatever the joint's origin.
+/// Tests that axes before a held joint are not treated as parallel to those after it, whatever the joint's origin.
 #[test]
 fn links_behind_joints_that_are_held() {
     check("link, held joint", 0.1, |rng| {
@@ -266,7 +266,7 @@ fn links_behind_joints_that_are_held() {
         let joints: Result<Vec<_>, InputError> = joints.into_iter().collect();
         let mut angle = || rng.random_range(-2.0..2.0);
         let (first, held, last) = (angle(), angle(), angle());
-        Ok(Owned {
+        Ok(OwnedLink {
             chain: Chain::new(Pose::IDENTITY, joints?),
             positions: [vec![0.0, held, 0.0], vec![first, held, last]],
             link: 3,
@@ -275,15 +275,15 @@ fn links_behind_joints_that_are_held() {
     });
 }
 
-/// A link that owns its chain.
-struct Owned {
+/// A link that owns its chain, for tests of trajectories without lifetimes.
+struct OwnedLink {
     chain: Chain,
     positions: [Vec<f64>; 2],
     link: usize,
     seen_from: Option<usize>,
 }
 
-impl Owned {
+impl OwnedLink {
     fn draw(rng: &mut Rng, axes: Axes) -> Result<Self, InputError> {
         let count = rng.random_range(1..8);
         let chain = arm(rng, count, axes);
@@ -298,7 +298,7 @@ impl Owned {
         });
         let positions = [first.clone(), last.collect()];
         let link = rng.random_range(0..=count);
-        Ok(Owned {
+        Ok(OwnedLink {
             chain,
             positions,
             link,
@@ -307,7 +307,7 @@ impl Owned {
     }
 }
 
-impl Trajectory for Owned {
+impl Trajectory for OwnedLink {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
         let link = self.chain.link(self.link, first, last, 2.0)?;
@@ -320,20 +320,22 @@ impl Trajectory for Owned {
 
 #[test]
 fn links() {
-    check("link of a chain", 0.2, |rng| Owned::draw(rng, Axes::Any));
+    check("link of a chain", 0.2, |rng| {
+        OwnedLink::draw(rng, Axes::Any)
+    });
 }
 
 #[test]
 fn links_with_parallel_axes() {
     check("link, parallel axes", 0.5, |rng| {
-        Owned::draw(rng, Axes::Parallel)
+        OwnedLink::draw(rng, Axes::Parallel)
     });
 }
 
 #[test]
 fn links_with_axes_across() {
     check("link, axes across", 0.5, |rng| {
-        Owned::draw(rng, Axes::Across)
+        OwnedLink::draw(rng, Axes::Across)
     });
 }
 
@@ -358,11 +360,11 @@ fn timed() {
     });
 }
 
-/// The check finds a trajectory whose bound is too small.
+/// Tests that the check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {
-    struct False(Spline);
-    impl Trajectory for False {
+    struct FalseBound(Spline);
+    impl Trajectory for FalseBound {
         fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch(from, to)?;
             stretch.stray.shift *= 0.9;
@@ -372,11 +374,11 @@ fn a_false_bound_is_found() {
     let mut rng = Rng::seed_from_u64(2);
     let curve = Curve::bezier(&points(&mut rng, 4), 2.0).unwrap();
     let spline = Spline::new(curve, Turns::NONE);
-    let worst = worst_stray(&False(spline), 2.0, 1.0, 1_000, 1).unwrap();
+    let worst = worst_stray(&FalseBound(spline), 2.0, 1.0, 1_000, 1).unwrap();
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
-/// Segments are cut at knots: a segment that only touches the next one has a known acceleration.
+/// Tests that segments are cut at knots: a segment that only touches the next one has a known acceleration.
 #[test]
 fn stretches_between_knots_accelerate() {
     let mut rng = Rng::seed_from_u64(4);
@@ -393,7 +395,7 @@ fn stretches_between_knots_accelerate() {
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);
     for _ in 0..200 {
-        let owned = Owned::draw(&mut rng, Axes::Any).unwrap();
+        let owned = OwnedLink::draw(&mut rng, Axes::Any).unwrap();
         let other = owned.link / 2;
         let [first, last] = &owned.positions;
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();

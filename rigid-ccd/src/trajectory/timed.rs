@@ -1,4 +1,4 @@
-//! A trajectory with another time law.
+//! A trajectory that is followed at a varying rate.
 
 use super::U;
 use super::bounded::{Bounded, Speeds};
@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 use std::ops::Range;
 
-/// A smooth trajectory that is followed with another time law.
+/// A smooth trajectory whose time is a function of the given time: its time law.
 ///
 /// With the inner time `θ(t)`, the velocity is `v θ̇` and the acceleration `a θ̇² + v θ̈`; rotations alike.
 ///
@@ -30,23 +30,23 @@ pub struct Timed<T> {
     pace: Pace,
 }
 
-/// The time law: how a trajectory is followed between its first and its last time.
+/// The time law by which a trajectory is followed between its first and its last time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// At a constant rate.
+    /// The trajectory is followed at a constant rate.
     Even,
-    /// From rest to rest: `10 u³ − 15 u⁴ + 6 u⁵` of the way after a share `u` of the time.
+    /// The trajectory starts and ends at rest: `10 u³ − 15 u⁴ + 6 u⁵` of it is done after a share `u` of the time.
     Eased,
 }
 
-/// The maximum first derivative of the eased time law, at half the time: `30/16`.
-const STEEPEST: f64 = 1.875;
+/// The maximum first derivative of [`Pace::Eased`], at half the time: `30/16`.
+const MOST_EASED_RATE: f64 = 1.875;
 
-/// The maximum second derivative of the eased time law: `10/√3`, rounded up.
-const MOST_CURVED: f64 = 5.774;
+/// The maximum second derivative of [`Pace::Eased`]: `10/√3`, rounded up.
+const MOST_EASED_CURVATURE: f64 = 5.774;
 
 impl Pace {
-    /// Returns the share of the trajectory at a share of the time, and its derivative.
+    /// Returns the share of the trajectory that is done at a share `u` of the time, and its derivative.
     fn at(self, u: f64) -> [f64; 2] {
         match self {
             Pace::Even => [u, 1.0],
@@ -60,11 +60,11 @@ impl Pace {
         }
     }
 
-    /// Bounds both derivatives of the time law.
-    fn most(self) -> [f64; 2] {
+    /// Bounds the first and second derivative of the time law.
+    fn derivative_bounds(self) -> [f64; 2] {
         match self {
             Pace::Even => [1.0, 0.0],
-            Pace::Eased => [STEEPEST, MOST_CURVED],
+            Pace::Eased => [MOST_EASED_RATE, MOST_EASED_CURVATURE],
         }
     }
 }
@@ -89,8 +89,8 @@ impl<T> Timed<T> {
         })
     }
 
-    /// Returns the inner time at a time, and its rate.
-    fn time(&self, time: f64) -> [f64; 2] {
+    /// Returns the time of the inner trajectory at a time, and its rate of change.
+    fn inner_time(&self, time: f64) -> [f64; 2] {
         let u = time / self.duration;
         if (0.0..=1.0).contains(&u) {
             let [way, rate] = self.pace.at(u);
@@ -103,15 +103,15 @@ impl<T> Timed<T> {
         }
     }
 
-    /// Returns the inner times for two times.
-    fn times(&self, from: f64, to: f64) -> [f64; 2] {
-        let [[first, _], [last, _]] = [self.time(from), self.time(to)];
+    /// Returns the times of the inner trajectory at two times.
+    fn inner_times(&self, from: f64, to: f64) -> [f64; 2] {
+        let [[first, _], [last, _]] = [self.inner_time(from), self.inner_time(to)];
         [first, greater(first, last)]
     }
 
-    /// Bounds the first and second derivatives of the inner time.
-    fn rates(&self) -> [f64; 2] {
-        let [slope, curve] = self.pace.most();
+    /// Bounds the first and second derivative of the inner trajectory's time.
+    fn inner_rate_bounds(&self) -> [f64; 2] {
+        let [slope, curve] = self.pace.derivative_bounds();
         let rate = self.length / self.duration;
         [rate * slope, rate / self.duration * curve]
     }
@@ -119,7 +119,7 @@ impl<T> Timed<T> {
 
 impl<T: Bounded> Smooth for Timed<T> {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
-        let [inner, rate] = self.time(time);
+        let [inner, rate] = self.inner_time(time);
         let tangent = self.inner.tangent(inner)?;
         let (velocity, spin) = (tangent.velocity() * rate, tangent.spin() * rate);
         Motion::about(tangent.start(), velocity, spin, tangent.centre())
@@ -129,8 +129,8 @@ impl<T: Bounded> Smooth for Timed<T> {
         if to <= 0.0 || from >= self.duration {
             return Accelerations::default();
         }
-        let [first, last] = self.times(from, to);
-        let [rate, change] = self.rates();
+        let [first, last] = self.inner_times(from, to);
+        let [rate, change] = self.inner_rate_bounds();
         let speeds = self.inner.speeds(first, last);
         let inner = self.inner.accelerations(first, last);
         // With the even time law, the velocity jumps to zero at both ends.
@@ -146,9 +146,9 @@ impl<T: Bounded> Smooth for Timed<T> {
         }
     }
 
-    /// Bounds the rounding, including that of the inner time.
+    /// Bounds the rounding errors of poses, including that of the inner trajectory's time.
     fn rounding(&self, from: f64, to: f64) -> Stray {
-        let [first, last] = self.times(from, to);
+        let [first, last] = self.inner_times(from, to);
         let speeds = self.inner.speeds(first, last);
         let off = 64.0 * U * (self.first.abs() + self.length);
         let inner = self.inner.rounding(first, last);
@@ -163,7 +163,7 @@ impl<T: Bounded> Smooth for Timed<T> {
         let end = ends.into_iter().find(|&end| end > from && end < to);
         match self.pace {
             Pace::Even => {
-                let [first, last] = self.times(from, to);
+                let [first, last] = self.inner_times(from, to);
                 let inner = self.inner.corner(first, last);
                 let rate = self.duration / self.length;
                 inner
@@ -178,9 +178,9 @@ impl<T: Bounded> Smooth for Timed<T> {
 
 impl<T: Bounded> Bounded for Timed<T> {
     fn speeds(&self, from: f64, to: f64) -> Speeds {
-        let [first, last] = self.times(from, to);
+        let [first, last] = self.inner_times(from, to);
         let inner = self.inner.speeds(first, last);
-        let [rate, _] = self.rates();
+        let [rate, _] = self.inner_rate_bounds();
         Speeds {
             linear: inner.linear * rate,
             angular: inner.angular * rate,

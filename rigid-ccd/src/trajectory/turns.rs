@@ -12,7 +12,8 @@ use ccd_core::vector::length;
 use ccd_core::{InputError, Pose};
 use squad::Squad;
 
-/// A rotation through given orientations at given times. The body does not turn before the first and after the last.
+/// A rotation through given orientations at given times, with a fixed origin. The body does not turn before the first
+/// and after the last.
 ///
 /// ```
 /// use rigid_ccd::glam::DQuat;
@@ -25,14 +26,14 @@ use squad::Squad;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Turns {
     segments: Segments<Turn>,
-    /// The orientation before the first segment, and after the last.
+    /// The orientations before the first segment and after the last.
     ends: [DQuat; 2],
 }
 
 /// The rotation between two times.
 #[derive(Clone, Debug, PartialEq)]
 enum Turn {
-    /// A rotation at a constant rate, starting at an orientation.
+    /// A rotation at a constant rate, starting at an orientation (slerp).
     Slerp {
         start: DQuat,
         spin: DVec3,
@@ -41,7 +42,7 @@ enum Turn {
 }
 
 impl Turns {
-    /// No rotation: the body stays oriented as the world.
+    /// The rotation of a body whose axes stay those of the world.
     pub const NONE: Turns = Turns {
         segments: Segments(Vec::new()),
         ends: [DQuat::IDENTITY; 2],
@@ -54,7 +55,7 @@ impl Turns {
     /// [`InputError::ZeroQuaternion`], [`InputError::NotFinite`], and [`InputError::OutOfRange`] for times that
     /// do not increase.
     pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
-        let keys = checked(keys)?;
+        let keys = aligned_quaternions(keys)?;
         Ok(Turns::from_keys(&keys, |k| {
             let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
             Turn::Slerp {
@@ -71,9 +72,10 @@ impl Turns {
     /// Those of [`Turns::slerp`], and [`InputError::OutOfRange`] if orientations are so far apart, about a quarter
     /// of a turn, that the quadrangle between them is too large.
     pub fn squad(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
-        let keys = checked(keys)?;
+        let keys = aligned_quaternions(keys)?;
         let at = |k: usize| keys[k.min(keys.len() - 1)].1;
-        let inner = |k: usize| squad::inner(at(k.saturating_sub(1)), at(k), at(k + 1));
+        let inner =
+            |k: usize| squad::control_orientation(at(k.saturating_sub(1)), at(k), at(k + 1));
         let mut squads = Vec::new();
         for k in 0..keys.len().saturating_sub(1) {
             let squad = Squad::new(
@@ -102,7 +104,7 @@ impl Turns {
         }
     }
 
-    /// Returns the orientation at a time, and the angular velocity along the world's axes.
+    /// Returns the orientation at a time, and the angular velocity in the world frame.
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
         match self.segments.at(time) {
             Some(segment) if time >= segment.from => segment.at(time),
@@ -111,36 +113,36 @@ impl Turns {
         }
     }
 
-    /// Bounds the angular acceleration between two times. A spin that jumps counts as one that changes in half
-    /// of the time, by which the orientation strays farther.
+    /// Bounds the magnitude of the angular acceleration between two times. A spin that jumps counts as one that changes
+    /// in half of the time, by which the orientation strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         let smooth = self
             .segments
-            .most(from, to, |segment| match &segment.course {
+            .greatest(from, to, |segment| match &segment.course {
                 Turn::Slerp { .. } => 0.0,
                 Turn::Squad(squad) => squad.acceleration(),
             });
         let jumps = self
             .segments
-            .jumps(from, to, |segment, time| segment.at(time).1);
+            .jump_acceleration(from, to, |segment, time| segment.at(time).1);
         smooth + jumps
     }
 
     /// Bounds the angular speed between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
         self.segments
-            .most(from, to, |segment| match &segment.course {
+            .greatest(from, to, |segment| match &segment.course {
                 Turn::Slerp { spin, .. } => length(*spin),
                 Turn::Squad(squad) => squad.speed(),
             })
     }
 
-    /// Returns a knot strictly between two times, about in the middle; `None` without one.
+    /// Returns a knot strictly between two times, near the middle of them; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         self.segments.corner(from, to)
     }
 
-    /// Bounds the rounding of an orientation.
+    /// Bounds the rounding error of an orientation.
     pub(super) fn rounding(&self) -> f64 {
         128.0 * U
     }
@@ -159,8 +161,8 @@ impl Segment<Turn> {
     }
 }
 
-/// Returns unit quaternions, each with the sign that is nearer to the one before.
-fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
+/// Returns the orientations as unit quaternions, each with the sign that is nearer to the one before.
+fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {
         let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();

@@ -1,4 +1,4 @@
-//! A test of the bounds of a trajectory's deviation.
+//! Tests the bounds of a trajectory's deviation by random search.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -7,15 +7,15 @@ use ccd_core::{InputError, Trajectory};
 /// The sample with the largest deviation relative to its bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Worst {
-    /// The deviation divided by its bound: at most 1 for a sound trajectory.
+    /// The deviation divided by its bound: at most 1 for a correct trajectory.
     pub ratio: f64,
-    /// The first time of the segment.
+    /// The time at which the segment starts.
     pub from: f64,
-    /// The last time of the segment.
+    /// The time at which the segment ends.
     pub to: f64,
-    /// The time of the sample.
+    /// The time at which the deviation was measured.
     pub time: f64,
-    /// The point of the body, in the frame of the motion's centre, along the body's axes.
+    /// The vector from the motion's centre to the point, along the body's axes.
     pub arm: DVec3,
 }
 
@@ -59,10 +59,10 @@ pub fn worst_stray(
     for number in 0..draws {
         let draw = match &worst {
             // Hill climbing starts at every fresh sample.
-            Some((draw, _)) if number % 4 != 0 => search.near(draw),
-            _ => search.fresh(),
+            Some((draw, _)) if number % 4 != 0 => search.nearby_sample(draw),
+            _ => search.random_sample(),
         };
-        let found = search.sample(&draw)?;
+        let found = search.measure(&draw)?;
         if worst.is_none_or(|(_, worst)| found.ratio > worst.ratio) {
             worst = Some((draw, found));
         }
@@ -81,8 +81,8 @@ struct Search<'t> {
 }
 
 impl Search<'_> {
-    /// Returns a number from 0 to 1: SplitMix64.
-    fn number(&mut self) -> f64 {
+    /// Returns a pseudo-random number from 0 to 1, by SplitMix64.
+    fn random_number(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -90,16 +90,16 @@ impl Search<'_> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn fresh(&mut self) -> Sample {
-        [(); 6].map(|()| self.number())
+    fn random_sample(&mut self) -> Sample {
+        [(); 6].map(|()| self.random_number())
     }
 
-    fn near(&mut self, draw: &Sample) -> Sample {
-        let step = 10f64.powf(-6.0 * self.number());
-        draw.map(|x| (x + step * (self.number() - 0.5)).clamp(0.0, 1.0))
+    fn nearby_sample(&mut self, draw: &Sample) -> Sample {
+        let step = 10f64.powf(-6.0 * self.random_number());
+        draw.map(|x| (x + step * (self.random_number() - 0.5)).clamp(0.0, 1.0))
     }
 
-    fn sample(
+    fn measure(
         &self,
         &[length, from, time, arm, azimuth, height]: &Sample,
     ) -> Result<Worst, InputError> {

@@ -1,6 +1,6 @@
-//! `ccd audit`: motions that another checker has called free.
+//! Tests `ccd audit`: motions that another checker has called free.
 
-use super::command::{Run, Scene, has, parse, stderr};
+use super::command::{Run, Scene, assert_contains, parse, stderr};
 
 /// A ball that flies through a plate. Of ten equal steps of the fast shots none is in the plate.
 const BALL_AND_PLATE: [&str; 4] = ["--a", "sphere:0.5", "--b", "box:0.001,5,5"];
@@ -23,7 +23,7 @@ fn rows_that_are_not_free_are_listed() {
     assert!((rows[0].number("witness_b_x") + 0.001).abs() < 1e-9);
     assert!(rows[0].0.iter().all(|(name, _)| name != "page"));
     let message = stderr(&output);
-    has(
+    assert_contains(
         &message,
         "1 of 4 rows are free: that is proven, 2 contact, 1 touching",
     );
@@ -33,7 +33,7 @@ fn rows_that_are_not_free_are_listed() {
 fn free_rows_are_left_out() {
     let output = audit().stdin("a_px,a_py\n-3,0\n0,6\n").ends(0);
     assert_eq!(parse(&output.stdout).len(), 0);
-    has(&stderr(&output), "2 of 2 rows are free");
+    assert_contains(&stderr(&output), "2 of 2 rows are free");
     // With a small tolerance, a distance of a hundred thousandth is free.
     assert!(audit().stdin("a_px\n0.50101\n").output().status.success());
     let kept = audit().args(&["--margin", "1e-4"]);
@@ -65,7 +65,7 @@ fn each_has_a_page() {
         [0, 1, 2].map(|k| rows[k].text("page")),
         ["pages/fast.html", "", ""]
     );
-    has(&stderr(&output), "--most-pages");
+    assert_contains(&stderr(&output), "--most-pages");
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn rows_without_an_answer_are_reported() {
     let output = audit().stdin("a_px,a_vx\n-3,x\n-3,60\n").ends(2);
     let rows = parse(&output.stdout);
     assert_eq!([0, 1].map(|k| rows[k].text("status")), ["error", "contact"]);
-    has(&stderr(&output), "row 0 (line 2): column a_vx: `x`");
+    assert_contains(&stderr(&output), "row 0 (line 2): column a_vx: `x`");
 }
 
 #[test]
@@ -97,6 +97,6 @@ fn unreadable_and_unwritable_files_are_refused() {
     let motions = motions.to_str().unwrap();
     let run = Run::bare(&["audit", "--motions", motions, "--out", motions]).args(&BALL_AND_PLATE);
     let message = run.fails(2);
-    has(&message, "would overwrite");
+    assert_contains(&message, "would overwrite");
     audit().stdin("a_x\n1\n").ends(2);
 }

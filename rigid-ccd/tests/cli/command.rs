@@ -1,10 +1,10 @@
-//! Runs of the command, and its output.
+//! Runs the command in tests, and reads its output.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// A call of the command.
+/// A call of the command with its arguments and input.
 pub(crate) struct Run {
     args: Vec<String>,
     stdin: String,
@@ -52,7 +52,7 @@ impl Run {
         child.wait_with_output().unwrap()
     }
 
-    /// Runs the command, checks its exit code, and returns its output.
+    /// Runs the command, checks that it ends with the exit code `code`, and returns its output.
     #[track_caller]
     pub(crate) fn ends(&self, code: i32) -> Output {
         let output = self.output();
@@ -61,7 +61,7 @@ impl Run {
         output
     }
 
-    /// Runs the command, checks its exit code, and returns its messages.
+    /// Runs the command, checks that it ends with the exit code `code`, and returns its messages.
     #[track_caller]
     #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
     pub(crate) fn fails(&self, code: i32) -> String {
@@ -74,14 +74,14 @@ impl Run {
     }
 }
 
-/// Checks that a text has some words.
+/// Checks that a text contains the given words.
 #[track_caller]
 #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
-pub(crate) fn has(text: &str, words: &str) {
+pub(crate) fn assert_contains(text: &str, words: &str) {
     assert!(text.contains(words), "{words:?} is not in:\n{text}");
 }
 
-/// One row of results: cells by column.
+/// One row of a table of results: pairs of a column's name and its cell.
 pub(crate) struct Row(pub(crate) Vec<(String, String)>);
 
 impl Row {

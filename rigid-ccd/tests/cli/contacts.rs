@@ -1,9 +1,9 @@
-//! `--contacts`, `--counters`, and messages about times that are not certified.
+//! Tests `--contacts`, `--counters`, and messages about times that are not certified.
 
-use crate::command::{Row, Run, Scene, has, parse, stderr};
+use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
 use std::path::Path;
 
-/// A cube above a slab, and motions onto its face, past its side, and away from it.
+/// The options for a cube and a slab as bodies A and B.
 const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 
@@ -105,7 +105,7 @@ fn contacts_overwrite_nothing() {
             message.contains(expected) && message.contains(options[0]) || code == 1,
             "{message}"
         );
-        has(&message, expected);
+        assert_contains(&message, expected);
     }
     assert_eq!(std::fs::read_to_string(motions).unwrap(), DROPS);
 }
@@ -120,8 +120,8 @@ fn a_row_with_too_many_contacts_is_reported() {
         .ends(2);
     assert_eq!(parse(&output.stdout)[0].text("status"), "touching");
     let message = stderr(&output);
-    has(&message, "row 0 (line 2): contacts: ");
-    has(&message, "--budget");
+    assert_contains(&message, "row 0 (line 2): contacts: ");
+    assert_contains(&message, "--budget");
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn times_without_certificate_are_reported_once() {
         1,
         "{message}"
     );
-    has(&message, "\nnot certified: 3 rows");
+    assert_contains(&message, "\nnot certified: 3 rows");
     for sound in [
         &published[..2],
         &["--schedule", "naive", "--bound", "sound"],

@@ -1,6 +1,6 @@
-//! `ccd decompose`, and queries on prepared bodies.
+//! Tests `ccd decompose`, and queries on prepared bodies.
 
-use crate::command::{Row, Run, Scene, has, stderr};
+use crate::command::{Row, Run, Scene, assert_contains, stderr};
 use ccd_decomp::{Format, TriangleMesh};
 use rstest::rstest;
 use serde_json::Value;
@@ -9,10 +9,10 @@ use std::process::Output;
 
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-/// The tetrahedron without its last face.
+/// The OBJ text of a tetrahedron without its last face.
 const OPEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
 
-/// Writes a knot of 216 triangles, which is not convex.
+/// Writes the mesh of a trefoil knot with 216 triangles, which is not convex.
 fn knot(scene: &Scene) -> PathBuf {
     scene.file("knot.obj", include_str!("../data/knot216.obj"))
 }
@@ -25,7 +25,7 @@ fn decompose(mesh: &Path, options: &[&str]) -> Output {
     Run::bare(&["decompose", name(mesh)]).args(options).output()
 }
 
-/// Returns the object that `--format json` prints.
+/// Returns the JSON object that `--format json` prints for a mesh.
 fn statistics(mesh: &Path, options: &[&str]) -> Value {
     let output = decompose(mesh, &[options, &["--format", "json"]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
@@ -63,8 +63,8 @@ fn statistics_are_aligned_lines() {
     let output = decompose(&knot(&scene), &["--pieces", "patches"]);
     assert!(output.status.success(), "{}", stderr(&output));
     let text = String::from_utf8(output.stdout).unwrap();
-    has(&text, "knot.obj: 216 triangles\n");
-    has(&text, " patches, solid\n");
+    assert_contains(&text, "knot.obj: 216 triangles\n");
+    assert_contains(&text, " patches, solid\n");
     for line in [
         "pieces",
         "why",
@@ -116,7 +116,7 @@ fn approximate_pieces_report_their_error() {
     assert!(statistics["sticks_out"].as_f64().unwrap() > 0.0);
     let text = decompose(&mesh, &["--pieces", "vhacd"]);
     let text = String::from_utf8(text.stdout).unwrap();
-    has(&text, "stick out by at most");
+    assert_contains(&text, "stick out by at most");
 }
 
 #[test]
@@ -154,9 +154,9 @@ fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
     let out = scene.directory.join("knot.ccd");
     statistics(&mesh, &["--pieces", kind, "--out", name(&out)]);
     let all = |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::without_micros).collect() };
-    let fresh = all(answers(&mesh, &["--pieces", kind]));
-    assert!(fresh.iter().any(|row| row[1] == "contact"));
-    assert_eq!(all(answers(&out, &[])), fresh);
+    let empty_folder = all(answers(&mesh, &["--pieces", kind]));
+    assert!(empty_folder.iter().any(|row| row[1] == "contact"));
+    assert_eq!(all(answers(&out, &[])), empty_folder);
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn early_contacts_of_approximate_bodies_are_reported() {
     };
     let output = run(&["--pieces", "vhacd"]);
     assert!(output.status.success());
-    has(&stderr(&output), "early");
+    assert_contains(&stderr(&output), "early");
     let output = run(&["--pieces", "patches"]);
     assert!(!stderr(&output).contains("early"), "{}", stderr(&output));
 }
@@ -220,7 +220,7 @@ fn meshes_without_pieces_are_reported() {
         assert_eq!(output.status.code(), Some(2), "{mesh:?} {kind}");
         assert_eq!(output.stdout, b"");
         let message = stderr(&output);
-        has(&message, expected);
+        assert_contains(&message, expected);
     }
     let statistics = statistics(&open, &["--pieces", "auto"]);
     assert_eq!(statistics["pieces_kind"], "triangles");
@@ -238,7 +238,7 @@ fn options_that_do_not_go_together_are_refused(#[case] options: &[&str], #[case]
     let scene = Scene::new("decompose-options");
     let output = decompose(&scene.file("part.obj", TETRAHEDRON), options);
     assert_eq!(output.status.code(), Some(2), "{options:?}");
-    has(&stderr(&output), expected);
+    assert_contains(&stderr(&output), expected);
 }
 
 #[test]
@@ -248,7 +248,7 @@ fn a_mesh_is_never_overwritten() {
     let same = scene.directory.join(".").join("part.obj");
     let output = decompose(&mesh, &["--out", name(&same)]);
     assert_eq!(output.status.code(), Some(2));
-    has(&stderr(&output), "overwrite");
+    assert_contains(&stderr(&output), "overwrite");
     assert_eq!(std::fs::read_to_string(&mesh).unwrap(), TETRAHEDRON);
 }
 
@@ -261,7 +261,7 @@ fn an_unwritable_result_has_exit_code_1(#[case] file: &str) {
     let out = format!("/no/such/directory/{file}");
     let output = decompose(&mesh, &["--out", &out]);
     assert_eq!(output.status.code(), Some(1));
-    has(&stderr(&output), file);
+    assert_contains(&stderr(&output), file);
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn unreadable_stored_bodies_are_reported() {
             message.contains("--a: ") && message.contains(expected),
             "{message}"
         );
-        has(&message, "ccd decompose");
+        assert_contains(&message, "ccd decompose");
     }
 }
 
@@ -295,7 +295,7 @@ fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "sticks_out")] {
         let output = Run::bare(&["decompose", option]).ends(0);
         let text = String::from_utf8(output.stdout).unwrap();
-        has(&text, expected);
+        assert_contains(&text, expected);
     }
 }
 
@@ -310,6 +310,6 @@ fn a_missing_folder_is_reported_before_the_work() {
             .args(&["--out", out.to_str().unwrap()])
             .stdin("")
             .fails(1);
-        has(&message, "gone is a folder that does not exist");
+        assert_contains(&message, "gone is a folder that does not exist");
     }
 }

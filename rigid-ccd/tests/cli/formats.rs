@@ -1,10 +1,10 @@
-//! Scenes of several parts: glTF and 3MF, parts by name, and units.
+//! Tests files of several parts: glTF and 3MF, parts by name, and units.
 
-use crate::command::{Run, Scene, has, stderr};
+use crate::command::{Run, Scene, assert_contains, stderr};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The corners of a cube about the origin with sides of length 2; the bits of an index give the coordinates.
+/// Returns the corners of a cube about the origin with sides of length 2; the bits of an index give the coordinates.
 fn corners() -> impl Iterator<Item = [f32; 3]> {
     (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2].map(|bit| 2.0 * bit as f32 - 1.0))
 }
@@ -15,7 +15,7 @@ const FACES: [u16; 36] = [
     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6,
 ];
 
-/// Two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
+/// Returns a glTF file of two nodes with one cube each: `base`, a metre wide, and `lid`, flat and two metres above it.
 fn gltf() -> (Value, Vec<u8>) {
     let mut bytes: Vec<u8> = corners().flatten().flat_map(f32::to_le_bytes).collect();
     bytes.extend(FACES.iter().flat_map(|corner| corner.to_le_bytes()));
@@ -54,7 +54,7 @@ fn glb() -> Vec<u8> {
     bytes
 }
 
-/// A cube of 20 millimetres about the origin, stored without compression.
+/// Returns a 3MF file with a cube of 20 millimetres about the origin.
 fn threemf() -> Vec<u8> {
     let vertices: String = corners()
         .map(|[x, y, z]| {
@@ -76,7 +76,7 @@ fn threemf() -> Vec<u8> {
     zip("3D/3dmodel.model", model.as_bytes())
 }
 
-/// A zip archive with one file.
+/// Returns an uncompressed zip archive with one file.
 fn zip(path: &str, content: &[u8]) -> Vec<u8> {
     let (sum, size) = (crc32fast::hash(content), content.len() as u32);
     let mut about = [0; 8].to_vec();
@@ -105,12 +105,12 @@ fn name(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Returns the command-line name of a part of a file.
+/// Returns the argument of the command line that names a part of a file.
 fn part(path: &Path, part: &str) -> String {
     format!("{}#{part}", name(path))
 }
 
-/// A small ball that falls at speed 1 from the height 4.
+/// A table of motions in which a small ball falls at speed 1 from the height 4.
 const FALL: &str = "b_pz,b_vz,duration\n4,-1,4\n";
 const BALL: &str = "sphere:0.1";
 
@@ -166,15 +166,15 @@ fn an_unknown_part_lists_those_there_are() {
             let output = run.ends(2);
             let expected =
                 format!("scene.glb: has no part {missing:?}; its parts are 0 \"base\", 1 \"lid\"");
-            has(&stderr(&output), &expected);
+            assert_contains(&stderr(&output), &expected);
         }
     }
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     let output = Run::bare(&["decompose", &part(&plain, "lid")]).output();
-    has(&stderr(&output), "it has one, without a name: 0");
+    assert_contains(&stderr(&output), "it has one, without a name: 0");
 }
 
-/// File names may also contain such a mark.
+/// Tests that a `#` in the name of a file does not separate a part's name.
 #[test]
 fn a_mark_in_the_name_of_a_file_is_kept() {
     let scene = Scene::new("parts-marks");
@@ -187,7 +187,8 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
     }
 }
 
-/// A ball falls onto the corner at (0, 0, 1) of a tetrahedron.
+/// Tests adjustments of mesh files, by options and after the files' names: a ball falls onto the corner at (0, 0, 1) of
+/// a tetrahedron.
 #[test]
 fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     let scene = Scene::new("adjusted");
@@ -255,14 +256,14 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
 
-/// A ball flies at a cylinder and at a cone: contacts are not later than with the true shapes, and messages state how
-/// early they may be.
+/// Tests a ball that flies at a cylinder and at a cone: contacts are not later than with the true shapes, and messages
+/// state how early they may be.
 #[test]
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
         let run = Run::query(&["--a", BALL, "--b", body, "--tolerance", "1e-7"]);
         let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").ends(0);
-        has(&stderr(&output), "sticking out by up to");
+        assert_contains(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
         // The cone's radius equals its height, so that the slant is at 45 degrees.
         let reach = if side == 0.5 {
@@ -300,7 +301,7 @@ fn units_are_converted() {
             (-1e-9..=1.001e-4 / 0.03).contains(&early),
             "{unit}: {early}"
         );
-        has(&message, &format!(" {unit}\n"));
+        assert_contains(&message, &format!(" {unit}\n"));
         assert!(!message.contains("give --unit"), "{message}");
     }
 }
@@ -316,11 +317,11 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
             .output()
     };
     let message = stderr(&query(&cube, name(&die)));
-    has(&message, "size 1 × 1 × 1 m\n");
-    has(&message, "size 20 × 20 × 20 mm\n");
+    assert_contains(&message, "size 1 × 1 × 1 m\n");
+    assert_contains(&message, "size 20 × 20 × 20 mm\n");
     let expected =
         "--a is in m, --b in mm, and the numbers of both are kept: give --unit m or --unit mm";
-    has(&message, expected);
+    assert_contains(&message, expected);
     // A primitive is in the user's unit; a file is in an unknown one.
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
     for (other, is_told) in [(BALL, false), (name(&plain), true)] {
@@ -331,7 +332,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
         .stdin(FALL)
         .output();
     let message = stderr(&output);
-    has(&message, "um, mm, cm, m, in, ft");
+    assert_contains(&message, "um, mm, cm, m, in, ft");
 }
 
 #[test]
@@ -354,10 +355,10 @@ fn a_part_is_prepared_and_stored() {
     assert!((0.0..=1.001e-6).contains(&early), "{early}");
     let text = Run::bare(&["decompose", &part(&file, "lid")]).output();
     let text = String::from_utf8(text.stdout).unwrap();
-    has(&text, "\nunit          m\n");
+    assert_contains(&text, "\nunit          m\n");
 }
 
-/// A run with another unit, or with another buffer beside the mesh, is not the same run.
+/// Tests that a run with another unit, or with another buffer beside the mesh, is not resumed.
 #[test]
 fn runs_know_their_unit_and_all_their_files() {
     let scene = Scene::new("parts-resume");
@@ -383,16 +384,16 @@ fn runs_know_their_unit_and_all_their_files() {
     assert!(run("m").status.success());
     let other = run("mm");
     assert_eq!(other.status.code(), Some(2));
-    has(&stderr(&other), "--unit");
+    assert_contains(&stderr(&other), "--unit");
     let mut changed = binary;
     changed[0] ^= 1;
     std::fs::write(&data, changed).unwrap();
     let other = run("m");
     assert_eq!(other.status.code(), Some(2));
-    has(&stderr(&other), "--a");
+    assert_contains(&stderr(&other), "--a");
     // Results must not replace a buffer either.
     let output = Run::bare(&["query", "--a", name(&file), "--b", BALL])
         .args(&["--motions", name(&motions), "--out", name(&data)])
         .output();
-    has(&stderr(&output), "--out would overwrite the file of --a");
+    assert_contains(&stderr(&output), "--out would overwrite the file of --a");
 }

@@ -1,4 +1,4 @@
-//! The command `ccd`, tested as a process.
+//! Tests the command `ccd` as a process.
 
 mod audit;
 mod command;
@@ -14,12 +14,12 @@ mod resume;
 mod scene;
 mod view;
 
-use command::{Row, Run, Scene, has, parse, stderr};
+use command::{Row, Run, Scene, assert_contains, parse, stderr};
 
-/// The command that is run.
+/// The path of the command under test.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
 
-/// A cube that falls at speed 4 onto a slab whose top is 2.5 below its underside.
+/// The options for a cube that falls at speed 4 onto a slab whose top is 2.5 below the cube.
 const FALLING_CUBE: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROP: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
 const DROP_TIME: f64 = 2.5 / 4.0;
@@ -28,14 +28,14 @@ const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 impl Run {
-    /// A query whose motions come from standard input.
+    /// Returns a call of `ccd query` whose motions come from standard input.
     pub(crate) fn query(bodies: &[&str]) -> Self {
         Run::bare(&["query", "--motions", "-"]).args(bodies)
     }
 }
 
 impl Row {
-    /// Checks that the time is not late, and early by at most the time to cross the tolerance.
+    /// Checks that the time of contact is not late, and early by at most the time to cross the tolerance.
     pub(crate) fn assert_in_time(&self, exact: f64, closing_speed: f64) {
         let early = exact - self.number("time");
         assert!(
@@ -232,7 +232,7 @@ fn raised_tolerances_are_reported() {
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
         .ends(0);
-    has(&stderr(&output), "--tolerance 1e-12 cannot be certified");
+    assert_contains(&stderr(&output), "--tolerance 1e-12 cannot be certified");
 }
 
 #[test]
@@ -258,7 +258,7 @@ fn results_never_overwrite_their_motions() {
                 .unwrap();
             assert_eq!(output.status.code(), Some(2), "{motions} {target}");
             let message = stderr(&output);
-            has(&message, "another file");
+            assert_contains(&message, "another file");
             assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
         }
     }
@@ -293,7 +293,7 @@ fn tables_do_not_overwrite_each_other_by_any_spelling() {
             .unwrap();
         assert_eq!(output.status.code(), Some(2), "{results} {contacts}");
         let message = stderr(&output);
-        has(&message, "another file");
+        assert_contains(&message, "another file");
     }
 }
 
@@ -305,14 +305,14 @@ fn tolerances_that_no_row_accepts_are_refused_at_once() {
             .stdin(DROP)
             .output();
         let message = stderr(&output);
-        has(&message, "give a number from 1e-100 to 1e12");
+        assert_contains(&message, "give a number from 1e-100 to 1e12");
     }
 }
 
 #[test]
 fn the_summary_counts_rows_and_quiet_omits_it() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
-    has(&stderr(&loud), "1 row: 1 contact; median");
+    assert_contains(&stderr(&loud), "1 row: 1 contact; median");
     let quiet = Run::query(&FALLING_CUBE)
         .args(&["--quiet"])
         .stdin(DROP)
@@ -329,7 +329,7 @@ fn a_table_without_rows_gives_a_header() {
         header.starts_with("id,status,time,distance_lower,"),
         "{header}"
     );
-    has(
+    assert_contains(
         &stderr(&output),
         "standard input: has a header, but no rows",
     );

@@ -1,6 +1,6 @@
-//! `ccd completions` and `ccd man`.
+//! Tests `ccd completions` and `ccd man`.
 
-use crate::command::{Run, Scene, has};
+use crate::command::{Run, Scene, assert_contains};
 use rstest::rstest;
 use std::fs;
 
@@ -27,7 +27,7 @@ fn every_shell_completes_commands_and_options(#[case] shell: &str) {
 #[test]
 fn an_unknown_shell_is_refused() {
     let message = Run::bare(&["completions", "cmd"]).fails(2);
-    has(&message, "powershell");
+    assert_contains(&message, "powershell");
 }
 
 #[test]

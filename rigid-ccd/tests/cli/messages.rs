@@ -1,6 +1,6 @@
-//! Messages about input, and about bodies of different size.
+//! Tests messages about input, and about bodies of different size.
 
-use crate::command::{Run, Scene, has, parse, stderr};
+use crate::command::{Run, Scene, assert_contains, parse, stderr};
 use crate::{DROP, FALLING_CUBE};
 
 const SPHERES: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
@@ -16,7 +16,7 @@ fn lines_are_counted_whatever_ends_them() {
     for end in ["\n", "\r\n", "\r"] {
         let table = "\u{feff}a_px\n1\n2\n\n3\nx\n".replace('\n', end);
         let message = messages_of(&table);
-        has(&message, "row 3 (line 6): column a_px: `x`");
+        assert_contains(&message, "row 3 (line 6): column a_px: `x`");
     }
 }
 
@@ -46,7 +46,7 @@ fn every_cause_is_reported_once() {
     }
 }
 
-/// Missing files are reported by name, and without error numbers of the operating system.
+/// Tests that missing files are reported by name, and without error numbers of the operating system.
 #[test]
 fn missing_files_are_reported_once() {
     let scene = Scene::new("not-there");
@@ -95,7 +95,7 @@ fn sizes_are_reported_and_compared() {
         .stdin(motions)
         .output();
     let message = stderr(&output);
-    has(
+    assert_contains(
         &message,
         "--a box:.5,1,2: 1 primitive, solid, size 1 × 2 × 4\n",
     );
@@ -103,7 +103,7 @@ fn sizes_are_reported_and_compared() {
     let message = Run::query(&["--a", "box:150,50,50", "--b", "sphere:1"])
         .stdin(motions)
         .fails(0);
-    has(&message, "--a is 150 times as large as --b");
+    assert_contains(&message, "--a is 150 times as large as --b");
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn selected_rows_have_the_same_answers() {
         .args(&["--rows", "7.."])
         .stdin(motions)
         .output();
-    has(
+    assert_contains(
         &stderr(&none),
         "has 5 rows, and --rows 7.. selects none of them",
     );
@@ -135,7 +135,7 @@ fn selected_rows_have_the_same_answers() {
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
 
-/// Cells and file names may contain control characters, which must not reach the terminal.
+/// Tests that control characters in cells and file names do not reach the terminal.
 #[test]
 fn nothing_in_a_file_controls_the_terminal() {
     let scene = Scene::new("escapes");
@@ -152,7 +152,7 @@ fn nothing_in_a_file_controls_the_terminal() {
         ])
         .fails(2);
     for escaped in ["\\u{1b}[31mred.csv", "\\u{1b}[2Jx", "\\u{1b}[5m"] {
-        has(&message, escaped);
+        assert_contains(&message, escaped);
     }
     assert!(!message.contains("\nccd: all rows"), "{message}");
     assert!(
@@ -177,7 +177,7 @@ fn ignored_input_is_reported_with_quiet_too() {
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// Each trap gives one line of remark, once, and changes neither the table nor the exit code.
+/// Tests that each probable mistake gives one remark, and changes neither the table nor the exit code.
 #[test]
 fn traps_are_remarked_upon_once() {
     let spins = |rates: &str| {
@@ -217,7 +217,7 @@ fn traps_are_remarked_upon_once() {
     }
 }
 
-/// If one of two files states its unit, the numbers of the other may be in another unit. Shapes are in any.
+/// Tests the message for two files of which only one states its unit. Shapes are in any.
 #[test]
 fn a_single_known_unit_is_reported_once() {
     let scene = Scene::new("mixed-units");
@@ -259,19 +259,19 @@ fn a_single_known_unit_is_reported_once() {
     );
 }
 
-/// Between poses without orientations, any rotation would be undone.
+/// Tests that angular velocities of a path are refused without orientations.
 #[test]
 fn angular_velocities_of_a_path_need_orientations() {
     let message = messages_of("t,a_px,a_wz\n0,9,1\n1,9,1\n");
-    has(&message, "no column `a_qw`, but column `a_wz` needs it");
+    assert_contains(&message, "no column `a_qw`, but column `a_wz` needs it");
     for column in ["a_vx", "b_end_px", "duration"] {
         let message = messages_of(&format!("t,a_px,{column}\n0,9,1\n1,9,1\n"));
         let expected =
             format!("unknown column `{column}`; a table with a column t holds the poses");
-        has(&message, &expected);
+        assert_contains(&message, &expected);
     }
     let message = messages_of("id,time,a_px\nx,0,9\n");
-    has(&message, "unknown column `time`; did you mean `t`?");
+    assert_contains(&message, "unknown column `time`; did you mean `t`?");
 }
 
 #[test]

@@ -1,7 +1,7 @@
-//! Outputs are written completely, by one run at a time; a full disk destroys no older file.
+//! Tests that outputs are written completely, by one run at a time; a full disk destroys no older file.
 
-use crate::command::{Run, Scene, has, stderr};
-use crate::resume::{finished, fresh, killed, motions, path, query, read};
+use crate::command::{Run, Scene, assert_contains, stderr};
+use crate::resume::{empty_folder, finished, killed, motions, path, query, read};
 use ccd_file::Claim;
 use std::fs;
 use std::path::Path;
@@ -38,7 +38,7 @@ fn inputs(scene: &Scene) {
     scene.file("scene.csv", "body,pz,vz\nsphere:1,0,0\nsphere:1,5,-5\n");
 }
 
-/// All ways to write a file: the file, and the arguments of the command.
+/// All commands that write a file: the file, and the arguments of the command.
 const WRITERS: [(&str, &str); 8] = [
     (
         "r.csv",
@@ -81,7 +81,7 @@ fn names(scene: &Scene) -> Vec<String> {
 
 #[test]
 fn one_run_at_a_time_writes_a_file() {
-    let scene = fresh("one-at-a-time");
+    let scene = empty_folder("one-at-a-time");
     inputs(&scene);
     let before = names(&scene);
     for (name, command) in WRITERS {
@@ -91,7 +91,7 @@ fn one_run_at_a_time_writes_a_file() {
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{command}: {message}");
         let expected = format!("{name}: another run is writing it; wait for its end");
-        has(&message, &expected);
+        assert_contains(&message, &expected);
         assert!(!message.contains("delete"), "{message}");
         assert_eq!(read(&path(&scene, name)), "good");
         fs::remove_file(path(&scene, name)).unwrap();
@@ -133,13 +133,14 @@ fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
     fs::read(path(scene, name)).unwrap()
 }
 
-/// A run is alive as long as its input is open. Whatever name others have for its output, they refuse.
+/// Tests that a second run does not disturb a first one, which lasts as long as its input is open. Whatever name others
+/// have for its output, they refuse.
 #[test]
 fn a_run_that_is_alive_is_left_alone() {
     let table = motions();
-    let whole = fresh("alone");
+    let whole = empty_folder("alone");
     finished(query(&whole, &[]), &table);
-    let scene = fresh("alive");
+    let scene = empty_folder("alive");
     let mut first = query(&scene, &[]).spawn().unwrap();
     let mut input = first.stdin.take().unwrap();
     let half = table.len() / 2;
@@ -165,7 +166,7 @@ fn a_run_that_is_alive_is_left_alone() {
                 let output = finished(query(&scene, &options), &table);
                 let message = stderr(&output);
                 assert_eq!(output.status.code(), Some(2), "{options:?}: {message}");
-                has(&message, "another run is writing it");
+                assert_contains(&message, "another run is writing it");
                 assert!(!message.contains("delete"), "{message}");
             }
         }
@@ -189,13 +190,13 @@ fn a_run_that_is_alive_is_left_alone() {
     assert!(there.eq(expected.into_iter().filter(|&name| name != "link.csv")));
 }
 
-/// Of four runs that start together, some refuse, and the table is that of one run.
+/// Tests four runs that start together: some refuse, and the table is that of one run.
 #[test]
 fn runs_side_by_side_keep_all_rows() {
     let table = motions();
-    let whole = fresh("side-alone");
+    let whole = empty_folder("side-alone");
     finished(query(&whole, &[]), &table);
-    let scene = fresh("side-by-side");
+    let scene = empty_folder("side-by-side");
     scene.file("motions.csv", &table);
     let mut done = 0;
     for more in [&[][..], &["--resume"]] {
@@ -209,7 +210,7 @@ fn runs_side_by_side_keep_all_rows() {
             // Some rows of the table are bad, which gives the same exit code as a refusal.
             assert_eq!(output.status.code(), Some(2), "{message}");
             if !message.contains("another run is writing it") {
-                has(&message, "20000 rows: ");
+                assert_contains(&message, "20000 rows: ");
                 done += 1;
             }
         }
@@ -226,7 +227,7 @@ fn runs_side_by_side_keep_all_rows() {
 #[test]
 fn an_edited_byte_is_not_resumed_from() {
     let table = motions();
-    let scene = fresh("edited");
+    let scene = empty_folder("edited");
     let part = &table[..table.len() / 2];
     killed(&scene, &[], part);
     let kept = [
@@ -262,7 +263,7 @@ fn an_edited_byte_is_not_resumed_from() {
     }
     assert_eq!(tried, 24);
     let output = finished(query(&scene, &["--resume"]), &table);
-    has(&stderr(&output), "20000 rows: ");
+    assert_contains(&stderr(&output), "20000 rows: ");
     // The same holds for a finished table.
     let mut results = read_bytes(&scene, "results.csv");
     let middle = results.len() / 2;
@@ -270,14 +271,14 @@ fn an_edited_byte_is_not_resumed_from() {
     fs::write(path(&scene, "results.csv"), &results).unwrap();
     let output = finished(query(&scene, &["--resume"]), &table);
     let message = stderr(&output);
-    has(&message, "has changed since the run finished");
+    assert_contains(&message, "has changed since the run finished");
     assert_eq!(read_bytes(&scene, "results.csv"), results);
 }
 
-/// The answers of an interrupted query are not overwritten by another command, nor by the other table of a query.
+/// Tests that another command, or the other table of a query, does not overwrite the answers of an interrupted query.
 #[test]
 fn rows_of_an_interrupted_query_are_kept() {
-    let scene = fresh("kept-rows");
+    let scene = empty_folder("kept-rows");
     killed(&scene, &[], &motions());
     let rows = read_bytes(&scene, "results.csv.partial");
     scene.file("one.csv", "a_px\n9\n");
@@ -288,7 +289,7 @@ fn rows_of_an_interrupted_query_are_kept() {
         let output = run(&scene, &command);
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        has(&message, "has rows of an interrupted query");
+        assert_contains(&message, "has rows of an interrupted query");
         assert_eq!(read_bytes(&scene, "results.csv.partial"), rows);
     }
 }
@@ -298,7 +299,7 @@ mod full {
     use super::*;
 
     /// Runs a command that can write at most about 4 KB to a file, as on a full disk.
-    fn cramped(scene: &Scene, command: &str) -> Output {
+    fn run_with_full_disk(scene: &Scene, command: &str) -> Output {
         let limit = "trap '' XFSZ; ulimit -f 8; exec \"$@\"";
         Command::new("sh")
             .current_dir(&scene.directory)
@@ -310,14 +311,14 @@ mod full {
 
     #[test]
     fn a_full_disk_loses_no_older_file() {
-        let scene = fresh("full-disk");
+        let scene = empty_folder("full-disk");
         inputs(&scene);
         for (name, command) in WRITERS {
             fs::write(path(&scene, name), "good").unwrap();
-            let output = cramped(&scene, command);
+            let output = run_with_full_disk(&scene, command);
             let message = stderr(&output);
             assert_eq!(output.status.code(), Some(1), "{command}: {message}");
-            has(&message, "cannot write ");
+            assert_contains(&message, "cannot write ");
             assert_eq!(read(&path(&scene, name)), "good", "{command}");
         }
         let tables = |name: &String| name.contains(".csv.") || name.ends_with(".csv");
@@ -339,23 +340,23 @@ mod full {
 
     #[test]
     fn a_full_disk_loses_no_pages() {
-        let scene = fresh("full-pages");
+        let scene = empty_folder("full-pages");
         inputs(&scene);
         scene.file("hit.html", "good");
         let audit =
             "audit --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --out a.csv --pages .";
-        assert_eq!(cramped(&scene, audit).status.code(), Some(1));
+        assert_eq!(run_with_full_disk(&scene, audit).status.code(), Some(1));
         assert_eq!(read(&path(&scene, "hit.html")), "good");
         scene.file("ccd-query.1", "good");
-        assert_eq!(cramped(&scene, "man .").status.code(), Some(1));
+        assert_eq!(run_with_full_disk(&scene, "man .").status.code(), Some(1));
         assert_eq!(read(&path(&scene, "ccd-query.1")), "good");
         assert!(names(&scene).iter().all(|name| !name.ends_with(".part")));
     }
 
-    /// Output that a shell appends to a file leaves the file's content in place.
+    /// Tests that output appended by a shell leaves the file's earlier content in place.
     #[test]
     fn open_files_are_written_on() {
-        let scene = fresh("open-files");
+        let scene = empty_folder("open-files");
         inputs(&scene);
         let query = "query --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --quiet --out";
         for out in ["-", "/dev/stdout", "/dev/fd/3"] {

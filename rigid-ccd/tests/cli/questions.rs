@@ -1,18 +1,18 @@
-//! `ccd query --ask` for motions and for paths.
+//! Tests `ccd query --ask` for motions and for paths.
 
-use crate::command::{Row, Run, Scene, has, parse, stderr};
+use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
 use crate::{DROP, DROP_TIME, FALLING_CUBE};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
 use std::fs;
 
-/// A ball that passes another one at a distance of 0.2, nearest at time 0.5.
+/// The options for two balls of radius 0.5.
 const BALLS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
-const PASSES: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
+const PASSING_MOTION: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
-/// A cube that comes down onto a slab, stays for a unit of time and leaves: a path from pose to pose, whose times begin
-/// at 10. It touches from 12.5 to 15.
-const VISIT: &str = "id,t,a_px,a_pz\n\
+/// A table of a path: a cube comes down onto a slab, stays for a unit of time and leaves, from time 10 on. It touches
+/// from 12.5 to 15.
+const VISIT_PATH: &str = "id,t,a_px,a_pz\n\
                      visit,10,0,4\n\
                      visit,13,0,1\n\
                      visit,14,5,1\n\
@@ -24,7 +24,7 @@ fn ask(question: &str, bodies: &[&str], table: &str) -> Run {
     Run::query(bodies).args(&["--ask", question]).stdin(table)
 }
 
-fn only(run: &Run) -> Row {
+fn only_row(run: &Run) -> Row {
     let mut rows = run.succeeds();
     assert_eq!(rows.len(), 1);
     rows.remove(0)
@@ -32,12 +32,12 @@ fn only(run: &Run) -> Row {
 
 #[test]
 fn a_contact_is_found_at_any_time() {
-    let row = only(&ask("is-free", &FALLING_CUBE, DROP));
+    let row = only_row(&ask("is-free", &FALLING_CUBE, DROP));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!((DROP_TIME - 1e-3..=1.0).contains(&time), "{time}");
     assert!(row.number("distance_upper") <= 1e-3);
-    let row = only(&ask("is-free", &BALLS, PASSES));
+    let row = only_row(&ask("is-free", &BALLS, PASSING_MOTION));
     assert_eq!((row.text("status"), row.text("time")), ("free", "1.0"));
     assert_eq!(row.text("distance_lower"), "");
 }
@@ -45,7 +45,7 @@ fn a_contact_is_found_at_any_time() {
 #[test]
 fn an_interval_holds_the_contact() {
     let through = "a_pz,a_vz,duration\n4,-4,3\n";
-    let row = only(&ask("contact-interval", &FALLING_CUBE, through));
+    let row = only_row(&ask("contact-interval", &FALLING_CUBE, through));
     assert_eq!(row.text("status"), "contact");
     row.assert_in_time(DROP_TIME, 4.0);
     let late = row.number("last_time") - 5.5 / 4.0;
@@ -78,20 +78,24 @@ fn an_interval_begins_as_the_first_contact_does() {
 
 #[test]
 fn the_least_distance_is_bracketed_and_compared() {
-    let row = only(&ask("closest-approach", &BALLS, PASSES));
+    let row = only_row(&ask("closest-approach", &BALLS, PASSING_MOTION));
     assert_eq!(row.text("status"), "measured");
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(lower <= 0.2 && 0.2 <= upper && upper - lower <= 1e-3);
     assert!((row.number("time") - 0.5).abs() < 0.05);
     for (clearance, status) in [("0", "kept"), ("0.19", "kept"), ("0.21", "violated")] {
-        let run = ask("closest-approach", &BALLS, PASSES).args(&["--clearance", clearance]);
-        assert_eq!(only(&run).text("status"), status, "{clearance}");
+        let run = ask("closest-approach", &BALLS, PASSING_MOTION).args(&["--clearance", clearance]);
+        assert_eq!(only_row(&run).text("status"), status, "{clearance}");
     }
     let run = ask("closest-approach", &FALLING_CUBE, DROP).args(&["--clearance", "0.002"]);
-    assert_eq!(only(&run).text("status"), "violated");
-    let run =
-        ask("closest-approach", &BALLS, PASSES).args(&["--clearance", "0.2", "--tolerance", "0.1"]);
-    let row = only(&run);
+    assert_eq!(only_row(&run).text("status"), "violated");
+    let run = ask("closest-approach", &BALLS, PASSING_MOTION).args(&[
+        "--clearance",
+        "0.2",
+        "--tolerance",
+        "0.1",
+    ]);
+    let row = only_row(&run);
     assert_eq!(row.text("status"), "unverified");
     assert!(
         row.text("reason")
@@ -101,7 +105,7 @@ fn the_least_distance_is_bracketed_and_compared() {
     );
 }
 
-/// A clearance that the polytopes violate, and the cylinders keep: their sides are 0.1 apart.
+/// Tests clearances that the polytopes around two cylinders violate, although the cylinders, 0.1 apart, keep them.
 #[test]
 fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
     let bodies = ["--a", "cylinder:1,1,.01", "--b", "cylinder:1,1,.01"];
@@ -115,7 +119,7 @@ fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
         (".13", "violated"),
     ] {
         let run = ask("distance", &bodies, beside).args(&["--clearance", clearance]);
-        let row = only(&run);
+        let row = only_row(&run);
         assert_eq!(row.text("status"), status, "{clearance}");
         let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
         assert!(lower < 0.095 && (0.1..0.13).contains(&upper), "{upper}");
@@ -127,7 +131,7 @@ fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
 #[test]
 fn a_clearance_that_is_decided_ends_the_search() {
     let visits = |more: &[&str]| {
-        let row = only(&ask("closest-approach", &BALLS, PASSES).args(more));
+        let row = only_row(&ask("closest-approach", &BALLS, PASSING_MOTION).args(more));
         (row.number("iterations"), row)
     };
     let (kept, row) = visits(&["--clearance", "0.1"]);
@@ -143,8 +147,8 @@ fn a_clearance_that_is_decided_ends_the_search() {
 
 #[test]
 fn the_greatest_distance_is_bracketed() {
-    for table in [PASSES, "t,a_px\n0,-3\n0.5,-1.5\n1,4\n"] {
-        let row = only(&ask("greatest-distance", &BALLS, table));
+    for table in [PASSING_MOTION, "t,a_px\n0,-3\n0.5,-1.5\n1,4\n"] {
+        let row = only_row(&ask("greatest-distance", &BALLS, table));
         assert_eq!(row.text("status"), "measured");
         let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
         assert!(lower <= upper && upper - lower <= 1e-3, "{lower} {upper}");
@@ -154,23 +158,23 @@ fn the_greatest_distance_is_bracketed() {
 
 #[test]
 fn the_distance_is_that_of_the_start() {
-    let row = only(&ask("distance", &FALLING_CUBE, DROP));
+    let row = only_row(&ask("distance", &FALLING_CUBE, DROP));
     assert_eq!((row.text("status"), row.text("time")), ("measured", "0.0"));
     assert!((row.number("distance_lower") - 2.5).abs() < 1e-3);
     assert!((row.number("distance_upper") - 2.5).abs() < 1e-12);
     assert!((row.number("witness_b_z") - 1.0).abs() < 1e-12);
     let inside = "a_px\n0.1\n";
-    let row = only(&ask("distance", &FALLING_CUBE, inside));
+    let row = only_row(&ask("distance", &FALLING_CUBE, inside));
     assert_eq!(row.text("status"), "overlapping");
 }
 
 #[test]
 fn paths_answer_every_question() {
-    let row = only(&ask("first-contact", &FALLING_CUBE, VISIT));
+    let row = only_row(&ask("first-contact", &FALLING_CUBE, VISIT_PATH));
     assert_eq!((row.text("id"), row.text("status")), ("visit", "contact"));
     row.assert_in_time(VISIT_BEGINS, 1.0);
 
-    let row = only(&ask("is-free", &FALLING_CUBE, VISIT));
+    let row = only_row(&ask("is-free", &FALLING_CUBE, VISIT_PATH));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!(
@@ -178,13 +182,13 @@ fn paths_answer_every_question() {
         "{time}"
     );
 
-    let row = only(&ask("contact-interval", &FALLING_CUBE, VISIT));
+    let row = only_row(&ask("contact-interval", &FALLING_CUBE, VISIT_PATH));
     row.assert_in_time(VISIT_BEGINS, 1.0);
     let late = row.number("last_time") - VISIT_ENDS;
     assert!((-1e-9..=2e-3).contains(&late), "{late} late");
 
-    let over = VISIT.replace(",1\n", ",2\n");
-    let row = only(&ask("closest-approach", &FALLING_CUBE, &over));
+    let over = VISIT_PATH.replace(",1\n", ",2\n");
+    let row = only_row(&ask("closest-approach", &FALLING_CUBE, &over));
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(
         lower <= 0.5 && 0.5 <= upper && upper - lower <= 1e-3,
@@ -192,13 +196,13 @@ fn paths_answer_every_question() {
     );
     let time = row.number("time");
     assert!((12.9..=14.1).contains(&time), "{time}");
-    let row = only(&ask("first-contact", &FALLING_CUBE, &over));
+    let row = only_row(&ask("first-contact", &FALLING_CUBE, &over));
     assert_eq!((row.text("status"), row.text("time")), ("free", "18.0"));
 }
 
 #[test]
 fn distances_are_those_of_every_row_of_a_path() {
-    let rows = ask("distance", &FALLING_CUBE, VISIT).succeeds();
+    let rows = ask("distance", &FALLING_CUBE, VISIT_PATH).succeeds();
     let times: Vec<f64> = rows.iter().map(|row| row.number("time")).collect();
     assert_eq!(times, [10.0, 13.0, 14.0, 18.0]);
     let statuses: Vec<&str> = rows.iter().map(|row| row.text("status")).collect();
@@ -216,8 +220,8 @@ fn contacts_of_a_path_are_listed() {
     let scene = Scene::new("contacts-of-a-path");
     let contacts = scene.directory.join("contacts.csv");
     let contacts_name = contacts.to_str().unwrap();
-    let run = ask("first-contact", &FALLING_CUBE, VISIT).args(&["--contacts", contacts_name]);
-    let found = only(&run);
+    let run = ask("first-contact", &FALLING_CUBE, VISIT_PATH).args(&["--contacts", contacts_name]);
+    let found = only_row(&run);
     let rows = parse(&fs::read(&contacts).unwrap());
     assert_eq!(rows.len(), 4, "the corners of the cube");
     for row in rows {
@@ -264,7 +268,7 @@ fn paths_are_resumed_and_cut_into_rows() {
     let out_name = out.to_str().unwrap();
     run(&["--out", out_name]).succeeds();
     let again = run(&["--out", out_name, "--resume"]).output();
-    has(&stderr(&again), "already has all rows");
+    assert_contains(&stderr(&again), "already has all rows");
     assert_eq!(fs::read(&out).unwrap(), whole);
 }
 
@@ -310,30 +314,30 @@ fn options_without_a_use_are_refused() {
     ] {
         let message = Run::query(&FALLING_CUBE)
             .args(options)
-            .stdin(VISIT)
+            .stdin(VISIT_PATH)
             .fails(2);
-        has(&message, refusal);
+        assert_contains(&message, refusal);
     }
 }
 
-/// The bodies are nearest later, but overlap at the start.
+/// Tests bodies that overlap at the start, and whose centres are nearest later.
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
     let deeper = "a_px,a_vx\n0.9,-1.9\n";
-    let row = only(&ask("closest-approach", &BALLS, deeper));
+    let row = only_row(&ask("closest-approach", &BALLS, deeper));
     assert_eq!(
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
     );
     let path = "t,a_px\n0,0.9\n1,-1\n2,3\n";
-    let row = only(&ask("closest-approach", &BALLS, path));
+    let row = only_row(&ask("closest-approach", &BALLS, path));
     assert_eq!(
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
     );
 }
 
-/// The exit code is 0 only if every row is proven.
+/// Tests that `--check` has exit code 0 only if every row is proven.
 #[test]
 fn a_check_fails_unless_every_row_is_proven() {
     let near = &["--clearance", "0.21"][..];
@@ -349,8 +353,8 @@ fn a_check_fails_unless_every_row_is_proven() {
         ("closest-approach", near, "violated", 3),
         ("closest-approach", open, "unverified", 3),
     ] {
-        let run = ask(asked, &BALLS, PASSES).args(options);
-        assert_eq!(only(&run).text("status"), status, "{options:?}");
+        let run = ask(asked, &BALLS, PASSING_MOTION).args(options);
+        assert_eq!(only_row(&run).text("status"), status, "{options:?}");
         let output = run.args(&["--check", "-q"]).output();
         assert_eq!(output.status.code(), Some(code), "{asked} {options:?}");
         let told = stderr(&output).contains("--check: 1 of 1 rows");
@@ -368,12 +372,12 @@ fn a_check_fails_unless_every_row_is_proven() {
         ),
     ] {
         let run = Run::query(&BALLS).args(&["--check"]).args(options);
-        let message = run.stdin(PASSES).fails(2);
-        has(&message, refusal);
+        let message = run.stdin(PASSING_MOTION).fails(2);
+        assert_contains(&message, refusal);
     }
 }
 
-/// The same command with --resume finds the run finished, and has the same exit code.
+/// Tests that `--check --resume` has the same exit code again when it finds the run finished.
 #[test]
 fn a_finished_check_fails_again() {
     let scene = Scene::new("check-again");
@@ -387,7 +391,7 @@ fn a_finished_check_fails_again() {
     run.args(&["--resume"]).ends(3);
 }
 
-/// A tube about z as an OBJ.
+/// Returns a tube about z as the text of an OBJ file.
 fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
     const CORNERS: usize = 48;
     let mut text = String::new();
@@ -409,7 +413,7 @@ fn tube(radii: [f64; 2], heights: [f64; 2]) -> String {
     text
 }
 
-/// Early bounds hold for a whole path, and do not use the budget of any segment.
+/// Tests that early bounds hold for a whole path, and do not use the budget of any segment.
 #[test]
 fn a_long_path_is_measured_with_what_its_parts_need() {
     let scene = Scene::new("long-path");
@@ -431,7 +435,7 @@ fn a_long_path_is_measured_with_what_its_parts_need() {
     };
     let measured = |quarters, budget: &str| {
         let run = ask("closest-approach", &bodies, &turns(quarters));
-        let row = only(&run.args(&["--budget", budget]));
+        let row = only_row(&run.args(&["--budget", budget]));
         assert_eq!(row.text("status"), "measured", "{budget}");
         row.number("iterations")
     };

@@ -1,6 +1,6 @@
-//! Invalid rows, bodies, files and options, and their messages.
+//! Tests invalid rows, bodies, files and options, and their messages.
 
-use crate::command::{Run, Scene, has, parse, stderr};
+use crate::command::{Run, Scene, assert_contains, parse, stderr};
 use crate::{DROP, FALLING_CUBE};
 
 #[test]
@@ -56,9 +56,9 @@ fn bad_rows_keep_their_place_and_are_reported() {
         }
     }
     assert_eq!(rows.len(), 9);
-    has(&message, "ccd: standard input: 7 bad rows in all");
+    assert_contains(&message, "ccd: standard input: 7 bad rows in all");
     assert_eq!(message.matches("ccd: ").count(), 6, "{message}");
-    has(&message, "9 rows: 2 contact, 7 error; median");
+    assert_contains(&message, "9 rows: 2 contact, 7 error; median");
 }
 
 #[test]
@@ -66,8 +66,8 @@ fn an_unknown_column_is_reported_with_the_most_similar_one() {
     let output = Run::query(&FALLING_CUBE).stdin("id,a_pw\n1,2\n").ends(2);
     assert_eq!(output.stdout, b"");
     let message = stderr(&output);
-    has(&message, "standard input: header: unknown column `a_pw`");
-    has(&message, "did you mean `a_p");
+    assert_contains(&message, "standard input: header: unknown column `a_pw`");
+    assert_contains(&message, "did you mean `a_p");
 }
 
 #[test]
@@ -96,13 +96,13 @@ fn messages_name_the_bad_body_or_file() {
         ),
     ] {
         let message = Run::query(&bodies).stdin(DROP).fails(2);
-        has(&message, expected);
+        assert_contains(&message, expected);
     }
     let message = Run::bare(&["query", "--a", "sphere:1", "--b", "sphere:1"])
         .args(&["--motions", "nowhere.csv"])
         .stdin("")
         .fails(2);
-    has(&message, "nowhere.csv");
+    assert_contains(&message, "nowhere.csv");
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn bad_options_are_refused() {
             .args(&options)
             .stdin(DROP)
             .fails(2);
-        has(&message, options[1]);
+        assert_contains(&message, options[1]);
     }
 }
 
@@ -145,13 +145,13 @@ fn unwritable_results_have_exit_code_1() {
         1,
         "{message}"
     );
-    has(
+    assert_contains(
         &message,
         &format!("cannot write {folder}/results.csv: {folder} is"),
     );
 }
 
-/// Rows before the unclosed cell are answered; rows after it are not read as the cell's content.
+/// Tests that rows before an unclosed cell are answered, and that rows after it are not read as the cell's content.
 #[test]
 fn an_unclosed_quote_is_an_error() {
     for (motions, rows, expected) in [
@@ -162,7 +162,7 @@ fn an_unclosed_quote_is_an_error() {
         let output = Run::query(&FALLING_CUBE).stdin(motions).ends(2);
         let message = stderr(&output);
         let expected = format!("standard input: {expected} opens a cell here");
-        has(&message, &expected);
+        assert_contains(&message, &expected);
         if rows > 0 {
             assert_eq!(parse(&output.stdout).len(), rows, "{motions}");
         }
@@ -171,7 +171,7 @@ fn an_unclosed_quote_is_an_error() {
     assert_eq!(closed.succeeds()[0].text("id"), "a\nb");
 }
 
-/// Git replaces large files by a few lines until they are fetched.
+/// Tests the message for a Git LFS pointer, which stands for a large file until that is fetched.
 #[test]
 fn git_lfs_pointers_are_recognised() {
     let scene = Scene::new("lfs");
@@ -188,5 +188,5 @@ fn git_lfs_pointers_are_recognised() {
         );
     }
     let message = Run::query(&FALLING_CUBE).stdin(pointer).fails(2);
-    has(&message, advice);
+    assert_contains(&message, advice);
 }

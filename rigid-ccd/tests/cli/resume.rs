@@ -1,13 +1,13 @@
-//! Interrupted runs: existing files are kept, and answered rows are not answered again.
+//! Tests interrupted runs: existing files are kept, and answered rows are not answered again.
 
-use crate::command::{Scene, has, stderr};
+use crate::command::{Scene, assert_contains, stderr};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
 /// The default options of a query.
-const USUAL: [[&str; 2]; 5] = [
+const DEFAULT_OPTIONS: [[&str; 2]; 5] = [
     ["--a", "box:.5,.5,.5"],
     ["--b", "box:9,9,1"],
     ["--motions", "-"],
@@ -26,14 +26,16 @@ pub(crate) fn motions() -> String {
 }
 
 /// Creates an empty folder.
-pub(crate) fn fresh(name: &str) -> Scene {
+pub(crate) fn empty_folder(name: &str) -> Scene {
     let scene = Scene::new(name);
     fs::remove_dir_all(&scene.directory).unwrap();
     Scene::new(name)
 }
 
 pub(crate) fn query(scene: &Scene, options: &[&str]) -> Command {
-    let usual = USUAL.iter().filter(|[name, _]| !options.contains(name));
+    let usual = DEFAULT_OPTIONS
+        .iter()
+        .filter(|[name, _]| !options.contains(name));
     let mut command = Command::new(crate::PROGRAM);
     command
         .current_dir(&scene.directory)
@@ -84,11 +86,11 @@ const TABLES: [&str; 2] = ["results.csv", "contacts.csv"];
 #[test]
 fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     let table = motions();
-    let whole = fresh("undisturbed");
+    let whole = empty_folder("undisturbed");
     let output = finished(query(&whole, &[]), &table);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 
-    let scene = fresh("killed");
+    let scene = empty_folder("killed");
     for name in TABLES {
         fs::write(path(&scene, name), "of old").unwrap();
     }
@@ -120,7 +122,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     let done = count("continues at row ", " of the motions");
     let done = done.unwrap_or_else(|| panic!("{message}"));
     // The summary counts all rows of the table, and those of this run.
-    has(&message, "\n20000 rows: ");
+    assert_contains(&message, "\n20000 rows: ");
     let here = count(", 20 error; ", " in this run; median");
     assert_eq!(here, Some(ROWS - done), "{message}");
     for name in TABLES {
@@ -137,7 +139,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
 #[test]
 fn rows_without_their_record_are_kept() {
     let table = motions();
-    let scene = fresh("no-record");
+    let scene = empty_folder("no-record");
     let part = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
     killed(&scene, &[], &table[..part]);
     let [rows, record] =
@@ -170,7 +172,7 @@ fn rows_without_their_record_are_kept() {
 #[test]
 fn a_run_continues_only_with_the_same_options_and_rows() {
     let table = motions();
-    let scene = fresh("other-question");
+    let scene = empty_folder("other-question");
     let part = &table[..table.len() / 2];
     killed(&scene, &[], part);
     let kept = read(&path(&scene, "results.csv.partial"));
@@ -192,7 +194,7 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
         let output = finished(query(&scene, options), input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
-        has(&message, expected);
+        assert_contains(&message, expected);
         assert!(
             !message.contains("Some(") && !message.contains(" {"),
             "{message}"
@@ -207,11 +209,11 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
 
 #[test]
 fn resuming_without_an_interrupted_run_starts_a_new_one() {
-    let scene = fresh("nothing-to-resume");
+    let scene = empty_folder("nothing-to-resume");
     let one = "a_pz\n4\n";
     let output = finished(query(&scene, &["--resume"]), one);
     assert!(output.status.success(), "{}", stderr(&output));
-    has(&stderr(&output), "found no interrupted run");
+    assert_contains(&stderr(&output), "found no interrupted run");
     let output = finished(query(&scene, &["--resume", "--out", "-"]), one);
     assert_eq!(output.status.code(), Some(2));
 }
@@ -233,14 +235,14 @@ fn a_finished_run_is_left_unchanged() {
         ("finished-bad", "id,a_pz,a_vz\nx,4,-4\ny,9,z\n", 2),
         ("finished-empty", "id,a_pz,a_vz\n", 0),
     ] {
-        let scene = fresh(name);
+        let scene = empty_folder(name);
         let output = finished(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let before = tables(&scene);
         let output = finished(query(&scene, &["--resume"]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let message = stderr(&output);
-        has(
+        assert_contains(
             &message,
             "results.csv already has all rows of this query; it is unchanged",
         );
@@ -261,7 +263,7 @@ fn a_finished_run_is_left_unchanged() {
 #[test]
 fn a_finished_run_with_other_options_is_refused() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
-    let scene = fresh("finished-other");
+    let scene = empty_folder("finished-other");
     let output = finished(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
@@ -286,7 +288,7 @@ fn a_finished_run_with_other_options_is_refused() {
         let output = finished(command, input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
-        has(&message, expected);
+        assert_contains(&message, expected);
         assert_eq!(tables(&scene), before);
     }
     // A file of another program is not mistaken for the table.
@@ -294,7 +296,7 @@ fn a_finished_run_with_other_options_is_refused() {
     let output = finished(query(&scene, &["--resume"]), table);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
-    has(&message, "has changed since the run finished");
+    assert_contains(&message, "has changed since the run finished");
     assert_eq!(read(&path(&scene, "results.csv")), "mine");
     // Without a table, all rows are answered.
     fs::remove_file(path(&scene, "results.csv")).unwrap();
@@ -303,11 +305,11 @@ fn a_finished_run_with_other_options_is_refused() {
     assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
 }
 
-/// A run may be killed after its last row, before it renames its tables.
+/// Tests resuming a run that was killed after its last row, before it renamed its tables.
 #[test]
 fn complete_tables_are_renamed() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
-    let scene = fresh("nameless");
+    let scene = empty_folder("nameless");
     let output = finished(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
@@ -324,7 +326,7 @@ fn complete_tables_are_renamed() {
 
 #[test]
 fn a_changed_mesh_is_reported_with_its_option() {
-    let scene = fresh("changed-mesh");
+    let scene = empty_folder("changed-mesh");
     let mesh = path(&scene, "part.obj");
     let options = ["--a", "part.obj"];
     fs::write(&mesh, crate::TETRAHEDRON).unwrap();
@@ -336,12 +338,12 @@ fn a_changed_mesh_is_reported_with_its_option() {
     let output = finished(command, table);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
-    has(&message, ": the file of --a has changed since; give");
+    assert_contains(&message, ": the file of --a has changed since; give");
 }
 
 #[test]
 fn folders_and_inputs_are_never_overwritten() {
-    let scene = fresh("no-files");
+    let scene = empty_folder("no-files");
     let one = "a_pz\n4\n";
     fs::create_dir(path(&scene, "folder")).unwrap();
     for out in ["folder", "no/such/file"] {
@@ -362,7 +364,7 @@ fn folders_and_inputs_are_never_overwritten() {
 #[test]
 fn devices_are_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
-    let scene = fresh("devices");
+    let scene = empty_folder("devices");
     let output = finished(query(&scene, &["--out", "/dev/null"]), "a_pz\n4\n");
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(

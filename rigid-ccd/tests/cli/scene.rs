@@ -1,9 +1,10 @@
-//! `ccd scene`.
+//! Tests `ccd scene`.
 
-use crate::command::{Row, Run, Scene, has, parse, stderr};
+use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
 use std::path::Path;
 
-/// Two balls that fall onto a table, listed in another order than they land, and one that never lands.
+/// A table of two balls that fall onto a table top, listed in another order than they land, and of one that never
+/// lands.
 const BODIES: &str = "body,id,px,pz,vz\n\
     \"box:9,9,1\",table,0,0,0\n\
     sphere:.5,fast,0,8,-5.5\n\
@@ -92,8 +93,8 @@ fn a_scene_is_not_overwritten() {
     assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES);
 }
 
-/// Runs both commands that read the table of a scene.
-fn both(bodies: &str, options: &[&str]) -> [(Option<i32>, String); 2] {
+/// Runs `ccd scene` and `ccd view --scene` on a table, and returns their exit codes and messages.
+fn scene_and_view(bodies: &str, options: &[&str]) -> [(Option<i32>, String); 2] {
     let out = Path::new(bodies).with_extension("html");
     let out = out.to_str().unwrap();
     [
@@ -117,25 +118,25 @@ fn a_scene_is_remarked_upon_as_a_query_is() {
         "an angular velocity is a round number of degrees",
         "a quaternion is far from unit length",
     ];
-    for (code, message) in both(bodies, &[]) {
+    for (code, message) in scene_and_view(bodies, &[]) {
         assert_eq!(code, Some(0), "{message}");
         for remark in remarks {
             assert_eq!(message.matches(remark).count(), 1, "{message}");
         }
         assert!(message.contains("without --duration, all motions end at 1\n"));
-        has(&message, "to the end at 1.");
+        assert_contains(&message, "to the end at 1.");
     }
     // A tenth of the time is a turn and a half.
-    for (_, message) in both(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
+    for (_, message) in scene_and_view(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
         assert!(!message.contains("degrees") && !message.contains("the tolerance is"));
         assert!(!message.contains("without --duration") && message.contains("to the end at 0.1."));
     }
-    for (_, message) in both(bodies, &["-q"]) {
+    for (_, message) in scene_and_view(bodies, &["-q"]) {
         assert_eq!(message, "");
     }
 }
 
-/// All motions end at the duration, also those given by an end pose.
+/// Tests that all motions end at the duration, also those given by an end pose.
 #[test]
 fn an_end_pose_is_reached_at_the_end() {
     let scene = Scene::new("scene-end");
@@ -151,9 +152,9 @@ fn an_end_pose_is_reached_at_the_end() {
         "2",
     ]));
     rows[0].assert_in_time(1.5, 4.0);
-    for (code, message) in both(bodies, &["--duration", "0"]) {
+    for (code, message) in scene_and_view(bodies, &["--duration", "0"]) {
         assert_eq!(code, Some(2), "{message}");
-        has(&message, "row 0 (line 2): --duration: 0 is not");
+        assert_contains(&message, "row 0 (line 2): --duration: 0 is not");
     }
 }
 
@@ -199,9 +200,9 @@ fn tables_that_are_no_scene_are_refused_in_its_words() {
         ),
     ] {
         let bodies = scene.file("scene.csv", table);
-        for (code, message) in both(bodies.to_str().unwrap(), &[]) {
+        for (code, message) in scene_and_view(bodies.to_str().unwrap(), &[]) {
             assert_eq!(code, Some(2), "{message}");
-            has(&message, expected);
+            assert_contains(&message, expected);
         }
     }
 }

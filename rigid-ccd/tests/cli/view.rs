@@ -1,6 +1,6 @@
-//! Pages of `ccd view` and `ccd query --html`.
+//! Tests pages of `ccd view` and `ccd query --html`.
 
-use super::command::{Run, Scene, has, stderr};
+use super::command::{Run, Scene, assert_contains, stderr};
 use serde_json::Value;
 use std::path::Path;
 
@@ -98,7 +98,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         .args(&args)
         .folder(&scene.directory)
         .fails(2);
-    has(&message, "no row has the id \"gone\"");
+    assert_contains(&message, "no row has the id \"gone\"");
     assert_eq!(
         names(&data(&scene.directory.join("view.html"))),
         ["hit (contact)", "never (free)"]
@@ -112,7 +112,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         .args(&nothing)
         .folder(&scene.directory)
         .fails(2);
-    has(&message, "no row to show");
+    assert_contains(&message, "no row to show");
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn results_are_shown_as_they_are() {
         .args(&wrong)
         .folder(&scene.directory)
         .fails(2);
-    has(&message, "not those of results");
+    assert_contains(&message, "not those of results");
 }
 
 #[test]
@@ -207,8 +207,8 @@ fn results_of_other_bodies_are_not_shown() {
         .args(&["--results", "results.csv"])
         .folder(&scene.directory)
         .ends(2);
-    has(&stderr(&output), "row hit: at 0.62");
-    has(&stderr(&output), "other bodies");
+    assert_contains(&stderr(&output), "row hit: at 0.62");
+    assert_contains(&stderr(&output), "other bodies");
     let other = file(&scene, "other.csv", "id,a_pz\nelse,4\n");
     let view = [
         &["view", "--motions", &other, "--results", "results.csv"],
@@ -216,10 +216,10 @@ fn results_of_other_bodies_are_not_shown() {
     ]
     .concat();
     let output = Run::bare(&view).folder(&scene.directory).output();
-    has(&stderr(&output), "no row of");
+    assert_contains(&stderr(&output), "no row of");
 }
 
-/// Returns the verdict of the first row of a page by `ccd query`.
+/// Returns the verdict of the first row on a page that `ccd query` writes.
 fn verdict(scene: &Scene, more: &[&str]) -> String {
     let motions = file(scene, "motions.csv", "id,a_pz,a_vz\nhit,4,-4\n");
     let args = [
@@ -310,7 +310,7 @@ fn an_unwritable_page_is_an_error_before_the_work() {
         .concat(),
     ] {
         let message = Run::bare(&args).folder(&scene.directory).fails(1);
-        has(&message, "create it first");
+        assert_contains(&message, "create it first");
         assert!(!scene.directory.join("x.csv").exists());
     }
 }
@@ -328,7 +328,7 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
         .args(&args)
         .folder(&scene.directory)
         .fails(2);
-    has(&message, "2 rows are no valid queries");
+    assert_contains(&message, "2 rows are no valid queries");
     assert_eq!(
         names(&data(&scene.directory.join("view.html"))),
         ["hit (contact)"]
@@ -404,7 +404,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
         let message = Run::bare(&["view", "--scene", &bodies])
             .folder(&scene.directory)
             .fails(2);
-        has(&message, says);
+        assert_contains(&message, says);
     }
 }
 

@@ -1,4 +1,4 @@
-//! parry in both precisions, from one source: its two crates differ only in their number type.
+//! Casts of parry in both precisions, from one source: its two crates differ only in their number type.
 //!
 //! It has two calls for the question, [`double::cast`] and [`double::sweep`], which share no code.
 

@@ -1,4 +1,4 @@
-//! rapier in double precision: one step of its simulation over the whole query, with continuous collision detection.
+//! Runs one step of rapier's simulation in double precision over the whole query, with continuous collision detection.
 
 use crate::method::peer::contact_at;
 use crate::method::peer::parry::double::shapes::{pose, tri_mesh, vector};
@@ -13,7 +13,7 @@ use rapier3d_f64::prelude::{
 };
 use rigid_ccd::table::motions::Motions;
 
-/// Simulates A as a free body and B as a fixed one in one step; the contact is the pose at which the step stops A.
+/// A rapier world with A as a free body and B as a fixed one; the contact is where one step stops A.
 ///
 /// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a compound
 /// of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
@@ -35,10 +35,10 @@ pub struct Simulated {
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
 const ERRORS_AT_HIT: f64 = 1.25;
 /// The fraction of its motion at which a step counts as complete, because poses are rounded.
-const WHOLE: f64 = 1.0 - 1e-9;
+const COMPLETE_SHARE: f64 = 1.0 - 1e-9;
 
 impl Simulated {
-    /// Prepares two meshes.
+    /// Creates a rapier world with two meshes.
     ///
     /// # Errors
     /// If parry refuses a mesh.
@@ -88,8 +88,8 @@ impl Solver for Simulated {
         self.pose(query, tolerance);
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
-            Some(a) => match share(query, a.position()) {
-                share if share >= WHOLE => Claim::Free,
+            Some(a) => match share_of_motion(query, a.position()) {
+                share if share >= COMPLETE_SHARE => Claim::Free,
                 share => contact_at(share * query.duration, query.duration),
             },
             None => Claim::Unresolved { safe_until: 0.0 },
@@ -99,7 +99,7 @@ impl Solver for Simulated {
 }
 
 /// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
-fn share(query: &Motions, end: &Pose) -> f64 {
+fn share_of_motion(query: &Motions, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
     if way == DVec3::ZERO {
@@ -110,7 +110,8 @@ fn share(query: &Motions, end: &Pose) -> f64 {
     (centre - start).dot(way) / way.length_squared()
 }
 
-/// Returns the same fraction for a body that only rotates. A sweep mixes two orientations, the shorter way.
+/// Returns the fraction of its rotation that a body has covered, if it only rotates. A sweep mixes two orientations,
+/// the shorter way.
 fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     let turn_to = |rotation: DQuat| {
         let turn = rotation * motion.start().rotation().conjugate();

@@ -1,4 +1,4 @@
-//! Tests every peer on meshes with exact answers: cases that it answers correctly, and known errors.
+//! Tests every peer on meshes with exact answers: cases that it answers right, and known errors.
 
 use super::PeerKind;
 use crate::method::Method;
@@ -18,29 +18,29 @@ const TOLERANCE: f64 = 1e-3;
 
 /// Two meshes, a query, and the exact time of the first contact.
 #[derive(Debug)]
-struct Exact {
+struct ExactCase {
     a: TriangleMesh,
     b: TriangleMesh,
     query: Motions,
     time: f64,
-    /// The closing speed at the contact.
+    /// The closing speed at the contact, in units of length per unit of time.
     speed: f64,
 }
 
-impl Exact {
+impl ExactCase {
     fn ask(&self, kind: PeerKind) -> Reply {
         let mut peer = kind.solver(&self.a, &self.b).unwrap();
         peer.answer(&self.query, TOLERANCE)
     }
 
-    /// Asserts that a contact is reported within the error allowed for the peer.
+    /// Asserts that a peer reports the contact within the error that is allowed for it.
     fn assert_right(&self, kind: PeerKind) {
         let reply = self.ask(kind);
         let Claim::Contact { time } = reply.claim else {
             panic!("{}: {reply:?}", name_of(&kind));
         };
         let late = time - self.time;
-        let (early_by, late_by) = allowed(kind);
+        let (early_by, late_by) = allowed_error(kind);
         assert!(
             (-early_by / self.speed..=late_by).contains(&late),
             "{}: {late} late",
@@ -49,8 +49,8 @@ impl Exact {
     }
 }
 
-/// Returns the allowed error of a right answer: early as a length, late as a time.
-fn allowed(kind: PeerKind) -> (f64, f64) {
+/// Returns the allowed error of a right answer: how early as a length, and how late as a time.
+fn allowed_error(kind: PeerKind) -> (f64, f64) {
     match kind {
         PeerKind::ParryF64 => (1e-9, 1e-9),
         // Sixteen roundings of coordinates between 8 and 16; the largest are 9.
@@ -75,8 +75,8 @@ fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(Pose::new(at, turned).unwrap(), velocity, spin).unwrap()
 }
 
-/// T1: a cube falls flat onto a slab.
-fn face_on_face() -> Exact {
+/// Returns case T1: a cube falls flat onto a slab.
+fn face_on_face() -> ExactCase {
     let falling = motion(
         3.0 * DVec3::Z,
         DQuat::IDENTITY,
@@ -84,7 +84,7 @@ fn face_on_face() -> Exact {
         DVec3::ZERO,
     );
     let slab = motion(-DVec3::Z, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
-    Exact {
+    ExactCase {
         a: cuboid(0.5, 0.5, 0.5),
         b: cuboid(9.0, 9.0, 1.0),
         query: query(falling, slab),
@@ -93,8 +93,8 @@ fn face_on_face() -> Exact {
     }
 }
 
-/// T8: two cubes meet with crossed edges.
-fn edge_on_edge() -> Exact {
+/// Returns case T8: two cubes meet with crossed edges.
+fn edge_on_edge() -> ExactCase {
     let about = DQuat::from_axis_angle;
     let upper = motion(
         3.0 * DVec3::Z,
@@ -108,7 +108,7 @@ fn edge_on_edge() -> Exact {
         DVec3::ZERO,
         DVec3::ZERO,
     );
-    Exact {
+    ExactCase {
         a: cuboid(0.5, 0.5, 0.5),
         b: cuboid(0.5, 0.5, 0.5),
         query: query(upper, lower),
@@ -117,8 +117,8 @@ fn edge_on_edge() -> Exact {
     }
 }
 
-/// Two balls meet corner on corner; both move.
-fn ball_on_ball() -> Exact {
+/// Returns a case of two moving balls that meet vertex on vertex.
+fn ball_on_ball() -> ExactCase {
     let left = motion(
         -2.5 * DVec3::X,
         DQuat::IDENTITY,
@@ -126,7 +126,7 @@ fn ball_on_ball() -> Exact {
         DVec3::ZERO,
     );
     let right = motion(2.5 * DVec3::X, DQuat::IDENTITY, -DVec3::X, DVec3::ZERO);
-    Exact {
+    ExactCase {
         a: ball(),
         b: ball(),
         query: query(left, right),
@@ -135,8 +135,8 @@ fn ball_on_ball() -> Exact {
     }
 }
 
-/// T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
-fn rod_on_wall(turns: f64) -> Exact {
+/// Returns case T4: an upright rod rotates by `turns` half circles and hits a wall with an edge.
+fn rod_on_wall(turns: f64) -> ExactCase {
     let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
     let spin = turns * PI;
     let time = ((wall / length.hypot(width)).asin() - width.atan2(length)) / spin;
@@ -147,7 +147,7 @@ fn rod_on_wall(turns: f64) -> Exact {
         DVec3::ZERO,
         DVec3::ZERO,
     );
-    Exact {
+    ExactCase {
         a: cuboid(width, 0.3, length),
         b: cuboid(1.0, 9.0, 9.0),
         query: query(rod, far),
@@ -157,7 +157,7 @@ fn rod_on_wall(turns: f64) -> Exact {
     }
 }
 
-/// Returns an octahedron with each face divided in 16; its vertices are on the unit ball and on the axes.
+/// Returns a triangulated unit ball: an octahedron with each face divided in 16.
 fn ball() -> TriangleMesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut triangles = Vec::new();
@@ -184,7 +184,7 @@ fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
 
 #[rstest]
 fn straight_motions_are_right_with_every_peer(
-    #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: Exact,
+    #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: ExactCase,
 ) {
     for kind in PeerKind::value_variants().iter().copied() {
         exact.assert_right(kind);
@@ -207,7 +207,7 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
     }
 }
 
-/// Known error: a distance that is not monotone is bisected over the whole time, and a later root is found.
+/// Tests a known error: a distance that is not monotone is bisected over the whole time, and a later root is found.
 #[rstest]
 fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
@@ -219,8 +219,8 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     }
 }
 
-/// Known error: a step interpolates quaternions instead of rotating at a constant rate, and a whole turn counts as no
-/// rotation.
+/// Tests a known error: a step interpolates quaternions instead of rotating at a constant rate, and a whole turn counts
+/// as no rotation.
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);
@@ -291,7 +291,7 @@ fn tighter_tolerances_tighten_sweeps_alone() {
 
 #[test]
 fn every_method_is_found_by_its_name() {
-    let more = Method::of_scripts().chain([Method::published()]);
+    let more = Method::script_methods().chain([Method::fast_as_published()]);
     for method in Method::all().into_iter().chain(more) {
         assert_eq!(Method::named(&method.to_string()), Some(method));
     }

@@ -1,7 +1,7 @@
-//! The rival that advances both bodies by the least step over pairs of swept spheres.
+//! Implements C2A, which advances both bodies by the least safe step over pairs of swept spheres.
 
 use super::patience::Patience;
-use super::swept_spheres::{Gap, Leaves, Pair, Trees, Under};
+use super::swept_spheres::{Gap, Leaves, Pair, PairChildren, Trees};
 use super::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::order::lesser;
@@ -13,7 +13,7 @@ mod closing;
 #[cfg(test)]
 mod tests;
 
-/// Controlled conservative advancement \[C2A09\].
+/// The method controlled conservative advancement \[C2A09\], with its trees and its memory.
 ///
 /// Every step descends both trees as a distance query does. The step is the least (distance) /
 /// (bound of the closing speed) over the pairs of nodes and triangles at which the descent stops.
@@ -37,39 +37,39 @@ pub struct C2a {
     pairs: Vec<Candidate>,
 }
 
-/// A pair of nodes to descend into.
+/// A pair of nodes whose children a descent may visit.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     pair: Pair,
     distance: f64,
-    /// The time during which they do not touch.
+    /// The time during which the nodes do not touch.
     step: f64,
 }
 
-/// The results of a descent so far.
+/// The nearest triangles and the safe step that a descent of both trees has found so far.
 #[derive(Clone, Copy, Debug)]
 struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
-    /// The nearest triangles.
+    /// The nearest triangles; `None` before any are found.
     nearest: Option<(Leaves, Pair)>,
-    /// The least step.
+    /// The least time during which all pairs seen so far stay apart.
     step: f64,
 }
 
-/// The placement of the bodies and the limits of a descent.
+/// The fixed inputs of a descent: the placement of the bodies and the limits.
 struct DescentSetup<'a> {
-    /// Body B as seen from body A.
+    /// The placement of body B in the frame of body A.
     placement: &'a Placement,
-    /// The time until the end of the duration.
+    /// The time from now to the end of the motions.
     remaining: f64,
     /// The distance at which triangles touch.
     tolerance: f64,
-    /// The allowed excess, as a fraction: an unopened pair may be nearer by it than the nearest triangles found.
+    /// The allowed excess of the distance found over the true distance, as a fraction.
     excess: f64,
 }
 
-/// The result of a descent.
+/// How a descent of both trees ended.
 enum Descent {
     /// The descent stopped at pairs that need not be opened.
     Done(DescentResult),
@@ -80,7 +80,7 @@ enum Descent {
 }
 
 impl C2a {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         let trees = Trees::new(a, b);
         C2a {
@@ -107,7 +107,7 @@ impl Solver for C2a {
                 excess: excess(steps, last.as_ref(), query.duration, tolerance),
                 tolerance,
             };
-            self.closing.look_from(&frame);
+            self.closing.set_frame(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 Descent::Done(found) => found,
                 Descent::Within => return Reply::new(Claim::Contact { time }, steps),
@@ -166,11 +166,11 @@ impl C2a {
                 return Descent::GaveUp;
             }
             *pairs_left -= 1;
-            match self.trees.under(&candidate.pair) {
-                Under::Triangles(leaves) => {
+            match self.trees.children(&candidate.pair) {
+                PairChildren::Triangles(leaves) => {
                     self.measure(&mut found, setup, leaves, candidate.pair);
                 }
-                Under::Pairs([first, second]) => {
+                PairChildren::Pairs([first, second]) => {
                     let (first, second) = (self.candidate(first), self.candidate(second));
                     let ordered = if first.distance < second.distance {
                         [second, first]
@@ -187,7 +187,7 @@ impl C2a {
     fn candidate(&mut self, pair: Pair) -> Candidate {
         let gap = self.trees.gap(&pair);
         Candidate {
-            step: self.closing.step(&self.trees, &pair, &gap),
+            step: self.closing.safe_step(&self.trees, &pair, &gap),
             pair,
             distance: gap.distance,
         }
@@ -207,7 +207,7 @@ impl C2a {
             distance,
             direction: between / distance,
         };
-        let step = self.closing.step(&self.trees, &pair, &gap);
+        let step = self.closing.safe_step(&self.trees, &pair, &gap);
         // NaN counts as nearer.
         if !(step >= found.step) {
             found.step = step;
@@ -220,7 +220,7 @@ impl C2a {
 }
 
 impl Candidate {
-    /// Returns true if a pair need not be opened; then its step counts.
+    /// Returns true if a pair need not be opened; its step then counts for the whole descent.
     #[inline]
     fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
         if self.step >= lesser(found.step, setup.remaining) {
@@ -237,21 +237,23 @@ impl Candidate {
 /// Returns the excess allowed in a step, from the number of steps so far and the distance to
 /// contact.
 fn excess(step: u64, last: Option<&DescentResult>, duration: f64, tolerance: f64) -> f64 {
-    /// The number of coarse steps at the start, and their excess.
-    const FIRST: (u64, f64) = (3, 3.0);
-    /// The number of steps after those, and their excess.
-    const THEN: (u64, f64) = (6, 0.5);
+    /// The number of coarse steps at the start, and the excess that they are allowed.
+    const COARSE_STEPS: (u64, f64) = (3, 3.0);
+    /// The number of steps after the coarse ones, and the excess that they are allowed.
+    const FINER_STEPS: (u64, f64) = (6, 0.5);
     /// The step length below which all later steps are exact, as a fraction of the duration.
-    const SHORT: f64 = 0.005;
+    const EXACT_BELOW_STEP: f64 = 0.005;
     /// The distance below which all steps are exact, as a multiple of the tolerance.
-    const NEAR: f64 = 16.0;
+    const EXACT_BELOW_DISTANCE: f64 = 16.0;
 
-    let exact = last
-        .is_some_and(|last| !(last.step > SHORT * duration && last.distance > NEAR * tolerance));
+    let exact = last.is_some_and(|last| {
+        !(last.step > EXACT_BELOW_STEP * duration
+            && last.distance > EXACT_BELOW_DISTANCE * tolerance)
+    });
     match step {
         _ if exact => 0.0,
-        _ if step <= FIRST.0 => FIRST.1,
-        _ if step <= THEN.0 => THEN.1,
+        _ if step <= COARSE_STEPS.0 => COARSE_STEPS.1,
+        _ if step <= FINER_STEPS.0 => FINER_STEPS.1,
         _ => 0.0,
     }
 }

@@ -1,4 +1,4 @@
-//! CONTACT: continuous overlap tests of oriented boxes by interval arithmetic \[CONTACT02\].
+//! Implements CONTACT: continuous overlap tests of oriented boxes by interval arithmetic \[CONTACT02\].
 
 mod boxes;
 mod clock;
@@ -16,7 +16,7 @@ use crate::method::solver::{Claim, Reply, Solver};
 use boxes::{Boxes, boxes};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use clock::{Clock, Slice};
+use clock::{Clock, HalvedInterval};
 use elementary::{Facet, Triangles};
 use leaf::{Touch, first_touch};
 use relative::Relative;
@@ -55,10 +55,10 @@ pub struct Contact {
 /// The work limits of one query, some seconds.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
-    /// The number of pairs of boxes examined.
+    /// The maximum number of pairs of boxes examined.
     pairs: u64,
-    /// The number of halvings of time. Surfaces that slide past each other at a distance g are only
-    /// separated over intervals in which they move by about g.
+    /// The maximum number of halvings of time. Surfaces that slide past each other at a distance g are only separated
+    /// over intervals in which they move by about g.
     halvings: u64,
 }
 
@@ -71,11 +71,11 @@ const LIMITS: Limits = Limits {
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     nodes: [u32; 2],
-    slice: Slice,
+    interval: HalvedInterval,
 }
 
 impl Contact {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Contact {
             trees: [a, b].map(ObbTree::new),
@@ -131,27 +131,27 @@ struct Search<'a> {
     clock: Clock,
     most_pairs: u64,
     stack: &'a mut Vec<Pair>,
-    /// The end of the relevant time: the first known contact, or the duration.
+    /// The time after which nothing matters: the first known contact, or the duration.
     end: f64,
 }
 
 impl Search<'_> {
     fn run(&mut self) -> Claim {
         let mut found = None;
-        let slice = Slice::whole(self.end);
+        let interval = HalvedInterval::whole(self.end);
         let nodes = [0, 0];
         self.stack.clear();
-        self.stack.push(Pair { nodes, slice });
+        self.stack.push(Pair { nodes, interval });
         for _ in 0..self.most_pairs {
             let Some(mut pair) = self.stack.pop() else {
                 return found.map_or(Claim::Free, |time| Claim::Contact { time });
             };
-            let ahead = pair.slice.span.start < self.end;
+            let ahead = pair.interval.span.start < self.end;
             if !ahead && found.is_some() {
                 continue;
             }
-            pair.slice.span.end = lesser(pair.slice.span.end, self.end);
-            if self.clock.is_spent() {
+            pair.interval.span.end = lesser(pair.interval.span.end, self.end);
+            if self.clock.is_at_limit() {
                 self.stack.push(pair);
                 break;
             }
@@ -167,7 +167,7 @@ impl Search<'_> {
                 }
             }
         }
-        let starts = self.stack.iter().map(|pair| pair.slice.span.start);
+        let starts = self.stack.iter().map(|pair| pair.interval.span.start);
         Claim::Unresolved {
             safe_until: starts.fold(self.end, lesser),
         }
@@ -176,24 +176,24 @@ impl Search<'_> {
     /// Examines a pair: drops it, pushes its halves or children onto the stack, or finds when it
     /// touches.
     fn visit(&mut self, pair: Pair) -> Touch {
-        let Pair { nodes, slice } = pair;
+        let Pair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(slice)) {
+        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(interval)) {
             Boxes::Apart => return Touch::Never,
             Boxes::Near { spread } => spread,
         };
         let size = [a, b].map(|node| node.bounds.half.max_element());
         let wide = spread > SPREAD_TO_HALVE * greater(size[0], size[1]);
-        if wide && !self.clock.is_short(slice) {
+        if wide && !self.clock.is_shortest(interval) {
             self.clock.halvings += 1;
-            let [early, late] = slice.halves();
+            let [early, late] = interval.halves();
             self.stack
-                .extend([late, early].map(|slice| Pair { nodes, slice }));
+                .extend([late, early].map(|interval| Pair { nodes, interval }));
             return Touch::Never;
         }
         let open = match (a.content, b.content) {
-            (Content::Triangle(p), Content::Triangle(q)) => return self.leaf([p, q], slice),
+            (Content::Triangle(p), Content::Triangle(q)) => return self.leaf([p, q], interval),
             (Content::Nodes(children), Content::Triangle(_)) => {
                 children.map(|child| [child, nodes[1]])
             }
@@ -202,15 +202,16 @@ impl Search<'_> {
             }
             (_, Content::Nodes(children)) => children.map(|child| [nodes[0], child]),
         };
-        self.stack.extend(open.map(|nodes| Pair { nodes, slice }));
+        self.stack
+            .extend(open.map(|nodes| Pair { nodes, interval }));
         Touch::Never
     }
 
-    fn leaf(&mut self, [p, q]: [u32; 2], slice: Slice) -> Touch {
+    fn leaf(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> Touch {
         let triangles = Triangles {
             a: Facet::new(self.trees[0].triangle(p)),
             b: Facet::new(self.trees[1].triangle(q)),
         };
-        first_touch(&triangles, slice, &mut self.clock)
+        first_touch(&triangles, interval, &mut self.clock)
     }
 }

@@ -1,8 +1,9 @@
-//! A rival that halves time until undirected bounds on the distances at both ends prove each segment free.
+//! Implements the dynamic collision checker, which halves time until the distances at both ends prove each segment
+//! free.
 
 use super::RivalMotion;
 use super::patience::Patience;
-use super::swept_spheres::{Pair, SphereTree, Trees, Under};
+use super::swept_spheres::{Pair, PairChildren, SphereTree, Trees};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -12,7 +13,7 @@ use rigid_ccd::table::motions::Motions;
 #[cfg(test)]
 mod tests;
 
-/// Adaptive dynamic collision checking \[DCC02\] of two rigid bodies at a time.
+/// The method of adaptive dynamic collision checking \[DCC02\], for two rigid bodies.
 ///
 /// A segment of time is free if no point of one body, as seen from the other, travels as far as the
 /// sum of the distances at both ends. Otherwise it is halved, the earlier half first, until nothing
@@ -42,7 +43,7 @@ pub struct DynamicChecker {
     pairs: Vec<(Pair, f64)>,
 }
 
-/// The distances of a body's points from its last centre of rotation.
+/// The largest distances of a body's points from its last centre of rotation, kept from query to query.
 #[derive(Clone, Copy, Debug, Default)]
 struct Reach(Option<(DVec3, f64)>);
 
@@ -51,20 +52,20 @@ struct Reach(Option<(DVec3, f64)>);
 struct Segment {
     from: f64,
     to: f64,
-    at_from: f64,
-    at_to: f64,
+    distance_at_from: f64,
+    distance_at_to: f64,
 }
 
-/// The precision required of a distance.
+/// The required precision of a distance.
 #[derive(Clone, Copy, Debug)]
-struct Wanted {
+struct RequiredPrecision {
     /// The distance above which no larger bound is needed.
-    enough: f64,
+    sufficient: f64,
     /// The largest size of unopened nodes, as a multiple of their distance.
     coarseness: f64,
 }
 
-/// A lower bound on the distance.
+/// The result of bounding a distance from below.
 #[derive(Clone, Copy, Debug)]
 enum LowerBound {
     Apart(f64),
@@ -73,7 +74,7 @@ enum LowerBound {
     GaveUp,
 }
 
-/// The motions of one query, their bounds, and the remaining work.
+/// The motions of one query, their bounds on speed, and the remaining work.
 struct Task {
     a: RivalMotion,
     b: RivalMotion,
@@ -81,13 +82,13 @@ struct Task {
     speed: f64,
     tolerance: f64,
     /// The earliest time at which the bodies were found to touch.
-    met: Option<f64>,
+    earliest_touch: Option<f64>,
     steps: u64,
     pairs_left: u64,
 }
 
 impl DynamicChecker {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         DynamicChecker {
             trees: Trees::new(a, b),
@@ -111,7 +112,7 @@ impl Solver for DynamicChecker {
             speed: speed(&a, self.reach_a.radius_about(a.centre, &self.trees.a))
                 + speed(&b, self.reach_b.radius_about(b.centre, &self.trees.b)),
             tolerance,
-            met: None,
+            earliest_touch: None,
             steps: 0,
             pairs_left: self.patience.pairs,
         };
@@ -121,18 +122,22 @@ impl Solver for DynamicChecker {
 }
 
 impl DynamicChecker {
-    /// Halves the duration until all of it is free, or until the earliest segment that is not free is short enough.
+    /// Halves the duration until all of it is free, or until the earliest segment that may not be free is short enough.
     fn search(&mut self, duration: f64, task: &mut Task) -> Claim {
         let path = task.speed * duration;
-        let at_from = match self.bound(0.0, Wanted::at_least(path), task) {
+        let distance_at_from = match self.bound(0.0, RequiredPrecision::at_least(path), task) {
             LowerBound::Apart(distance) => distance,
             LowerBound::Meet => return Claim::Contact { time: 0.0 },
             LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
         };
-        let at_to = match self.bound(duration, Wanted::at_least(path - at_from), task) {
+        let distance_at_to = match self.bound(
+            duration,
+            RequiredPrecision::at_least(path - distance_at_from),
+            task,
+        ) {
             LowerBound::Apart(distance) => distance,
             LowerBound::Meet => {
-                task.met = Some(duration);
+                task.earliest_touch = Some(duration);
                 0.0
             }
             LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
@@ -141,8 +146,8 @@ impl DynamicChecker {
         self.segments.push(Segment {
             from: 0.0,
             to: duration,
-            at_from,
-            at_to,
+            distance_at_from,
+            distance_at_to,
         });
         while let Some(segment) = self.segments.pop() {
             task.steps += 1;
@@ -151,22 +156,22 @@ impl DynamicChecker {
             }
         }
         // All parts before the touch may be free: the bodies only just touch then.
-        match task.met {
+        match task.earliest_touch {
             Some(time) => Claim::Contact { time },
             None => Claim::Free,
         }
     }
 
-    /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
+    /// Drops a segment that is proven free, and halves one that may not be free. Returns a claim if the search ends.
     fn examine(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
         let Segment {
             from,
             to,
-            at_from,
-            at_to,
+            distance_at_from,
+            distance_at_to,
         } = segment;
         let path = task.speed * (to - from);
-        if path < at_from + at_to {
+        if path < distance_at_from + distance_at_to {
             return None;
         }
         let gave_up = Claim::Unresolved { safe_until: from };
@@ -175,27 +180,32 @@ impl DynamicChecker {
         }
         let middle = from + 0.5 * (to - from);
         if path <= task.tolerance || !(from < middle && middle < to) {
-            return match self.bound(from, Wanted::exactly(path - at_to), task) {
-                LowerBound::Apart(distance) if path < distance + at_to => None,
+            return match self.bound(
+                from,
+                RequiredPrecision::exactly(path - distance_at_to),
+                task,
+            ) {
+                LowerBound::Apart(distance) if path < distance + distance_at_to => None,
                 LowerBound::Apart(_) | LowerBound::Meet => Some(Claim::Contact { time: from }),
                 LowerBound::GaveUp => Some(gave_up),
             };
         }
-        let wanted = Wanted::at_least(0.5 * path - lesser(at_from, at_to));
-        let at_middle = match self.bound(middle, wanted, task) {
+        let precision =
+            RequiredPrecision::at_least(0.5 * path - lesser(distance_at_from, distance_at_to));
+        let at_middle = match self.bound(middle, precision, task) {
             LowerBound::Apart(distance) => {
                 self.segments.push(Segment {
                     from: middle,
                     to,
-                    at_from: distance,
-                    at_to,
+                    distance_at_from: distance,
+                    distance_at_to,
                 });
                 distance
             }
             LowerBound::Meet => {
                 // They touch by then, so nothing later can be the first contact.
                 self.segments.clear();
-                task.met = Some(middle);
+                task.earliest_touch = Some(middle);
                 0.0
             }
             LowerBound::GaveUp => return Some(gave_up),
@@ -203,14 +213,14 @@ impl DynamicChecker {
         self.segments.push(Segment {
             from,
             to: middle,
-            at_from,
-            at_to: at_middle,
+            distance_at_from,
+            distance_at_to: at_middle,
         });
         None
     }
 
     /// Returns the least distance of nodes at which a descent of both trees stops.
-    fn bound(&mut self, time: f64, wanted: Wanted, task: &mut Task) -> LowerBound {
+    fn bound(&mut self, time: f64, precision: RequiredPrecision, task: &mut Task) -> LowerBound {
         let placement = task.b.at(time).seen_from(&task.a.at(time));
         let Some(roots) = self.trees.roots(&placement) else {
             return LowerBound::Apart(f64::INFINITY);
@@ -222,7 +232,7 @@ impl DynamicChecker {
             if distance >= least {
                 continue;
             }
-            if wanted.is_met(distance, || self.trees.slack(&pair)) {
+            if precision.is_met(distance, || self.trees.slack(&pair)) {
                 least = distance;
                 continue;
             }
@@ -230,9 +240,9 @@ impl DynamicChecker {
                 return LowerBound::GaveUp;
             }
             task.pairs_left -= 1;
-            match self.trees.under(&pair) {
-                Under::Pairs(pairs) => self.push(pairs, least),
-                Under::Triangles(leaves) => {
+            match self.trees.children(&pair) {
+                PairChildren::Pairs(pairs) => self.push(pairs, least),
+                PairChildren::Triangles(leaves) => {
                     let apart = self.trees.nearest(leaves, &placement).between().length();
                     if apart.is_nan() {
                         return LowerBound::GaveUp;
@@ -266,27 +276,28 @@ impl DynamicChecker {
     }
 }
 
-impl Wanted {
-    fn at_least(enough: f64) -> Self {
-        /// The coarseness that is fastest on the scenes. At 0, three times as much work goes into distances that are
-        /// better than needed. Without a bound, as published, up to twenty times as much work goes into halvings.
+impl RequiredPrecision {
+    fn at_least(sufficient: f64) -> Self {
+        /// The default ratio of a node's size to its distance above which it is opened, the fastest on the scenes. At
+        /// 0, three times as much work goes into distances that are better than needed. Without a bound, as published,
+        /// up to twenty times as much work goes into halvings.
         const COARSENESS: f64 = 16.0;
-        Wanted {
-            enough,
+        RequiredPrecision {
+            sufficient,
             coarseness: COARSENESS,
         }
     }
 
-    fn exactly(enough: f64) -> Self {
-        Wanted {
-            enough,
+    fn exactly(sufficient: f64) -> Self {
+        RequiredPrecision {
+            sufficient,
             coarseness: 0.0,
         }
     }
 
-    /// Returns true if nodes at a distance, of the given sizes, need not be opened.
+    /// Returns true if nodes at a distance, of the given sizes, are precise enough to be left unopened.
     fn is_met(self, distance: f64, sizes: impl Fn() -> f64) -> bool {
-        distance > 0.0 && (distance > self.enough || sizes() <= self.coarseness * distance)
+        distance > 0.0 && (distance > self.sufficient || sizes() <= self.coarseness * distance)
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Interval<T = f64> {
 pub(super) type IntervalVec = Interval<DVec3>;
 pub(super) type IntervalMat = Interval<DMat3>;
 
-/// The ranges of cosine and sine over all angles between −h and h.
+/// The ranges of cosine and sine over all angles between −h and h, for a half angle h.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) cos: Interval,
@@ -25,7 +25,7 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// Returns both ranges, exactly.
+    /// Returns the ranges of cosine and sine over an arc of the given half angle.
     #[inline]
     pub(super) fn new(half_angle: f64) -> Self {
         use std::f64::consts::{FRAC_PI_2, PI};
@@ -84,7 +84,7 @@ impl<T: Add<Output = T> + Sub<Output = T>> Sub for Interval<T> {
 }
 
 impl IntervalVec {
-    /// Returns the dot product with a vector.
+    /// Returns the interval of dot products with a vector.
     #[inline]
     pub(super) fn dot_point(self, other: DVec3) -> Interval {
         Interval {
@@ -93,7 +93,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the dot product.
+    /// Returns the interval of dot products with the vectors of another interval.
     #[inline]
     pub(super) fn dot(self, other: IntervalVec) -> Interval {
         Interval {
@@ -103,7 +103,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the cross product with a vector.
+    /// Returns the interval of cross products with a vector.
     #[inline]
     pub(super) fn cross_point(self, other: DVec3) -> IntervalVec {
         IntervalVec {
@@ -112,7 +112,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the cross product.
+    /// Returns the interval of cross products with the vectors of another interval.
     #[inline]
     pub(super) fn cross(self, other: IntervalVec) -> IntervalVec {
         IntervalVec {
@@ -122,7 +122,7 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the difference from a vector.
+    /// Returns the interval of differences from a vector.
     #[inline]
     pub(super) fn minus_point(self, other: DVec3) -> IntervalVec {
         IntervalVec {
@@ -131,20 +131,20 @@ impl IntervalVec {
         }
     }
 
-    /// Returns the largest absolute values of the coordinates.
+    /// Returns the largest absolute value of each coordinate.
     #[inline]
     pub(super) fn largest(self) -> DVec3 {
         self.middle.abs() + self.radius
     }
 
-    /// Returns the smallest absolute values of the coordinates, negative if zero is well inside.
+    /// Returns the smallest absolute value of each coordinate; negative if the interval contains zero.
     #[inline]
     pub(super) fn smallest(self) -> DVec3 {
         self.middle.abs() - self.radius
     }
 }
 
-/// Returns the cross product with plus instead of minus, which adds up the radii of a cross product.
+/// Returns the formula of the cross product with plus instead of minus, by which radii add up.
 #[inline]
 pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(
@@ -191,7 +191,7 @@ impl Mul for IntervalMat {
 }
 
 impl IntervalMat {
-    /// Returns the transpose.
+    /// Returns the transposed matrix interval.
     pub(super) fn transpose(self) -> IntervalMat {
         IntervalMat {
             middle: self.middle.transpose(),

@@ -7,7 +7,7 @@ use wide::f64x4;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vectors(pub(super) [f64x4; 3]);
 
-/// The shortest vector of each lane.
+/// The shortest vector so far in each of the four lanes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shortest {
     squared: f64x4,
@@ -61,14 +61,14 @@ impl Vectors {
         self.dot_each(Vectors::splat(v))
     }
 
-    /// Returns the inner products, lane by lane.
+    /// Returns the inner products with other vectors, lane by lane.
     #[inline(always)]
     pub(super) fn dot_each(self, Vectors(o): Vectors) -> f64x4 {
         let Vectors([x, y, z]) = self;
         x.mul_add(o[0], y.mul_add(o[1], z * o[2]))
     }
 
-    /// Returns the cross products, lane by lane.
+    /// Returns the cross products with other vectors, lane by lane.
     #[inline(always)]
     pub(super) fn cross_each(self, Vectors(o): Vectors) -> Self {
         let Vectors([x, y, z]) = self;
@@ -79,7 +79,7 @@ impl Vectors {
         ])
     }
 
-    /// Returns one of the four vectors.
+    /// Returns the vector in one of the four lanes.
     pub(super) fn lane(self, k: usize) -> DVec3 {
         let Vectors(v) = self;
         DVec3::from_array(v.map(|lanes| lanes.to_array()[k]))
@@ -87,18 +87,18 @@ impl Vectors {
 }
 
 impl Shortest {
-    /// Returns the initial value of the minimum, before any vectors.
+    /// Returns the state before any vectors are added.
     #[inline(always)]
-    pub(super) fn of_none() -> Self {
+    pub(super) fn empty() -> Self {
         Shortest {
             squared: f64x4::splat(f64::INFINITY),
             vectors: Vectors::splat(DVec3::ZERO),
         }
     }
 
-    /// Adds four more vectors; NaN is never shorter.
+    /// Adds four more vectors, one to each lane; NaN is never shorter.
     #[inline(always)]
-    pub(super) fn and(self, more: Vectors) -> Self {
+    pub(super) fn with_four(self, more: Vectors) -> Self {
         let squared = more.dot_each(more);
         let shorter = squared.simd_lt(self.squared);
         let keep = |k: usize| shorter.select(more.0[k], self.vectors.0[k]);
@@ -108,15 +108,15 @@ impl Shortest {
         }
     }
 
-    /// Returns the shortest of all vectors, its squared length first.
+    /// Returns the squared length of the shortest vector in any lane, and the vector.
     #[inline(always)]
-    pub(super) fn of_all(self) -> (f64, DVec3) {
+    pub(super) fn overall(self) -> (f64, DVec3) {
         let (lane, squared) = least(self.squared);
         (squared, self.vectors.lane(lane))
     }
 }
 
-/// Returns the least of four numbers and its lane.
+/// Returns the lane of the least of four numbers, and the number.
 #[inline(always)]
 pub(super) fn least(numbers: f64x4) -> (usize, f64) {
     let n = numbers.to_array();

@@ -1,4 +1,4 @@
-//! The pose of a moving body, from the formula of its motion.
+//! Computes the pose of a moving body from the formula of its motion.
 
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -8,29 +8,29 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 pub struct RivalMotion {
     /// The centre of rotation in the body's frame.
     pub centre: DVec3,
-    /// The centre at the start.
+    /// The position of the centre at the start, in the world frame.
     pub from: DVec3,
-    /// The velocity of the centre.
+    /// The velocity of the centre, in the world frame.
     pub velocity: DVec3,
-    /// The orientation at the start.
+    /// The orientation of the body at the start.
     pub orientation: DMat3,
-    /// The unit axis of rotation; any axis if the body does not rotate.
+    /// The unit axis of rotation in the world frame; any axis if the body does not rotate.
     pub axis: DVec3,
     /// The rate of rotation in radians per unit of time.
     pub rate: f64,
 }
 
-/// A placement: `x ↦ rotation x + translation`.
+/// A rigid placement of a body: `x ↦ rotation x + translation`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    /// The rotation.
+    /// The rotation matrix of the placement.
     pub rotation: DMat3,
-    /// The translation.
+    /// The translation of the placement, applied after the rotation.
     pub translation: DVec3,
 }
 
 impl RivalMotion {
-    /// Converts a motion. Its parameters are read, but no formula is shared.
+    /// Converts a motion to the form that the rivals use. Its parameters are read, but no formula is shared.
     pub fn new(motion: &Motion) -> Self {
         let orientation = DMat3::from_quat(motion.start().rotation());
         let rate = motion.spin().length();
@@ -56,7 +56,7 @@ impl RivalMotion {
 }
 
 impl Placement {
-    /// Returns a point of the body in the world.
+    /// Maps a point from the body's frame to the world frame.
     pub fn apply(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }

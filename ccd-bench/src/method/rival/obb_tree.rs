@@ -11,42 +11,42 @@ use super::principal_axes::principal_axes;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_decomp::TriangleMesh;
 
-/// A binary tree of boxes. Each box is fitted to the spread of its triangles' corners \[OBBTREE96
-/// §4\] and split at their mean.
+/// A binary tree of oriented boxes over the triangles of a mesh. Each box is fitted to the spread of its triangles'
+/// corners \[OBBTREE96 §4\] and split at their mean.
 ///
 /// Corners and boxes are relative to [`ObbTree::origin`], the middle of the root's box, so that
 /// rotation about it moves them little.
 #[derive(Clone, Debug)]
 pub(super) struct ObbTree {
-    /// The origin in the mesh's frame.
+    /// The origin of the boxes' coordinates, in the mesh's frame.
     pub(super) origin: DVec3,
-    /// The largest distance of a corner from the origin.
+    /// The largest distance of a triangle's corner from the origin.
     radius: f64,
-    /// The nodes, the root first.
+    /// The nodes of the tree, the root first.
     nodes: Vec<Node>,
     triangles: Vec<[DVec3; 3]>,
 }
 
-/// A box and its content.
+/// An oriented box, with the child nodes or the triangle in it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) bounds: Obb,
     pub(super) content: Content,
 }
 
-/// The content of a box.
+/// What an oriented box contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// The two child nodes.
+    /// The box of an inner node contains the boxes of these two nodes.
     Nodes([u32; 2]),
-    /// The triangle of a leaf.
+    /// The box of a leaf contains the triangle with this index.
     Triangle(u32),
 }
 
-/// A box in any orientation.
+/// An oriented box: its centre, axes and half extents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Obb {
-    /// The axes as columns. The longest is first if the box is fitted well.
+    /// The unit axes of the box, as columns. The longest is first if the box is fitted well.
     pub(super) axes: DMat3,
     pub(super) centre: DVec3,
     pub(super) half: DVec3,
@@ -57,7 +57,7 @@ impl ObbTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
         let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
-        let origin = Obb::around(&triangles).1.centre;
+        let origin = Obb::fit(&triangles).1.centre;
         for corner in triangles.iter_mut().flatten() {
             *corner -= origin;
         }
@@ -72,13 +72,13 @@ impl ObbTree {
         tree
     }
 
-    /// Returns the node with this index.
+    /// Returns the node with the given index.
     #[inline]
     pub(super) fn node(&self, index: u32) -> &Node {
         &self.nodes[index as usize]
     }
 
-    /// Returns the corners of the triangle with this index.
+    /// Returns the corners of the triangle with the given index.
     #[inline]
     pub(super) fn triangle(&self, index: u32) -> &[DVec3; 3] {
         &self.triangles[index as usize]
@@ -89,19 +89,19 @@ impl ObbTree {
         self.origin.distance(from) + self.radius
     }
 
-    /// Builds the nodes from the root down; triangles are sorted into the order of the leaves.
+    /// Builds the nodes from the root down, and sorts the triangles into the order of the leaves.
     fn build(&mut self) {
         let mut open = vec![(0, 0..self.triangles.len())];
-        self.nodes.push(Node::placeholder());
+        self.nodes.push(Node::placeholder_node());
         while let Some((index, range)) = open.pop() {
             let triangles = &mut self.triangles[range.clone()];
-            let (mean, bounds) = Obb::around(triangles);
+            let (mean, bounds) = Obb::fit(triangles);
             let content = if range.len() == 1 {
                 Content::Triangle(range.start as u32)
             } else {
                 let middle = range.start + split(triangles, mean, bounds.axes);
                 let left = self.nodes.len();
-                self.nodes.extend([Node::placeholder(); 2]);
+                self.nodes.extend([Node::placeholder_node(); 2]);
                 open.push((left + 1, middle..range.end));
                 open.push((left, range.start..middle));
                 Content::Nodes([left as u32, left as u32 + 1])
@@ -112,7 +112,7 @@ impl ObbTree {
 }
 
 impl Node {
-    fn placeholder() -> Self {
+    fn placeholder_node() -> Self {
         Node {
             bounds: Obb {
                 axes: DMat3::IDENTITY,
@@ -125,8 +125,8 @@ impl Node {
 }
 
 impl Obb {
-    /// Returns the mean of the corners, and the box around them along their principal axes.
-    fn around(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
+    /// Returns the mean of the triangles' corners, and the box around them along their principal axes.
+    fn fit(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
         let points = triangles.iter().flatten().copied();
         let (mean, axes) = principal_axes(points.clone());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -144,8 +144,8 @@ impl Obb {
     }
 }
 
-/// Partitions triangles by the side of the mean of their middles along the longest axis. If all lie on one side, the
-/// next axis is used, and halves if no axis splits them. Returns the number of triangles in the first part.
+/// Partitions triangles by their centres: on which side of the mean they are along the longest axis. If all lie on one
+/// side, the next axis is used, and halves if no axis splits them. Returns the number of triangles in the first part.
 fn split(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
     for axis in [axes.x_axis, axes.y_axis, axes.z_axis] {
         let before = |t: &[DVec3; 3]| (t[0] + t[1] + t[2] - 3.0 * mean).dot(axis) < 0.0;

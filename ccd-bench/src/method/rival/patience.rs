@@ -1,16 +1,16 @@
-//! The work limit of a rival.
+//! The limit on the work of a rival in one query.
 
-/// The work limit of one query.
+/// The maximum work of a rival in one query.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
-    /// The number of steps in time.
+    /// The maximum number of steps in time.
     pub(super) steps: u64,
-    /// The number of pairs of nodes whose distance is measured.
+    /// The maximum number of pairs of nodes whose distance is measured.
     pub(super) pairs: u64,
 }
 
 impl Default for Patience {
-    /// Returns about ten seconds of work, thousands of times the cost of a usual query.
+    /// Returns limits of about ten seconds of work, thousands of times the cost of a usual query.
     fn default() -> Self {
         Patience {
             steps: 1_000_000,

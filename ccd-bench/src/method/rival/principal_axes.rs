@@ -1,4 +1,4 @@
-//! The axes along which a set of triangles is thinnest and longest.
+//! Computes the axes along which a set of triangles is thinnest and longest.
 
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;

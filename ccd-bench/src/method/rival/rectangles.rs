@@ -1,4 +1,4 @@
-//! The shortest vector between two rectangles in space.
+//! Computes the shortest vector between two rectangles in space.
 
 use super::Placement;
 use super::lanes::{Shortest, Vectors};
@@ -27,19 +27,21 @@ pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
         translation: -placement.rotation.transpose_mul_vec3(placement.translation),
     };
     let corners_a = corners(a, &back);
-    if straddle(corners_a)
-        && straddle(corners_b)
+    if straddles_plane(corners_a)
+        && straddles_plane(corners_b)
         && (edges_pierce(corners_a, b) || edges_pierce(corners_b, a))
     {
         return DVec3::ZERO;
     }
-    let mut shortest = Shortest::of_none().and(off_face(corners_b, a));
-    shortest = edges_apart::<0, 0>(shortest, a, b, placement);
-    shortest = edges_apart::<0, 1>(shortest, a, b, placement);
-    shortest = edges_apart::<1, 0>(shortest, a, b, placement);
-    shortest = edges_apart::<1, 1>(shortest, a, b, placement);
-    let (squared, to_b) = shortest.of_all();
-    let (squared_off_b, off_b) = Shortest::of_none().and(off_face(corners_a, b)).of_all();
+    let mut shortest = Shortest::empty().with_four(vectors_from_face(corners_b, a));
+    shortest = vectors_between_edges::<0, 0>(shortest, a, b, placement);
+    shortest = vectors_between_edges::<0, 1>(shortest, a, b, placement);
+    shortest = vectors_between_edges::<1, 0>(shortest, a, b, placement);
+    shortest = vectors_between_edges::<1, 1>(shortest, a, b, placement);
+    let (squared, to_b) = shortest.overall();
+    let (squared_off_b, off_b) = Shortest::empty()
+        .with_four(vectors_from_face(corners_a, b))
+        .overall();
     if squared_off_b < squared {
         -(placement.rotation * off_b)
     } else {
@@ -47,7 +49,7 @@ pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
     }
 }
 
-/// Returns the corners of a rectangle, in turn.
+/// Returns the corners of a rectangle in cyclic order.
 #[inline(always)]
 fn corners(lengths: DVec2, placement: &Placement) -> Vectors {
     let x = f64x4::new([0.0, lengths.x, lengths.x, 0.0]);
@@ -59,7 +61,7 @@ fn corners(lengths: DVec2, placement: &Placement) -> Vectors {
 
 /// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given points.
 #[inline(always)]
-fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
+fn vectors_from_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
     let zero = f64x4::splat(0.0);
     Vectors([
         x - x.fast_clamp(zero, f64x4::splat(face.x)),
@@ -70,7 +72,7 @@ fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
 
 /// Returns the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
 #[inline(always)]
-fn edges_apart<const I: usize, const J: usize>(
+fn vectors_between_edges<const I: usize, const J: usize>(
     shortest: Shortest,
     a: DVec2,
     b: DVec2,
@@ -100,12 +102,12 @@ fn edges_apart<const I: usize, const J: usize>(
     let s = cosine.mul_add(t, ahead_a).fast_clamp(zero, length_a);
     let mut vectors = apart.plus(t, along);
     vectors.0[I] -= s;
-    shortest.and(vectors)
+    shortest.with_four(vectors)
 }
 
 /// Returns true if there are points on both sides of the plane z = 0.
 #[inline(always)]
-fn straddle(Vectors([_, _, z]): Vectors) -> bool {
+fn straddles_plane(Vectors([_, _, z]): Vectors) -> bool {
     let zero = f64x4::splat(0.0);
     z.simd_lt(zero).any() && z.simd_gt(zero).any()
 }

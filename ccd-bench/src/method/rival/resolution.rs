@@ -1,4 +1,4 @@
-//! The resolution in time of a tolerance.
+//! Converts a tolerance to a resolution in time.
 
 use super::RivalMotion;
 use super::obb_tree::ObbTree;

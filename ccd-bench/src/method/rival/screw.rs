@@ -1,4 +1,4 @@
-//! The screw between two poses.
+//! Computes the screw motion between two poses.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion};
@@ -11,8 +11,8 @@ use rigid_ccd::table::motions::Motions;
 /// at 2⁻¹² about 3e-13 of the travel.
 const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
 
-/// The share of its displacement by which a point's positions on two motions may differ due to rounding.
-const SAME: f64 = 1e-9;
+/// The largest distance of a point's positions on two equal motions due to rounding, as a share of its displacement.
+const ROUNDING_SHARE: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose
 /// \[CONTACT02\].
@@ -47,7 +47,7 @@ pub fn is_screw(query: &Motions) -> bool {
         };
         [0.25, 0.5, 0.75]
             .into_iter()
-            .all(|share| apart(share) <= SAME * travel)
+            .all(|share| apart(share) <= ROUNDING_SHARE * travel)
     };
     same(&query.a) && same(&query.b)
 }

@@ -1,4 +1,4 @@
-//! A static test at every step, the usual practice without continuous collision detection.
+//! Tests the bodies for intersection at equal steps, the usual practice without continuous collision detection.
 
 use super::RivalMotion;
 use super::obb_tree::{Crossing, ObbTree, crossing};
@@ -10,7 +10,7 @@ use rigid_ccd::table::motions::Motions;
 /// The maximum number of samples of one query, some seconds of work.
 const MAX_SAMPLES: u64 = 1 << 20;
 
-/// Tests two triangle meshes for intersection at equal steps in time.
+/// The method of static intersection tests at equal steps in time.
 ///
 /// # Guarantee
 /// None. The steps are so short that no point moves by more than the tolerance from one to the
@@ -26,7 +26,7 @@ pub struct Stepping {
 }
 
 impl Stepping {
-    /// Builds both trees.
+    /// Builds the trees of both meshes.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Stepping {
             trees: [a, b].map(ObbTree::new),
@@ -42,7 +42,7 @@ impl Stepping {
 }
 
 impl Solver for Stepping {
-    /// Answers a query; steps are samples, the last one at the end of the duration.
+    /// Answers a query; its steps are samples, of which the last is at the end of the duration.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let step = resolution(&courses, &self.trees, tolerance);

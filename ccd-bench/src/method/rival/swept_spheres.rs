@@ -17,9 +17,9 @@ mod tests;
 /// the case of a lopsided split open. Here it becomes a split into halves, so that no tree is deep.
 #[derive(Clone, Debug)]
 pub(super) struct SphereTree {
-    /// The nodes: the root first, two children side by side.
+    /// The nodes of the tree: the root first, two children side by side.
     nodes: Vec<Node>,
-    /// The frames of the nodes' rectangles, relative to the body.
+    /// The frames of the nodes' rectangles, relative to the body's frame.
     frames: Vec<Placement>,
     triangles: Vec<Triangle>,
 }
@@ -27,29 +27,29 @@ pub(super) struct SphereTree {
 /// A rectangle swept by a sphere: all points within a radius of the rectangle.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The rectangle's frame, relative to its parent's.
+    /// The rectangle's frame, relative to that of its parent.
     placement: Placement,
-    /// The lengths of the rectangle along x and y.
+    /// The side lengths of the rectangle along its x and y axes.
     lengths: DVec2,
     radius: f64,
-    below: Below,
+    below: NodeContent,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Below {
+enum NodeContent {
     /// The index of the first child; the second one is next.
     Children(u32),
     Triangle(u32),
 }
 
-/// Two trees that are descended together.
+/// The trees of two bodies, which are descended together.
 #[derive(Clone, Debug)]
 pub(super) struct Trees {
     pub(super) a: SphereTree,
     pub(super) b: SphereTree,
 }
 
-/// A node of each tree.
+/// A node of A's tree and a node of B's tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) a: u32,
@@ -58,25 +58,25 @@ pub(super) struct Pair {
     placement: Placement,
 }
 
-/// The children of a pair of nodes.
-pub(super) enum Under {
-    /// The children of one node, each with the other node.
+/// What is below a pair of nodes.
+pub(super) enum PairChildren {
+    /// The children of one node, each paired with the other node.
     Pairs([Pair; 2]),
-    /// The triangles of two leaves.
+    /// The triangles of two leaves, which have no children.
     Triangles(Leaves),
 }
 
-/// A triangle of each tree.
+/// A triangle of A and a triangle of B, by their indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leaves {
     a: u32,
     b: u32,
 }
 
-/// A lower bound of the distance of two nodes.
+/// A lower bound of the distance of two nodes, with its direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
-    /// The distance, zero if they overlap.
+    /// The lower bound of the distance; zero if the nodes overlap.
     pub(super) distance: f64,
     /// The unit vector from A towards B in the frame of body A; zero if their rectangles meet.
     pub(super) direction: DVec3,
@@ -86,13 +86,13 @@ impl SphereTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corner = |&v: &u32| mesh.vertices()[v as usize];
         let triangle = |[a, b, c]: &[u32; 3]| [corner(a), corner(b), corner(c)];
-        fit::tree(mesh.faces().iter().map(triangle).collect())
+        fit::build_tree(mesh.faces().iter().map(triangle).collect())
     }
 
-    /// Returns an upper bound of the distance of a node's points from an axis in the body.
+    /// Returns an upper bound of the distance of a node's points from an axis that is fixed in the body.
     ///
     /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
-    pub(super) fn lever(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
+    pub(super) fn axis_distance(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
         let (node, frame) = (&self.nodes[node as usize], &self.frames[node as usize]);
         let corner = (frame.translation - centre).cross(axis);
         let x = node.lengths.x * frame.rotation.x_axis.cross(axis);
@@ -104,19 +104,19 @@ impl SphereTree {
         farthest.sqrt() + node.radius
     }
 
-    /// Returns the number of nodes.
+    /// Returns the number of nodes in the tree.
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Returns the corners of all triangles.
+    /// Returns the corners of all triangles in the mesh.
     pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.triangles.iter().flatten().copied()
     }
 }
 
 impl Node {
-    /// Returns an upper bound of the diameter.
+    /// Returns an upper bound of the node's diameter.
     fn size(&self) -> f64 {
         self.lengths.length() + 2.0 * self.radius
     }
@@ -136,11 +136,11 @@ impl Trees {
         Some(Pair {
             a: 0,
             b: 0,
-            placement: after(placement, b).seen_from(a),
+            placement: compose(placement, b).seen_from(a),
         })
     }
 
-    /// Returns the distance of a pair.
+    /// Returns a lower bound of the distance of two nodes.
     #[inline]
     pub(super) fn distance(&self, pair: &Pair) -> f64 {
         let (a, b) = (
@@ -152,7 +152,7 @@ impl Trees {
         greater(0.0, between.length() - (a.radius + b.radius))
     }
 
-    /// Returns the distance of a pair and its direction.
+    /// Returns a lower bound of the distance of two nodes, and its direction.
     #[inline]
     pub(super) fn gap(&self, pair: &Pair) -> Gap {
         let (a, b) = (
@@ -174,12 +174,12 @@ impl Trees {
         }
     }
 
-    /// Returns the largest excess of the distance of the nodes' contents over that of the nodes.
+    /// Returns the largest amount by which the distance of the nodes' contents can exceed that of the nodes.
     pub(super) fn slack(&self, pair: &Pair) -> f64 {
         self.a.nodes[pair.a as usize].size() + self.b.nodes[pair.b as usize].size()
     }
 
-    /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in it.
+    /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in this frame.
     #[inline]
     pub(super) fn nearest(&self, leaves: Leaves, placement: &Placement) -> Nearest {
         let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
@@ -188,16 +188,18 @@ impl Trees {
 
     /// Returns the children of the larger node \[PQP99 §5\], or the triangles of two leaves.
     #[inline]
-    pub(super) fn under(&self, pair: &Pair) -> Under {
+    pub(super) fn children(&self, pair: &Pair) -> PairChildren {
         let (a, b) = (
             &self.a.nodes[pair.a as usize],
             &self.b.nodes[pair.b as usize],
         );
         match (a.below, b.below) {
-            (Below::Triangle(a), Below::Triangle(b)) => Under::Triangles(Leaves { a, b }),
-            (Below::Children(first), Below::Triangle(_)) => self.split_a(pair, first),
-            (Below::Triangle(_), Below::Children(first)) => self.split_b(pair, first),
-            (Below::Children(first_a), Below::Children(first_b)) => {
+            (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
+                PairChildren::Triangles(Leaves { a, b })
+            }
+            (NodeContent::Children(first), NodeContent::Triangle(_)) => self.split_a(pair, first),
+            (NodeContent::Triangle(_), NodeContent::Children(first)) => self.split_b(pair, first),
+            (NodeContent::Children(first_a), NodeContent::Children(first_b)) => {
                 if a.size() > b.size() {
                     self.split_a(pair, first_a)
                 } else {
@@ -208,8 +210,8 @@ impl Trees {
     }
 
     #[inline]
-    fn split_a(&self, pair: &Pair, first: u32) -> Under {
-        Under::Pairs([first, first + 1].map(|a| {
+    fn split_a(&self, pair: &Pair, first: u32) -> PairChildren {
+        PairChildren::Pairs([first, first + 1].map(|a| {
             Pair {
                 a,
                 b: pair.b,
@@ -221,18 +223,18 @@ impl Trees {
     }
 
     #[inline]
-    fn split_b(&self, pair: &Pair, first: u32) -> Under {
-        Under::Pairs([first, first + 1].map(|b| Pair {
+    fn split_b(&self, pair: &Pair, first: u32) -> PairChildren {
+        PairChildren::Pairs([first, first + 1].map(|b| Pair {
             a: pair.a,
             b,
-            placement: after(&pair.placement, &self.b.nodes[b as usize].placement),
+            placement: compose(&pair.placement, &self.b.nodes[b as usize].placement),
         }))
     }
 }
 
-/// Returns `outer ∘ inner`.
+/// Returns the composition `outer ∘ inner` of two placements.
 #[inline]
-fn after(outer: &Placement, inner: &Placement) -> Placement {
+fn compose(outer: &Placement, inner: &Placement) -> Placement {
     Placement {
         rotation: outer.rotation * inner.rotation,
         translation: outer.apply(inner.translation),

@@ -1,4 +1,4 @@
-//! Helpers for the rivals' tests.
+//! Test helpers that all rivals share.
 
 pub(super) mod samples;
 pub(super) mod trials;

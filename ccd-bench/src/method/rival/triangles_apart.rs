@@ -1,4 +1,4 @@
-//! The nearest points of two triangles.
+//! Computes the nearest points of two triangles.
 //!
 //! The rivals' own, four edges at a time: the referee that judges them shares no code with it.
 
@@ -10,26 +10,26 @@ use wide::f64x4;
 #[cfg(test)]
 mod tests;
 
-/// A triangle, by its corners.
+/// A triangle, given by its three corners.
 pub(super) type Triangle = [DVec3; 3];
 
-/// A pair of nearest points; the same point twice if the triangles meet.
+/// The nearest points of two triangles; the same point twice if the triangles meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
-    /// The point on triangle A.
+    /// The nearest point on triangle A.
     pub(super) on_a: DVec3,
-    /// The point on triangle B.
+    /// The nearest point on triangle B.
     pub(super) on_b: DVec3,
 }
 
 impl Nearest {
-    /// Returns the vector from A to B.
+    /// Returns the vector from the point on A to the point on B.
     pub(super) fn between(&self) -> DVec3 {
         self.on_b - self.on_a
     }
 }
 
-/// Returns nearest points of two triangles in one frame.
+/// Returns the nearest points of two triangles that are given in one frame.
 ///
 /// # Guarantee
 /// Exact except for rounding; triangles without area are segments or points.
@@ -51,7 +51,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
             };
         }
     }
-    let (mut squared, mut best) = edges_apart(a, b);
+    let (mut squared, mut best) = nearest_on_edges(a, b);
     if let Some((less, foot, k)) = face_a.least_height(over_a, b).filter(|f| f.0 < squared) {
         squared = less;
         best = Nearest {
@@ -68,10 +68,10 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     best
 }
 
-/// Returns the nearest points of the edges and their squared distance.
+/// Returns the nearest points of the triangles' edges, and their squared distance.
 #[inline(always)]
-fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
-    let (from_b, along_b) = (lanes(b), lanes(&edges(b)));
+fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
+    let (from_b, along_b) = (packed(b), packed(&edges(b)));
     let long_b = along_b.dot_each(along_b);
     let scale_b = reciprocal(long_b);
     let edges_a = edges(a);
@@ -120,7 +120,7 @@ fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
 /// represent the triangle, since its normal is mostly rounding.
 const NEEDLE: f64 = 1e-12;
 
-/// A triangle with its normal, for distances of points.
+/// A triangle with its normal, to which distances of points are computed.
 struct Face {
     corners: Triangle,
     /// The normal, not of unit length; zero for a needle.
@@ -152,17 +152,17 @@ impl Face {
         !(self.scale > 0.0)
     }
 
-    /// Returns the heights of points above the plane, times |normal|; all zero for a needle.
+    /// Returns the heights of points above the triangle's plane, times |normal|; all zero for a needle.
     #[inline(always)]
     fn heights(&self, points: &Triangle) -> f64x4 {
-        lanes(points)
+        packed(points)
             .minus(Vectors::splat(self.corners[0]))
             .dot(self.normal)
     }
 
-    /// Returns a mask of the points that are above the triangle itself.
+    /// Returns a mask of the points whose perpendicular feet lie in the triangle.
     #[inline(always)]
-    fn covers(&self, points: Vectors) -> f64x4 {
+    fn is_above(&self, points: Vectors) -> f64x4 {
         let [u, v, w] = edges(&self.corners).map(|edge| self.normal.cross(edge));
         let [a, b, c] = self.corners;
         let zero = f64x4::splat(0.0);
@@ -175,7 +175,7 @@ impl Face {
         inside(a, u) & inside(b, v) & inside(c, w)
     }
 
-    /// Returns the lowest of the points above the triangle: its squared height, its foot and its index.
+    /// Returns the lowest of the points that are above the triangle itself: its squared height, its foot and its index.
     #[inline(always)]
     fn least_height(&self, heights: f64x4, points: &Triangle) -> Option<(f64, DVec3, usize)> {
         if self.is_needle() {
@@ -183,7 +183,7 @@ impl Face {
         }
         let squared = heights * heights * f64x4::splat(self.scale);
         let far = f64x4::splat(f64::INFINITY);
-        let (k, squared) = least(self.covers(lanes(points)).select(squared, far));
+        let (k, squared) = least(self.is_above(packed(points)).select(squared, far));
         let height = heights.to_array()[k];
         let k = k % 3;
         let foot = points[k] - height * self.scale * self.normal;
@@ -196,13 +196,13 @@ fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
     let share = heights / (heights - next);
-    let points = lanes(corners).plus_each(share, lanes(&edges(corners)));
+    let points = packed(corners).plus_each(share, packed(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
-    let hits = (crosses & face.covers(points)).to_bitmask();
+    let hits = (crosses & face.is_above(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
 }
 
-/// Returns true if there are heights above and below zero.
+/// Returns true if some heights are positive and others negative.
 #[inline(always)]
 fn straddle(heights: f64x4) -> bool {
     let zero = f64x4::splat(0.0);
@@ -214,13 +214,13 @@ fn edges([a, b, c]: &Triangle) -> Triangle {
     [*b - *a, *c - *b, *a - *c]
 }
 
-/// Packs three vectors, the first one twice.
+/// Packs three vectors into four lanes, the first one twice.
 #[inline(always)]
-fn lanes([a, b, c]: &Triangle) -> Vectors {
+fn packed([a, b, c]: &Triangle) -> Vectors {
     Vectors::new([*a, *b, *c, *a])
 }
 
-/// Returns the reciprocal, and zero for zero: the nearest point of an edge without length is its start.
+/// Returns the reciprocal in each lane, and zero for zero: the nearest point of an edge without length is its start.
 #[inline(always)]
 fn reciprocal(x: f64x4) -> f64x4 {
     let zero = f64x4::splat(0.0);

@@ -1,4 +1,4 @@
-//! Keeps measurements on disk, so that an interrupted evaluation resumes where it stopped.
+//! Stores measurements on disk, so that an interrupted evaluation resumes where it stopped.
 
 use crate::run::measured::{Cell, Trial, write};
 use anyhow::{Context, Result};
@@ -16,16 +16,16 @@ pub struct Journal {
     cells: Vec<Cell>,
     trials: Vec<Trial>,
     folder: PathBuf,
-    /// The claim of the folder, which excludes other processes.
+    /// The claim that excludes other processes from the folder.
     _claim: Option<Claim>,
 }
 
-/// The file that describes the program and settings of the measurements in a folder.
+/// The name of the file that describes the program and settings of the measurements in a folder.
 const STAMP: &str = "measured-with.txt";
 const CHART: &str = "chart.csv";
 const TRIALS: &str = "trials.csv";
 
-/// The scene, method and tolerance of a cell.
+/// The scene, the method and the bits of the tolerance of a cell.
 type Key = (String, String, u64);
 
 impl Journal {
@@ -90,7 +90,7 @@ impl Journal {
         self.cells.iter().any(is)
     }
 
-    /// Adds a cell and its trials, on disk too.
+    /// Adds a cell and its trials to the journal and to its files.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -102,7 +102,7 @@ impl Journal {
         Ok(())
     }
 
-    /// Removes all measurements of a method, on disk too.
+    /// Removes all measurements of a method from the journal and from its files.
     ///
     /// # Errors
     /// If the files cannot be written.
@@ -117,12 +117,12 @@ impl Journal {
         write(&self.folder.join(CHART), &self.cells)
     }
 
-    /// Returns all cells so far, in the order of measurement.
+    /// Returns all cells in the journal, in the order of measurement.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
-    /// Returns all trials so far.
+    /// Returns all trials in the journal.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
     }

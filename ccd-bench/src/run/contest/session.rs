@@ -24,7 +24,7 @@ enum Runner<'s> {
 }
 
 impl<'s> Session<'s> {
-    /// Opens a session, or returns `None` if the method does not support the scene.
+    /// Prepares a method for queries about a scene; `None` if the method does not support the scene.
     ///
     /// # Errors
     /// If a peer cannot be prepared.
@@ -51,7 +51,7 @@ impl<'s> Session<'s> {
         Ok(Some(Session { method, runner }))
     }
 
-    /// Returns the method.
+    /// Returns the method that the session runs.
     pub fn method(&self) -> Method {
         self.method
     }
@@ -78,7 +78,7 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Runs one query.
+    /// Runs one query, with a time limit for methods in a separate process.
     ///
     /// # Errors
     /// If a peer's process does not restart.

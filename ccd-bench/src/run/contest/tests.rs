@@ -11,7 +11,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::batch::SolverKind;
 use rstest::rstest;
 
-/// A cube of side 1 about the origin.
+/// Returns a cube of side 1 about the origin.
 fn cube() -> TriangleMesh {
     let half_extents = DVec3::splat(0.5);
     Board { half_extents }.mesh().unwrap()
@@ -129,7 +129,7 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     assert_eq!(cell.max_error, errors[hits - 1]);
     assert!(cell.mean_error <= cell.max_error);
     assert!(cell.median_us > 0.0 && cell.mean_steps >= 1.0);
-    assert_eq!(sum_up(&trials), cell);
+    assert_eq!(summarise(&trials), cell);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     };
     let add = |journal: &mut Journal, method: &str| {
         let trials = vec![trial(method, "0"), trial(method, "1")];
-        journal.add(sum_up(&trials), trials).unwrap();
+        journal.add(summarise(&trials), trials).unwrap();
     };
     let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     add(&mut journal, "C2A");

@@ -1,4 +1,4 @@
-//! A cache of the truth about the scenes.
+//! Stores the exact first contacts of the scenes, so that each is computed once.
 
 use super::Contest;
 use crate::method::MotionKind;
@@ -18,7 +18,7 @@ pub struct Truths {
 }
 
 impl Truths {
-    /// Reads the truths of a file, if it exists.
+    /// Reads the truths in a file; without the file there are none.
     ///
     /// # Errors
     /// If the file is no table of truths.
@@ -30,7 +30,7 @@ impl Truths {
         Ok(truths)
     }
 
-    /// Writes all known truths.
+    /// Writes all known exact answers to a file.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -39,7 +39,7 @@ impl Truths {
         write(file, &rows).context("truths")
     }
 
-    /// Finds the unknown truths of some rows of a scene, on all processors. Returns their number.
+    /// Computes the unknown truths of some rows of a scene, on all processors. Returns their number.
     pub fn find(
         &mut self,
         contest: &Contest<'_>,
@@ -69,7 +69,7 @@ impl Truths {
         count
     }
 
-    /// Returns the truth of each row of a scene; undecided if it has not been found.
+    /// Returns the truth of each row of a scene; undecided if it has not been computed.
     pub fn of_scene<'t>(
         &'t self,
         contest: &'t Contest<'_>,
@@ -88,7 +88,7 @@ impl Truths {
     }
 }
 
-/// Returns the key of a row in the table. It includes the meshes and motions, since the truth depends on them.
+/// Returns the key of a row's truth in the table. It includes the meshes and motions, since the truth depends on them.
 fn key(contest: &Contest<'_>, fingerprint: u32, kind: MotionKind, row: usize) -> String {
     let scene = &contest.scene().name;
     let id = &contest.queries(kind)[row].id;

@@ -1,4 +1,4 @@
-//! Judges a claim against the truth.
+//! Judges a solver's claim against the exact first contact.
 
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
@@ -9,10 +9,10 @@ use clap::ValueEnum;
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
-/// The judgement of a claim.
+/// The judgement of a claim about a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Verdict {
-    /// The claim is correct.
+    /// The claim agrees with the exact answer, to within the tolerance.
     Right,
     /// The claim is a contact after the exact first one.
     Late,
@@ -29,19 +29,19 @@ pub enum Verdict {
     /// The query exceeded the time limit and was stopped.
     #[value(name = "cut off")]
     CutOff,
-    /// The peer's process ended instead of answering.
+    /// The process of the method ended instead of answering.
     Died,
-    /// The truth is not known well enough.
+    /// The exact answer is not known well enough to judge the claim.
     Undecided,
     /// The reply is no answer to the query, such as a single distance measured for comparison.
     #[value(name = "not judged")]
     NotJudged,
 }
 
-/// A verdict and the error of the time.
+/// The verdict on a claim, with the error of the claimed time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
-    /// The verdict.
+    /// The verdict on the claim.
     pub verdict: Verdict,
     /// The distance of the reported time of contact from the bracket of the true one, as a fraction
     /// of the duration; `None` if either time is missing.
@@ -51,17 +51,17 @@ pub struct Judged {
 /// The lateness above which a contact is late, as a fraction of the duration. Poses by two formulas of one motion
 /// differ by about 1e-15 of the coordinates, and the slowest scene moves by a hundredth of these during its duration;
 /// the value is ten times that.
-const SLACK: f64 = 1e-12;
+const LATENESS_ALLOWED: f64 = 1e-12;
 
 /// The widest bracket that counts as an exact time, as a fraction of the duration.
-const WIDEST: f64 = 1e-9;
+const WIDEST_BRACKET: f64 = 1e-9;
 
 /// The allowed excess of a solver's distance over the tolerance due to rounding, as a fraction of the tolerance.
 const ROUNDING: f64 = 1e-6;
 
 impl Judged {
-    /// Returns a verdict without an error of the time.
-    pub fn plain(verdict: Verdict) -> Self {
+    /// Returns a judgement without an error of the time.
+    pub fn without_error(verdict: Verdict) -> Self {
         Judged {
             verdict,
             error: None,
@@ -69,12 +69,12 @@ impl Judged {
     }
 }
 
-/// Judges the outcome of a query, with a function for replies.
+/// Judges the outcome of a query, where the function `judge` judges a reply.
 pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),
-        QueryOutcome::CutOff => Judged::plain(Verdict::CutOff),
-        QueryOutcome::Died => Judged::plain(Verdict::Died),
+        QueryOutcome::CutOff => Judged::without_error(Verdict::CutOff),
+        QueryOutcome::Died => Judged::without_error(Verdict::Died),
     }
 }
 
@@ -87,12 +87,14 @@ pub fn judge(
     tolerance: f64,
 ) -> Judged {
     let near = |time: f64| is_near(referee, query, time, tolerance);
-    let plain = Judged::plain;
+    let plain = Judged::without_error;
     if claim == Claim::Static {
         return plain(Verdict::NotJudged);
     }
     match truth {
-        Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => plain(Verdict::Undecided),
+        Truth::Hit { lo, hi } if hi - lo > WIDEST_BRACKET * query.duration => {
+            plain(Verdict::Undecided)
+        }
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
         Truth::Free => plain(match claim {
             Claim::Contact { time } if near(time) => Verdict::Right,
@@ -117,12 +119,12 @@ pub fn judge_contact(
     claim: Claim,
     near: impl Fn(f64) -> bool,
 ) -> Judged {
-    let plain = Judged::plain;
+    let plain = Judged::without_error;
     let time = match claim {
         Claim::Contact { time } => time,
         Claim::Free => return plain(Verdict::Missed),
         // This claim is a proof too, and may be wrong.
-        Claim::Unresolved { safe_until } if safe_until > hi + SLACK * duration => {
+        Claim::Unresolved { safe_until } if safe_until > hi + LATENESS_ALLOWED * duration => {
             return plain(Verdict::Late);
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
@@ -130,7 +132,7 @@ pub fn judge_contact(
     };
     let off = greater(0.0, greater(lo - time, time - hi)) / duration;
     // The comparison treats NaN as late.
-    let verdict = if !(time <= hi + SLACK * duration) {
+    let verdict = if !(time <= hi + LATENESS_ALLOWED * duration) {
         Verdict::Late
     } else if time < lo && !near(time) {
         Verdict::Early

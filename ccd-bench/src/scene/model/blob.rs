@@ -1,4 +1,4 @@
-//! Bumpy, non-convex bodies of any size: stand-ins for scanned models.
+//! Makes bumpy, non-convex meshes of any size: stand-ins for scanned models.
 
 use super::sphere::sphere;
 use ccd_core::glam::DVec3;
@@ -13,15 +13,15 @@ use std::f64::consts::TAU;
 /// Every ray from the origin crosses the surface once, so that it never intersects itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Blob {
-    /// The large features, on a core of radius 1.
+    /// The large bumps, on a core of radius 1.
     pub lobes: &'static [Lobe],
-    /// The height of the ripples.
+    /// The height of the ripples, relative to the core's radius.
     pub ripple: f64,
-    /// The seed of the ripples.
+    /// The random seed of the ripples.
     pub seed: u64,
 }
 
-/// A bump on a [`Blob`].
+/// A smooth bump on the sphere of a [`Blob`].
 #[derive(Clone, Copy, Debug)]
 pub struct Lobe {
     /// The direction of the bump; any length.
@@ -41,7 +41,7 @@ const fn lobe(towards: [f64; 3], height: f64, sharpness: f64) -> Lobe {
 }
 
 impl Blob {
-    /// A bunny with head, two ears, tail and paws, about as non-convex as the original.
+    /// A bunny with head, two ears, tail and paws, about as non-convex as the scanned one.
     pub const BUNNY: Blob = Blob {
         lobes: &[
             lobe([-0.7, 0.5, 0.0], 0.5, 6.0),
@@ -56,7 +56,7 @@ impl Blob {
         seed: 70,
     };
 
-    /// A Santa with hat, sack, arms and boots, about as non-convex as the original.
+    /// A Santa with hat, sack, arms and boots, about as non-convex as the scanned one.
     pub const SANTA: Blob = Blob {
         lobes: &[
             lobe([0.0, 0.1, 1.0], 1.2, 20.0),
@@ -88,7 +88,8 @@ impl Blob {
         TriangleMesh::new(points, &faces)
     }
 
-    /// Returns the radius of the surface in a direction: a sum of terms that are smooth over the sphere.
+    /// Returns the distance of the surface from the origin in a direction: a sum of terms that are smooth over the
+    /// sphere.
     fn radius(&self, direction: DVec3, ripples: &[Ripple]) -> f64 {
         let lobes: f64 = self
             .lobes
@@ -125,7 +126,7 @@ struct Ripple {
     phase: f64,
 }
 
-/// The number of superposed waves.
+/// The number of plane waves that are added up.
 const RIPPLES: usize = 24;
 /// The highest wave number along each axis, in radians per core radius.
 const SHORTEST_RIPPLE: f64 = 20.0;

@@ -1,4 +1,4 @@
-//! A board: two triangles per side, the coarsest closed mesh.
+//! Makes a board: two triangles per side, the coarsest closed mesh of a box.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
@@ -6,7 +6,7 @@ use ccd_decomp::{MeshError, TriangleMesh};
 /// A box about the origin, as 12 triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Board {
-    /// Half of its length along each axis.
+    /// Half the length of the box along each axis.
     pub half_extents: DVec3,
 }
 
@@ -28,7 +28,7 @@ const FACES: [[u32; 3]; 12] = [
 ];
 
 impl Board {
-    /// Returns the closed mesh.
+    /// Returns the closed mesh of the board.
     ///
     /// # Errors
     /// If an extent is not finite or too large.

@@ -1,4 +1,4 @@
-//! Surfaces that are periodic in both parameters.
+//! Makes meshes of surfaces that are periodic in both parameters.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};

@@ -1,14 +1,14 @@
-//! A flat square of many triangles: two of them that meet flat have contacts everywhere at once.
+//! Makes a flat square of many triangles: two of them that meet flat have contacts everywhere at once.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 
-/// A square across z about the origin, cut into squares of two triangles each.
+/// A square in the plane z = 0 about the origin, cut into small squares of two triangles each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
-    /// Half the length of a side.
+    /// Half the length of a side of the whole square.
     pub half_side: f64,
-    /// The number of squares per side.
+    /// The number of small squares per side.
     pub squares: u32,
 }
 

@@ -1,4 +1,4 @@
-//! A ring: a torus, through whose hole a body passes only with exact methods.
+//! Makes a ring: a torus, through whose hole a body passes only with exact methods.
 
 use super::grid::closed_grid;
 use ccd_core::glam::DVec3;
@@ -14,7 +14,7 @@ pub struct Ring {
     pub sides: usize,
     /// The distance from the axis to the middle of the tube.
     pub radius: f64,
-    /// The tube's radius, below `radius`.
+    /// The radius of the tube, below `radius`.
     pub tube: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A triangulated unit sphere with any number of vertices, evenly spread.
+//! Makes a triangulated unit sphere with any number of evenly spread vertices.
 
 use ccd_core::glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -34,7 +34,7 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (points, faces)
 }
 
-/// A circle of latitude: consecutive vertices, eastward; a pole is a circle of one.
+/// A circle of latitude: consecutive vertices, eastward; at a pole it has one vertex.
 #[derive(Clone, Copy)]
 struct Ring {
     first: u32,
@@ -52,7 +52,7 @@ impl Ring {
     }
 }
 
-/// Returns the number of vertices of each circle, without the poles.
+/// Returns the number of vertices on each circle of latitude, without the poles.
 fn ring_counts(vertices: usize) -> Vec<usize> {
     let between_poles = vertices.saturating_sub(2) as f64;
     // The height of equilateral triangles of area 4π / (2 · vertices).

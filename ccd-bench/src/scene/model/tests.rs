@@ -10,7 +10,7 @@ fn volume(mesh: &TriangleMesh) -> f64 {
     mesh.faces().iter().map(tetrahedron).sum()
 }
 
-/// Asserts that every directed edge appears once, and its opposite too.
+/// Asserts that every directed edge appears once in a mesh, and its opposite once.
 fn assert_closed(mesh: &TriangleMesh, name: &str) {
     let mut edges = HashSet::new();
     for &[a, b, c] in mesh.faces() {
@@ -103,8 +103,8 @@ fn a_knot_is_a_tube_about_its_curve() {
     }
 }
 
-/// If all triangles face away from the origin, and the mesh is closed, connected, and winds about the origin once, then
-/// every ray from the origin meets it exactly once, so that no two triangles intersect.
+/// Tests that all triangles of a blob face away from the origin. If the mesh is closed and connected, too, and winds
+/// about the origin once, then every ray from the origin meets it exactly once, so that no two triangles intersect.
 #[test]
 fn blobs_are_star_shaped_and_so_free_of_self_intersection() {
     for model in [Model::Bunny70k, Model::Bunny26k, Model::Santa] {

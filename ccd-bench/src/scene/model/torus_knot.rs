@@ -1,4 +1,4 @@
-//! Torus knots: long, thin tubes that interlock with themselves.
+//! Makes torus knots: long, thin tubes that interlock with themselves.
 
 use super::grid::closed_grid;
 use ccd_core::glam::DVec3;
@@ -12,15 +12,15 @@ pub struct TorusKnot {
     pub segments: usize,
     /// The number of corners of each ring, at least 3.
     pub sides: usize,
-    /// The radius of the tube, below 0.33, at which it would touch itself in the middle.
+    /// The radius of the tube, below 0.33, at which the tube would touch itself in the middle.
     pub tube: f64,
 }
 
-/// The number of turns around the torus' axis.
+/// The number of turns of the knot around the torus' axis.
 const TURNS: f64 = 2.0;
-/// The number of turns around the torus' tube in the same period.
+/// The number of turns of the knot around the torus' tube in the same period.
 const WINDINGS: f64 = 3.0;
-/// The torus that the knot lies on: its radius and that of its tube.
+/// The radius of the torus that the knot lies on, and the radius of the torus' tube.
 const TORUS: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 
 impl TorusKnot {

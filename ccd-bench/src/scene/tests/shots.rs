@@ -1,4 +1,4 @@
-//! Bodies shot at resting ones.
+//! Makes motions of bodies that are shot at resting ones.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
@@ -8,23 +8,23 @@ use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
 
-/// Straight flights from somewhere around a resting body to the far side of it.
+/// Random straight flights from one side of a resting body to the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Shots {
-    /// The number of flights.
+    /// The number of flights to make.
     pub(crate) count: usize,
-    /// The number of the first flights, which do not turn.
+    /// The number of flights, the first ones, that do not rotate.
     pub(crate) translations: usize,
-    /// The range of starting distances from the resting body's origin.
+    /// The range of distances from the resting body's origin at which flights start.
     pub(crate) distance: Range<f64>,
-    /// The largest distance of a flight's path from that origin.
+    /// The largest distance of a flight's path from the resting body's origin.
     pub(crate) aside: f64,
-    /// The random seed.
+    /// The seed of the random numbers.
     pub(crate) seed: u64,
 }
 
 impl Shots {
-    /// Returns the motions, of duration 1; B rests at the origin.
+    /// Returns one query of duration 1 for each flight; B rests at the origin.
     ///
     /// # Errors
     /// If a distance is not finite.
@@ -80,7 +80,7 @@ fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
     })
 }
 
-/// Returns a uniformly distributed point of the unit sphere.
+/// Returns a uniformly distributed unit vector.
 fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     let z: f64 = rng.random_range(-1.0..1.0);
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();

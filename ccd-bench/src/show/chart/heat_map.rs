@@ -1,8 +1,10 @@
-//! Maps of stability, with families as rows and methods as columns: the reach of each method, and the growth of its
-//! cost.
+//! Draws heat maps with families of scenes as rows and methods as columns: how far each method is right, and how its
+//! cost grows.
 
 use super::Drawing;
-use super::sheet::{INK, MARGIN, Sheet, Spot, TextFormat, WIDTH, rect, svg, text, text_width};
+use super::sheet::{
+    MARGIN, PixelPosition, Sheet, TEXT_COLOUR, TextFormat, WIDTH, rect, svg, text, text_width,
+};
 use super::style::COLOURS;
 use crate::run::contest::Verdict;
 use anyhow::Result;
@@ -12,36 +14,36 @@ use plotters::style::{FontTransform, RGBColor, WHITE};
 /// A heat map of families and methods.
 #[derive(Clone, Debug)]
 pub struct HeatMap {
-    /// The quantity of the map.
+    /// What the colours of the cells show.
     pub kind: &'static HeatKind,
-    /// The names of the methods.
+    /// The names of the methods, one for each column.
     pub methods: Vec<String>,
-    /// The families.
+    /// The rows of the map, one for each family of scenes.
     pub rows: Vec<HeatRow>,
 }
 
-/// One family.
+/// A row of a heat map: one family of scenes.
 #[derive(Clone, Debug)]
 pub struct HeatRow {
-    /// The name of the family.
+    /// The name of the family of scenes.
     pub name: String,
-    /// The parameter that makes the family harder.
+    /// The description of the parameter that makes the family harder.
     pub parameter: String,
-    /// One cell for each method; `None` without data.
+    /// One cell for each method; `None` without measurements.
     pub cells: Vec<Option<HeatCell>>,
 }
 
-/// The quantity of a map, in words.
+/// What the colours of a heat map show, in words.
 #[derive(Debug)]
 pub struct HeatKind {
     name: &'static str,
     title: &'static str,
-    /// The lines of the remark.
+    /// The two lines of text below the title.
     remark: [&'static str; 2],
     legend: &'static [(&'static str, RGBColor)],
 }
 
-/// The reach of each method in each family: cells of [`HeatCell::reach`].
+/// The kind of map that shows how far each method is right in each family: cells of [`HeatCell::reach`].
 pub const REACH: &HeatKind = &HeatKind {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
@@ -50,16 +52,16 @@ pub const REACH: &HeatKind = &HeatKind {
         "the steps, from the easy ones, before the first that is not right.",
     ],
     legend: &[
-        ("right", RIGHT),
-        ("unresolved or refused", GREY),
-        ("early", EARLY),
-        ("false contact", FALSE),
-        ("late or missed", WARNING),
+        ("right", RIGHT_COLOUR),
+        ("unresolved or refused", GREY_COLOUR),
+        ("early", EARLY_COLOUR),
+        ("false contact", FALSE_COLOUR),
+        ("late or missed", MISSED_COLOUR),
         ("died or cut off", BLACK),
     ],
 };
 
-/// The growth of the cost: cells of [`HeatCell::growth`].
+/// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::growth`].
 pub const GROWTH: &HeatKind = &HeatKind {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
@@ -68,45 +70,45 @@ pub const GROWTH: &HeatKind = &HeatKind {
         "easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     ],
     legend: &[
-        ("up to 3 times", GROWN[0]),
-        ("30", GROWN[1]),
-        ("1,000", GROWN[2]),
-        ("more", GROWN[3]),
+        ("up to 3 times", GROWTH_COLOURS[0]),
+        ("30", GROWTH_COLOURS[1]),
+        ("1,000", GROWTH_COLOURS[2]),
+        ("more", GROWTH_COLOURS[3]),
     ],
 };
 
-/// The colours from light to dark, for costs that grow by up to 3, 30, 1000 times, and more.
-const GROWN: [RGBColor; 4] = [
+/// The colours of growing costs, from light to dark: up to 3, 30 and 1000 times, and more.
+const GROWTH_COLOURS: [RGBColor; 4] = [
     RGBColor(0xea, 0xf2, 0xf8),
     RGBColor(0x9e, 0xc4, 0xe0),
     RGBColor(0x3b, 0x7d, 0xb3),
     RGBColor(0x10, 0x2f, 0x54),
 ];
 
-/// The width of the column of names.
-const NAMES: f64 = 196.0;
-/// The height of a row.
-const ROW: f64 = 24.0;
-/// The height of the bar in a cell.
-const BAR: f64 = 5.0;
-/// The top of the first row.
-const TOP: f64 = 250.0;
-/// The sizes of small and smallest text.
-const SMALL: f64 = 10.5;
-const SMALLEST: f64 = 7.5;
+/// The width of the column of family names, in pixels.
+const NAMES_WIDTH: f64 = 196.0;
+/// The height of a row, in pixels.
+const ROW_HEIGHT: f64 = 24.0;
+/// The height of the bar in a cell, in pixels.
+const BAR_HEIGHT: f64 = 5.0;
+/// The distance of the first row from the top of the sheet, in pixels.
+const FIRST_ROW_TOP: f64 = 250.0;
+/// The font sizes of small and of the smallest text, in pixels.
+const SMALL_FONT: f64 = 10.5;
+const SMALLEST_FONT: f64 = 7.5;
 
-/// The colour of steps that are right.
-const RIGHT: RGBColor = COLOURS[0];
+/// The colour of families in which all answers are right.
+const RIGHT_COLOUR: RGBColor = COLOURS[0];
 /// The colour of missing answers.
-const GREY: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
-/// The colours of false contacts.
-const EARLY: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
-const FALSE: RGBColor = COLOURS[4];
-/// The colour of missed contacts.
-const WARNING: RGBColor = COLOURS[1];
+const GREY_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
+/// The colours of early contacts and of false contacts.
+const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
+const FALSE_COLOUR: RGBColor = COLOURS[4];
+/// The colour of late and missed contacts.
+const MISSED_COLOUR: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
-/// One method on one family: a colour, two lines of text, and a bar.
+/// A cell of a heat map: a colour, two lines of text, and a bar.
 #[derive(Clone, Debug)]
 pub struct HeatCell {
     fill: RGBColor,
@@ -117,10 +119,10 @@ pub struct HeatCell {
 }
 
 impl HeatCell {
-    /// Returns the cell of the reach of a method: its worst verdict, the share of the values, from the easiest, before
-    /// the first wrong one, and the first value with the worst verdict, empty if all are right.
+    /// Returns the cell that shows how far a method is right: its worst verdict, the share of the values before the
+    /// first wrong answer, and the first value with the worst verdict, empty if all are right.
     pub fn reach(worst: Verdict, share: f64, limit: String) -> Self {
-        let (fill, word, ink) = look_of(worst);
+        let (fill, word, ink) = verdict_style(worst);
         HeatCell {
             fill,
             ink,
@@ -129,7 +131,7 @@ impl HeatCell {
         }
     }
 
-    /// Returns the cell of the largest cost of a step, as a multiple of that of the easiest one.
+    /// Returns the cell that shows the largest cost of a step, as a multiple of that of the easiest one.
     pub fn growth(factor: f64) -> Self {
         let steps = [3.0, 30.0, 1000.0].iter();
         let darkness = steps.filter(|&&most| factor > most).count();
@@ -139,8 +141,8 @@ impl HeatCell {
             _ => format!("{factor:.0e}"),
         };
         HeatCell {
-            fill: GROWN[darkness],
-            ink: if darkness < 2 { INK } else { WHITE },
+            fill: GROWTH_COLOURS[darkness],
+            ink: if darkness < 2 { TEXT_COLOUR } else { WHITE },
             lines: [String::new(), number],
             bar: 0.0,
         }
@@ -148,24 +150,24 @@ impl HeatCell {
 }
 
 impl HeatMap {
-    /// Draws the map.
+    /// Draws the map on a sheet of its own.
     ///
     /// # Errors
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<Drawing> {
-        let height = TOP + ROW * self.rows.len() as f64 + MARGIN;
+        let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + MARGIN;
         let svg = svg(self.kind.title, (WIDTH, height), |sheet| {
-            head(sheet, self.kind)?;
+            draw_header(sheet, self.kind)?;
             let format = TextFormat {
                 turn: FontTransform::Rotate270,
                 ..small()
             };
             for (column, method) in self.methods.iter().enumerate() {
                 let middle = self.left(column) + 0.5 * self.column();
-                text(sheet, method, (middle, TOP - 6.0), &format)?;
+                text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
-                self.row(sheet, TOP + ROW * number as f64, row)?;
+                self.row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
             }
             Ok(())
         })?;
@@ -173,22 +175,32 @@ impl HeatMap {
         Ok(Drawing { name, svg })
     }
 
-    /// The width of a column.
+    /// Returns the width of a method's column, in pixels.
     fn column(&self) -> f64 {
-        (WIDTH - 2.0 * MARGIN - NAMES) / self.methods.len() as f64
+        (WIDTH - 2.0 * MARGIN - NAMES_WIDTH) / self.methods.len() as f64
     }
 
     fn left(&self, column: usize) -> f64 {
-        MARGIN + NAMES + self.column() * column as f64
+        MARGIN + NAMES_WIDTH + self.column() * column as f64
     }
 
     fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         let smallest = TextFormat {
-            size: SMALLEST,
+            size: SMALLEST_FONT,
             ..small()
         };
-        text(sheet, &row.name, (MARGIN, top + 0.34 * ROW), &small())?;
-        text(sheet, &row.parameter, (MARGIN, top + 0.76 * ROW), &smallest)?;
+        text(
+            sheet,
+            &row.name,
+            (MARGIN, top + 0.34 * ROW_HEIGHT),
+            &small(),
+        )?;
+        text(
+            sheet,
+            &row.parameter,
+            (MARGIN, top + 0.76 * ROW_HEIGHT),
+            &smallest,
+        )?;
         for (column, cell) in row.cells.iter().enumerate() {
             if let Some(cell) = cell {
                 let corner = (self.left(column) + 0.5, top + 0.5);
@@ -201,13 +213,13 @@ impl HeatMap {
 
 fn small() -> TextFormat {
     TextFormat {
-        size: SMALL,
+        size: SMALL_FONT,
         ..TextFormat::default()
     }
 }
 
-/// Draws title, remark and legend.
-fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
+/// Draws the title, the remark and the legend of a kind of map.
+fn draw_header(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
         ..small()
@@ -220,19 +232,19 @@ fn head(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
     for &(name, colour) in kind.legend {
         rect(sheet, (left, top), (12.0, 12.0), colour)?;
         text(sheet, name, (left + 17.0, top + 6.0), &small())?;
-        left += 34.0 + text_width(name, SMALL);
+        left += 34.0 + text_width(name, SMALL_FONT);
     }
     Ok(())
 }
 
-/// Draws a cell, given by its upper left corner and its width.
-fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Result<()> {
-    let height = ROW - 1.0;
+/// Draws a cell at its upper left corner, with a given width.
+fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
+    let height = ROW_HEIGHT - 1.0;
     rect(sheet, (x, y), (width, height), cell.fill)?;
-    let bar = (width * cell.bar, BAR);
-    rect(sheet, (x, y + height - BAR), bar, RIGHT)?;
+    let bar = (width * cell.bar, BAR_HEIGHT);
+    rect(sheet, (x, y + height - BAR_HEIGHT), bar, RIGHT_COLOUR)?;
     let format = TextFormat {
-        size: SMALLEST,
+        size: SMALLEST_FONT,
         colour: cell.ink,
         across: HPos::Center,
         ..TextFormat::default()
@@ -243,17 +255,17 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): Spot, width: f64, cell: &HeatCell) -> Re
     Ok(())
 }
 
-/// Returns the colour of a verdict, a word for it, and the colour of text on it.
-fn look_of(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
+/// Returns how a verdict is shown: its colour, a word for it, and the colour of the word.
+fn verdict_style(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
-        Verdict::Right => (RIGHT, "", WHITE),
-        Verdict::Undecided | Verdict::NotJudged => (GREY, "?", INK),
-        Verdict::Refused => (GREY, "refused", INK),
-        Verdict::Unresolved => (GREY, "unres.", INK),
-        Verdict::Early => (EARLY, "early", INK),
-        Verdict::False => (FALSE, "false", INK),
-        Verdict::Late => (WARNING, "late", WHITE),
-        Verdict::Missed => (WARNING, "missed", WHITE),
+        Verdict::Right => (RIGHT_COLOUR, "", WHITE),
+        Verdict::Undecided | Verdict::NotJudged => (GREY_COLOUR, "?", TEXT_COLOUR),
+        Verdict::Refused => (GREY_COLOUR, "refused", TEXT_COLOUR),
+        Verdict::Unresolved => (GREY_COLOUR, "unres.", TEXT_COLOUR),
+        Verdict::Early => (EARLY_COLOUR, "early", TEXT_COLOUR),
+        Verdict::False => (FALSE_COLOUR, "false", TEXT_COLOUR),
+        Verdict::Late => (MISSED_COLOUR, "late", WHITE),
+        Verdict::Missed => (MISSED_COLOUR, "missed", WHITE),
         Verdict::Died => (BLACK, "died", WHITE),
         Verdict::CutOff => (BLACK, "cut off", WHITE),
     }

@@ -1,22 +1,24 @@
-//! Time against error: one plane for each scene, with a strip for unsafe methods.
+//! Draws the charts of time against error: one plane for each scene, with a strip for unsafe methods.
 
-use super::plane::{HEAD, Plane, Point, decades, foot, foot_height, head, marker, series};
-use super::sheet::{INK, Sheet, TEXT, WIDTH, font, svg, units};
-use super::style::WARNING;
+use super::plane::{
+    HEAD_HEIGHT, Plane, Point, decades, draw_footer, draw_header, footer_height, marker, series,
+};
+use super::sheet::{FONT_SIZE, Sheet, TEXT_COLOUR, WIDTH, font, svg, units};
+use super::style::WARNING_COLOUR;
 use super::{Charts, Drawing, Family, SAME_ROWS, SceneFacts, Shown};
 use crate::run::measured::Cell;
 use anyhow::Result;
 use ccd_core::order::greater;
 use plotters::prelude::*;
 
-/// The least error that is drawn; smaller ones are rounding, and are drawn at the edge.
+/// The least error on the axis; smaller ones are due to rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
-/// The number of planes side by side, and their height.
-const PANELS: (usize, f64) = (3, 260.0);
-/// The width of a method's lane in the strip, and the least width of the strip, for its title.
-const STRIP: (f64, f64) = (10.0, 50.0);
+/// The number of planes side by side, and their height in pixels.
+const PANELS_AND_HEIGHT: (usize, f64) = (3, 260.0);
+/// The width in pixels of a method's lane in the strip of unsafe methods, and the least width of the strip.
+const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
-/// Draws all scenes that were measured.
+/// Draws a plane for each scene that was measured; `None` without any.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
     let scenes = charts.measured_scenes();
     let shown = charts.shown(&Family::COMPARED);
@@ -54,23 +56,23 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
         );
     }
     let title = "Time against error: lower left is better";
-    let rows = scenes.len().div_ceil(PANELS.0);
-    let bottom = HEAD + PANELS.1 * rows as f64;
-    let height = bottom + foot_height(&shown, &remarks);
+    let rows = scenes.len().div_ceil(PANELS_AND_HEIGHT.0);
+    let bottom = HEAD_HEIGHT + PANELS_AND_HEIGHT.1 * rows as f64;
+    let height = bottom + footer_height(&shown, &remarks);
     let svg = svg(title, (WIDTH, height), |sheet| {
-        head(
+        draw_header(
             sheet,
             title,
             "One line per method, a marker for each tolerance; hollow in the strip beside: late or missed contacts \
              somewhere, so no accuracy to show",
         )?;
         let (panels, _) = sheet.split_vertically(units(bottom));
-        let (_, panels) = panels.split_vertically(units(HEAD));
-        let panels = panels.split_evenly((rows, PANELS.0));
+        let (_, panels) = panels.split_vertically(units(HEAD_HEIGHT));
+        let panels = panels.split_evenly((rows, PANELS_AND_HEIGHT.0));
         for (scene, panel) in scenes.iter().zip(&panels) {
             draw_scene(charts, panel, scene, &plane, &shown)?;
         }
-        foot(sheet, &shown, &remarks, bottom)
+        draw_footer(sheet, &shown, &remarks, bottom)
     })?;
     let name = "pareto".to_owned();
     Ok(Some(Drawing { name, svg }))
@@ -86,12 +88,15 @@ fn draw_scene(
     let (hollow, solid): (Vec<_>, Vec<_>) = shown.iter().partition(|(_, style)| style.is_unsafe);
     let strip = match hollow.len() {
         0 => 0.0,
-        lanes => greater(STRIP.1, STRIP.0 * (lanes as f64 + 1.0)),
+        lanes => greater(
+            LANE_AND_STRIP_WIDTHS.1,
+            LANE_AND_STRIP_WIDTHS.0 * (lanes as f64 + 1.0),
+        ),
     };
     let width = panel.dim_in_pixel().0 as i32;
     let (panel, strip) = panel.split_horizontally(width - units(strip));
-    let bold = font(TEXT, FontStyle::Bold);
-    let panel = panel.titled(scene.name, bold.color(&INK))?;
+    let bold = font(FONT_SIZE, FontStyle::Bold);
+    let panel = panel.titled(scene.name, bold.color(&TEXT_COLOUR))?;
     let mut drawn = plane.draw(&panel)?;
     for (method, style) in &solid {
         let cells = charts.cells_of(scene.name, method.name);
@@ -107,9 +112,9 @@ fn draw_scene(
     }
     // Unsafe methods have a time alone, and a lane each: at 10, 100 and so on of a logarithmic axis.
     let lane = |number: usize| 10f64.powi(number as i32 + 1);
-    let strip = strip.titled("unsafe", bold.color(&WARNING))?;
-    let mut beside = plane.frame(&strip, 1.0..lane(hollow.len()))?;
-    beside.plotting_area().fill(&WARNING.mix(0.08))?;
+    let strip = strip.titled("unsafe", bold.color(&WARNING_COLOUR))?;
+    let mut beside = plane.empty_plane_beside(&strip, 1.0..lane(hollow.len()))?;
+    beside.plotting_area().fill(&WARNING_COLOUR.mix(0.08))?;
     for (number, (method, style)) in hollow.iter().enumerate() {
         for cell in charts.cells_of(scene.name, method.name) {
             if !cell.median_us.is_nan() {
@@ -121,7 +126,7 @@ fn draw_scene(
     Ok(())
 }
 
-/// Returns true if the median of a cell is the time of queries without a complete answer.
+/// Returns true if a cell's median is that of unfinished queries, so that the true time is longer.
 pub(super) fn is_lower_bound(cell: &Cell) -> bool {
     cell.rows > 0 && 2 * cell.unresolved >= cell.rows
 }

@@ -1,8 +1,8 @@
-//! A plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
+//! Draws a plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
 
 use super::MethodFacts;
-use super::sheet::{INK, MARGIN, Sheet, TEXT, TextFormat, font, text, units};
-use super::style::{MARKER, MethodStyle};
+use super::sheet::{FONT_SIZE, MARGIN, Sheet, TEXT_COLOUR, TextFormat, font, text, units};
+use super::style::{MARKER_RADIUS, MethodStyle};
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
 use plotters::coord::combinators::LogCoord;
@@ -10,26 +10,26 @@ use plotters::element::{ComposedElement, DashedPathElement};
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// The height of a line of text.
-pub(super) const LINE: f64 = 18.0;
-/// The height of the chart's title and of the line below it.
-pub(super) const HEAD: f64 = 50.0;
-/// The columns of the legend, and the width of each.
+/// The height of a line of text, in pixels.
+pub(super) const LINE_HEIGHT: f64 = 18.0;
+/// The height of the chart's title and subtitle, in pixels.
+pub(super) const HEAD_HEIGHT: f64 = 50.0;
+/// The number of columns of the legend, and the width of each in pixels.
 const LEGEND: (usize, f64) = (2, 400.0);
-/// The colour of lines under the data.
-const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
+/// The colour of grid lines behind the data.
+const GRID_COLOUR: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 
-/// The axes of a plane, with their labels.
+/// The two axes of a plane, with their labels and ranges.
 #[derive(Clone)]
 pub(super) struct Plane {
     pub(super) x: (Range<f64>, &'static str),
     pub(super) y: (Range<f64>, &'static str),
 }
 
-/// A plane on a sheet.
+/// A plane that is drawn on a sheet, with its coordinates.
 type Drawn<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
 
-/// A value to draw. The quantity of `y` is at least this if the measurement was cut off.
+/// A point to draw, in the units of the axes. The quantity of `y` is at least this if the measurement was cut off.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub(super) x: f64,
@@ -37,7 +37,7 @@ pub(super) struct Point {
     pub(super) is_lower_bound: bool,
 }
 
-/// A method that is shown, with its style.
+/// A method on a chart, with its style.
 pub(super) type Shown<'a> = (&'a MethodFacts<'a>, MethodStyle);
 
 /// Returns the whole decades around positive values, at least one; `None` without values.
@@ -50,14 +50,14 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
 }
 
 impl Plane {
-    /// Draws the axes.
+    /// Draws the axes of the plane on a sheet.
     pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
-        let mut drawn = self.frame(sheet, self.x.0.clone())?;
+        let mut drawn = self.empty_plane_beside(sheet, self.x.0.clone())?;
         drawn
             .configure_mesh()
             .max_light_lines(1)
-            .bold_line_style(RULE.stroke_width(10))
-            .axis_style(INK.stroke_width(10))
+            .bold_line_style(GRID_COLOUR.stroke_width(10))
+            .axis_style(TEXT_COLOUR.stroke_width(10))
             .set_all_tick_mark_size(units(4.0))
             .x_labels(4)
             .y_labels(6)
@@ -65,13 +65,13 @@ impl Plane {
             .y_desc(self.y.1)
             .x_label_formatter(&|value| format!("{value:.0e}"))
             .y_label_formatter(&|value| format!("{value:.0e}"))
-            .label_style(font(TEXT, FontStyle::Normal))
+            .label_style(font(FONT_SIZE, FontStyle::Normal))
             .draw()?;
         Ok(drawn)
     }
 
-    /// Prepares a plane of the same height without numbers and lines, such as a strip beside this one.
-    pub(super) fn frame<'a, 's>(
+    /// Prepares a plane of the same height without numbers and grid lines, such as a strip beside this one.
+    pub(super) fn empty_plane_beside<'a, 's>(
         &self,
         sheet: &'a Sheet<'s>,
         x: Range<f64>,
@@ -110,7 +110,7 @@ pub(super) fn series(
     Ok(())
 }
 
-/// Draws a marker, with an arrow upwards if the value is a lower bound.
+/// Draws a method's marker, with an arrow upwards if the value is a lower bound.
 pub(super) fn marker(
     drawn: &mut Drawn<'_, '_>,
     at: (f64, f64),
@@ -120,7 +120,7 @@ pub(super) fn marker(
     drawn.draw_series([glyph(at, style)])?;
     if is_lower_bound {
         let arrow = [
-            (0.0, MARKER),
+            (0.0, MARKER_RADIUS),
             (0.0, 12.0),
             (-3.0, 8.0),
             (3.0, 8.0),
@@ -142,12 +142,12 @@ fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
         + PathElement::new(closed, style.pen(13))
 }
 
-/// A marker, its corners relative to its position.
+/// The polygon of a marker, with its corners relative to its position.
 type Glyph<'s, C> =
     ComposedElement<C, SVGBackend<'s>, Polygon<(i32, i32)>, PathElement<(i32, i32)>>;
 
-/// Draws a chart's title, and the line below it.
-pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()> {
+/// Draws the title and the subtitle of a chart.
+pub(super) fn draw_header(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()> {
     let format = TextFormat {
         size: 16.0,
         weight: FontStyle::Bold,
@@ -157,13 +157,13 @@ pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<()>
     text(sheet, subtitle, (MARGIN, 36.0), &TextFormat::default())
 }
 
-/// Returns the height of legend and remarks.
-pub(super) fn foot_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
-    LINE * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + MARGIN
+/// Returns the height of the legend and the remarks, in pixels.
+pub(super) fn footer_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
+    LINE_HEIGHT * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + MARGIN
 }
 
-/// Draws the legend, and remarks below it.
-pub(super) fn foot(
+/// Draws the legend, and the remarks below it.
+pub(super) fn draw_footer(
     sheet: &Sheet<'_>,
     shown: &[Shown<'_>],
     remarks: &[&str],
@@ -172,7 +172,7 @@ pub(super) fn foot(
     let (columns, width) = LEGEND;
     for (index, (method, style)) in shown.iter().enumerate() {
         let left = MARGIN + width * (index % columns) as f64;
-        let middle = top + LINE * ((index / columns) as f64 + 0.5);
+        let middle = top + LINE_HEIGHT * ((index / columns) as f64 + 0.5);
         let (from, at, to) = (units(left), units(left + 15.0), units(left + 30.0));
         let line = vec![(from, units(middle)), (to, units(middle))];
         let (dash, gap) = style.dash.unwrap_or((300, 0));
@@ -182,13 +182,18 @@ pub(super) fn foot(
         let label = format!("{}: {}{mark}", method.family.title(), method.name);
         text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;
     }
-    let top = top + LINE * (shown.len().div_ceil(columns) as f64 + 0.5);
+    let top = top + LINE_HEIGHT * (shown.len().div_ceil(columns) as f64 + 0.5);
     for (line, remark) in remarks.iter().enumerate() {
         let format = TextFormat {
-            size: TEXT - 1.0,
+            size: FONT_SIZE - 1.0,
             ..TextFormat::default()
         };
-        text(sheet, remark, (MARGIN, top + LINE * line as f64), &format)?;
+        text(
+            sheet,
+            remark,
+            (MARGIN, top + LINE_HEIGHT * line as f64),
+            &format,
+        )?;
     }
     Ok(())
 }

@@ -1,32 +1,32 @@
-//! A sheet to draw on, in tenths of a pixel: the drawing library rounds positions to whole units.
+//! A sheet to draw on in tenths of a pixel, because the drawing library rounds positions to whole units.
 
 use anyhow::Result;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// The width of every chart, for the text width of a README.
+/// The width of every chart in pixels, for the text width of a README.
 pub(super) const WIDTH: f64 = 840.0;
-/// The margin around everything.
+/// The width of the empty margin around a chart, in pixels.
 pub(super) const MARGIN: f64 = 10.0;
-/// The units of the drawing in a pixel.
-const UNITS: f64 = 10.0;
+/// The number of drawing units in a pixel.
+const UNITS_PER_PIXEL: f64 = 10.0;
 /// The factor by which the library divides font sizes in its output.
 const FONT_RATIO: f64 = 1.24;
-/// The average width of a character relative to the font size, with some reserve.
-const CHARACTER: f64 = 0.58;
-/// The colour of text.
-pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-/// The default size of text, in pixels.
-pub(super) const TEXT: f64 = 12.0;
+/// The average width of a character relative to the font size, rounded up.
+const CHARACTER_WIDTH: f64 = 0.58;
+/// The colour of text and axes.
+pub(super) const TEXT_COLOUR: RGBColor = RGBColor(0x22, 0x22, 0x22);
+/// The default font size, in pixels.
+pub(super) const FONT_SIZE: f64 = 12.0;
 
-/// An area to draw in.
+/// An area of the SVG file to draw in.
 pub(super) type Sheet<'s> = DrawingArea<SVGBackend<'s>, Shift>;
 
-/// A position in pixels, from the upper left corner.
-pub(super) type Spot = (f64, f64);
+/// A position in pixels: right of and below the upper left corner.
+pub(super) type PixelPosition = (f64, f64);
 
-/// The style of a text.
+/// The size, weight, colour and alignment of a text.
 pub(super) struct TextFormat {
     pub(super) size: f64,
     pub(super) colour: RGBColor,
@@ -38,8 +38,8 @@ pub(super) struct TextFormat {
 impl Default for TextFormat {
     fn default() -> Self {
         TextFormat {
-            size: TEXT,
-            colour: INK,
+            size: FONT_SIZE,
+            colour: TEXT_COLOUR,
             weight: FontStyle::Normal,
             across: HPos::Left,
             turn: FontTransform::None,
@@ -50,7 +50,7 @@ impl Default for TextFormat {
 /// Returns the SVG file that `body` draws on a white sheet of the given size in pixels.
 pub(super) fn svg(
     title: &str,
-    size: Spot,
+    size: PixelPosition,
     body: impl FnOnce(&Sheet<'_>) -> Result<()>,
 ) -> Result<String> {
     let (width, height) = (units(size.0).unsigned_abs(), units(size.1).unsigned_abs());
@@ -72,8 +72,13 @@ pub(super) fn svg(
     ))
 }
 
-/// Draws a text; its vertical middle is at the position.
-pub(super) fn text(sheet: &Sheet<'_>, text: &str, (x, y): Spot, format: &TextFormat) -> Result<()> {
+/// Draws a text whose vertical middle is at the given position.
+pub(super) fn text(
+    sheet: &Sheet<'_>,
+    text: &str,
+    (x, y): PixelPosition,
+    format: &TextFormat,
+) -> Result<()> {
     let style = font(format.size, format.weight)
         .transform(format.turn.clone())
         .color(&format.colour)
@@ -81,24 +86,33 @@ pub(super) fn text(sheet: &Sheet<'_>, text: &str, (x, y): Spot, format: &TextFor
     Ok(sheet.draw(&Text::new(text, (units(x), units(y)), style))?)
 }
 
-/// Fills a rectangle, given by its upper left corner and its size.
-pub(super) fn rect(sheet: &Sheet<'_>, (x, y): Spot, size: Spot, colour: RGBColor) -> Result<()> {
+/// Fills a rectangle that is given by its upper left corner and its size.
+pub(super) fn rect(
+    sheet: &Sheet<'_>,
+    (x, y): PixelPosition,
+    size: PixelPosition,
+    colour: RGBColor,
+) -> Result<()> {
     let corners = [(x, y), (x + size.0, y + size.1)].map(|(x, y)| (units(x), units(y)));
     Ok(sheet.draw(&Rectangle::new(corners, colour.filled()))?)
 }
 
-/// Returns the font of a size in pixels.
+/// Returns the drawing library's font for a size in pixels.
 pub(super) fn font(size: f64, weight: FontStyle) -> FontDesc<'static> {
-    FontDesc::new(FontFamily::SansSerif, size * UNITS * FONT_RATIO, weight)
+    FontDesc::new(
+        FontFamily::SansSerif,
+        size * UNITS_PER_PIXEL * FONT_RATIO,
+        weight,
+    )
 }
 
 /// Returns the approximate width of a text, in pixels.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    text.chars().count() as f64 * CHARACTER * size
+    text.chars().count() as f64 * CHARACTER_WIDTH * size
 }
 
-/// Converts pixels to units of the drawing; NaN becomes 0.
+/// Converts pixels to drawing units; NaN becomes 0.
 // The cast saturates, and a sheet is some thousand pixels wide.
 pub(super) fn units(pixels: f64) -> i32 {
-    (pixels * UNITS).round() as i32
+    (pixels * UNITS_PER_PIXEL).round() as i32
 }

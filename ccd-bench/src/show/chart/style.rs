@@ -1,4 +1,4 @@
-//! The style of a method, the same in every chart.
+//! Chooses the colour and the marker of each method, the same in every chart.
 
 use super::sheet::units;
 use super::{Family, MethodFacts};
@@ -15,23 +15,23 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x56, 0xb4, 0xe9),
     RGBColor(0x00, 0x00, 0x00),
 ];
-/// The colour of unsafe results.
-pub(super) const WARNING: RGBColor = COLOURS[1];
-/// Half the size of a marker, in pixels.
-pub(super) const MARKER: f64 = 4.5;
+/// The colour of methods that are late or miss a contact.
+pub(super) const WARNING_COLOUR: RGBColor = COLOURS[1];
+/// The distance of a marker's corners from its centre, in pixels.
+pub(super) const MARKER_RADIUS: f64 = 4.5;
 
-/// The colour, marker and dash of a method.
+/// The colour, the marker and the dash pattern of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MethodStyle {
     pub(super) colour: RGBColor,
     marker: Marker,
-    /// The lengths of a dash and of a gap, in units of the drawing; `None` for a solid line.
+    /// The lengths of a dash and of a gap, in drawing units; `None` for a solid line.
     pub(super) dash: Option<(u32, u32)>,
     /// Whether the method was late or missed a contact. Its markers are hollow.
     pub(super) is_unsafe: bool,
 }
 
-/// A regular polygon: its number of corners, and the angle of the first one.
+/// A regular polygon: its number of corners, and the direction of the first one as an angle.
 type Marker = (u32, f64);
 
 const MARKERS: [Marker; 5] = [
@@ -42,7 +42,8 @@ const MARKERS: [Marker; 5] = [
     (3, FRAC_PI_2),
 ];
 
-/// Returns a style for each method, in their order. Styles within a family differ; families differ by the dash.
+/// Returns a style for each method, in the order of the methods. Styles within a family differ; families differ by the
+/// dash.
 pub(super) fn styles(
     methods: &[MethodFacts<'_>],
     is_unsafe: impl Fn(&str) -> bool,
@@ -68,17 +69,20 @@ pub(super) fn styles(
 }
 
 impl MethodStyle {
-    /// Returns the style of a line, with a width in tenths of a pixel.
+    /// Returns the style of the method's lines, with a width in tenths of a pixel.
     pub(super) fn pen(&self, width: u32) -> ShapeStyle {
         self.colour.stroke_width(width)
     }
 
-    /// Returns the corners of the marker around its centre, in units of the drawing.
+    /// Returns the corners of the marker relative to its centre, in drawing units.
     pub(super) fn corners(&self) -> Vec<(i32, i32)> {
         let (count, first) = self.marker;
         let corner = |corner: u32| {
             let angle = first + TAU * f64::from(corner) / f64::from(count);
-            (units(MARKER * angle.cos()), units(MARKER * angle.sin()))
+            (
+                units(MARKER_RADIUS * angle.cos()),
+                units(MARKER_RADIUS * angle.sin()),
+            )
         };
         (0..count).map(corner).collect()
     }

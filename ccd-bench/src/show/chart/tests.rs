@@ -57,7 +57,7 @@ fn cell(scene: &str, method: &str, tolerance: f64) -> Cell {
     }
 }
 
-/// Returns cells of three methods on two scenes; the careless method misses a contact in one cell.
+/// Returns measurements of three methods on two scenes; the method named careless misses a contact in one of them.
 fn cells() -> Vec<Cell> {
     let mut cells = Vec::new();
     for scene in &SCENES[..2] {

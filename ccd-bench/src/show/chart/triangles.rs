@@ -1,16 +1,18 @@
-//! Time against the size of the mesh, at the paper's tolerance.
+//! Draws the chart of time against the size of the mesh, at the tolerance of the paper's benchmarks.
 
 use super::pareto::is_lower_bound;
-use super::plane::{HEAD, Plane, Point, decades, foot, foot_height, head, series};
+use super::plane::{
+    HEAD_HEIGHT, Plane, Point, decades, draw_footer, draw_header, footer_height, series,
+};
 use super::sheet::{MARGIN, WIDTH, svg, units};
 use super::{Charts, Drawing, Family, MethodFacts, SAME_ROWS, is_papers};
 use anyhow::Result;
 use std::collections::BTreeMap;
 
-/// The scenes of each size of each shape, which form one point of a line.
+/// The names of the scenes by their shape and size; those of one shape and size give one point.
 type Sizes<'a> = BTreeMap<(String, usize), Vec<&'a str>>;
 
-/// The height of the plane.
+/// The height of the plane, in pixels.
 const HEIGHT: f64 = 440.0;
 
 /// Draws one plane for all shapes: a line over the sizes of one shape, or a marker for a shape of one size.
@@ -44,16 +46,16 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
         SAME_ROWS,
     ];
     let title = "Time against triangles: lower and flatter is better";
-    let bottom = HEAD + HEIGHT;
-    let height = bottom + foot_height(&shown, &remarks);
+    let bottom = HEAD_HEIGHT + HEIGHT;
+    let height = bottom + footer_height(&shown, &remarks);
     let svg = svg(title, (WIDTH, height), |sheet| {
-        head(
+        draw_header(
             sheet,
             title,
             "At the tolerance 1e-3; hollow markers: late or missed contacts somewhere",
         )?;
         let (panel, _) = sheet.split_vertically(units(bottom));
-        let (_, panel) = panel.split_vertically(units(HEAD - MARGIN));
+        let (_, panel) = panel.split_vertically(units(HEAD_HEIGHT - MARGIN));
         let mut drawn = plane.draw(&panel)?;
         for (method, style) in &shown {
             let mut lines: BTreeMap<&str, Vec<Point>> = BTreeMap::new();
@@ -71,7 +73,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
                 series(&mut drawn, &plane, points, style)?;
             }
         }
-        foot(sheet, &shown, &remarks, bottom)
+        draw_footer(sheet, &shown, &remarks, bottom)
     })?;
     let name = "triangles".to_owned();
     Ok(Some(Drawing { name, svg }))

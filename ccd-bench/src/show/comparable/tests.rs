@@ -1,10 +1,11 @@
 use super::*;
-use crate::run::contest::{Verdict, sum_up};
+use crate::run::contest::{Verdict, summarise};
 use crate::show::tables::tests::trial;
 
 const OURS: &str = "best-first direct";
 
-/// Returns the default method on four rows, of which the last two are hard, and a slow method on the first two.
+/// Returns trials of the default method on four rows, of which the last two are hard, and of a slow method on the first
+/// two.
 fn trials() -> Vec<Trial> {
     let of = |method: &str, times: &[f64]| {
         let rows = times.iter().enumerate();
@@ -16,7 +17,7 @@ fn trials() -> Vec<Trial> {
 
 fn cell_of(trials: &[Trial], method: &str) -> Cell {
     let own = trials.iter().filter(|trial| trial.method == method);
-    sum_up(&own.cloned().collect::<Vec<_>>())
+    summarise(&own.cloned().collect::<Vec<_>>())
 }
 
 #[test]

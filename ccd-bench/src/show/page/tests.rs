@@ -2,7 +2,7 @@ use super::*;
 use crate::scene::{Models, listings};
 use serde_json::Value;
 
-/// Returns the page of the smallest scene, with a table of hostile names.
+/// Returns the page of the smallest scene, with a table whose names contain HTML.
 fn page() -> String {
     let listings = listings().unwrap();
     let listing = listings.iter().find(|listing| listing.name == "knot216");

@@ -1,5 +1,5 @@
 use super::*;
-use crate::run::contest::{Verdict, sum_up};
+use crate::run::contest::{Verdict, summarise};
 use crate::show::tables::tests::trial;
 
 const OURS: &str = "best-first direct";
@@ -14,7 +14,7 @@ fn sentences_are_by_family_and_fit_a_screen() {
         trial("santa", "C2A", "1", 50.0, Verdict::Late),
         trial("santa", "parry-f64", "0", 500.0, Verdict::CutOff),
     ];
-    let cells = [&trials[..2], &trials[2..4], &trials[4..]].map(sum_up);
+    let cells = [&trials[..2], &trials[2..4], &trials[4..]].map(summarise);
     let methods = [OURS, "C2A", "parry-f64"].map(MethodFacts::named);
     let scenes = [("santa", 216), ("bunny", 70_000)];
     let scenes = scenes.map(|(name, triangles)| SceneFacts { name, triangles });

@@ -1,5 +1,5 @@
 use super::*;
-use crate::run::contest::sum_up;
+use crate::run::contest::summarise;
 
 /// Returns a trial at tolerance 1e-3.
 pub(crate) fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> Trial {
@@ -64,7 +64,7 @@ fn answers_are_counted_per_method_without_distances() {
     let mut cells: Vec<Cell> = Vec::new();
     for method in ["C2A", "discrete stepping", "parry-f64", "coal-distance"] {
         let of: Vec<Trial> = all.iter().filter(|t| t.method == method).cloned().collect();
-        cells.push(sum_up(&of));
+        cells.push(summarise(&of));
     }
     let table = safety(&cells, &all);
     assert_eq!(
@@ -81,12 +81,12 @@ fn answers_are_counted_per_method_without_distances() {
     assert_eq!(usual.rows[0][..5], ["santa", "C2A", "2", "55.0", "3.50"]);
     assert_eq!(usual.rows[1][0], "", "a scene is named once");
     assert_eq!(usual.rows[0][12], "1e-4");
-    assert_eq!(usual.rows[1][12], NOTHING);
+    assert_eq!(usual.rows[1][12], NO_VALUE);
 }
 
 #[test]
 fn tables_are_laid_out_for_terminals_and_for_markdown() {
-    let table = safety(&[sum_up(&trials()[3..5])], &trials());
+    let table = safety(&[summarise(&trials()[3..5])], &trials());
     assert!(table.for_terminal().contains('│'));
     let markdown = table.as_markdown();
     let lines: Vec<&str> = markdown.lines().collect();

@@ -1,8 +1,8 @@
-//! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
+//! Scenes whose contact depends on the last digits: nearly parallel parts, hardly any overlap.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
-use super::{family, tenths};
+use super::{family, negative_powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -10,67 +10,73 @@ use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
 pub(super) fn families() -> Vec<Family> {
     vec![
-        family("face onto face", face_onto_face).over("angle to parallel", tenths(1..=15)),
-        family("edge across edge", edge_across_edge).over("angle to parallel", tenths(1..=15)),
-        family("flat approach", flat_approach).over("angle to the face", tenths(1..=12)),
-        family("cubes that hardly meet", hardly_meeting).over("overlap", tenths(1..=15)),
-        family("rod that hardly reaches", hardly_reaching)
-            .over("share of its reach", tenths(1..=12)),
-        family("linked rings", linked_rings).over("way to contact", tenths(1..=12)),
-        family("corner onto face", corner_onto_face).over("angle to its diagonal", tenths(1..=15)),
-        family("peg turning in a hole", peg_in_a_hole).over("clearance", tenths(1..=12)),
-        family("hardly turning", hardly_turning).over("radians", tenths(1..=15)),
+        family("face onto face", face_onto_face)
+            .over("angle to parallel", negative_powers_of_ten(1..=15)),
+        family("edge across edge", edge_across_edge)
+            .over("angle to parallel", negative_powers_of_ten(1..=15)),
+        family("flat approach", flat_approach)
+            .over("angle to the face", negative_powers_of_ten(1..=12)),
+        family("cubes that hardly meet", barely_overlapping)
+            .over("overlap", negative_powers_of_ten(1..=15)),
+        family("rod that hardly reaches", barely_reaching_wall)
+            .over("share of its reach", negative_powers_of_ten(1..=12)),
+        family("linked rings", linked_rings).over("way to contact", negative_powers_of_ten(1..=12)),
+        family("corner onto face", corner_onto_face)
+            .over("angle to its diagonal", negative_powers_of_ten(1..=15)),
+        family("peg turning in a hole", peg_in_a_hole)
+            .over("clearance", negative_powers_of_ten(1..=12)),
+        family("hardly turning", slight_rotation).over("radians", negative_powers_of_ten(1..=15)),
     ]
 }
 
-/// The error of times computed from coordinates of a few units, at speeds of at least 1.
-const SLACK: f64 = 1e-14;
+/// The error of contact times computed from coordinates of a few units, at speeds of at least 1.
+const TIME_ERROR: f64 = 1e-14;
 
-/// T1, tilted: a face falls onto a face.
+/// Makes case T1, tilted by an angle: a face falls onto a face.
 fn face_onto_face(angle: f64) -> Result<Step> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_y(angle));
-    let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
+    let expected = Expected::at((3.0 - reach) / 4.0, TIME_ERROR);
     let step = Step::new(cube()?, slab()?);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// T8 with nearly parallel rods: an edge meets an edge.
+/// Makes case T8 with rods at a small angle: an edge meets an edge.
 fn edge_across_edge(angle: f64) -> Result<Step> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_z(angle) * on_edge);
     let lying = BodyMotion::STILL.oriented(on_edge);
-    let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, SLACK);
+    let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, TIME_ERROR);
     let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
-    step.turned_too(falling, lying, expected)
+    step.with_rotated_queries(falling, lying, expected)
 }
 
-/// T8: a cube falls onto a slab, nearly upright on a corner.
+/// Makes case T8: a cube falls onto a slab on a corner, with its diagonal nearly upright.
 fn corner_onto_face(angle: f64) -> Result<Step> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
     let falling = BodyMotion::FALLING.oriented(turned);
     let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
-    let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
+    let expected = Expected::at((3.0 - reach) / 4.0, TIME_ERROR);
     let step = Step::new(cube()?, slab()?);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
+/// Makes case T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
 fn peg_in_a_hole(clearance: f64) -> Result<Step> {
     let half = 0.5;
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
     let turning = BodyMotion::STILL.spinning(2.0 * angle * DVec3::Z);
     let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
-        .within(greater(0.1 * clearance, 1e-11));
+        .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
     let expected = Expected::at(0.5, 1e-15 / clearance);
-    step.turned_too(turning, BodyMotion::STILL, expected)
+    step.with_rotated_queries(turning, BodyMotion::STILL, expected)
 }
 
-/// T25: a cube falls flat onto a slab, and rotates very little.
-fn hardly_turning(turn: f64) -> Result<Step> {
+/// Makes case T25: a cube falls flat onto a slab, and rotates very little.
+fn slight_rotation(turn: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
@@ -79,30 +85,30 @@ fn hardly_turning(turn: f64) -> Result<Step> {
         time = (3.0 - 0.5 * (sin + cos)) / 4.0;
     }
     let step = Step::new(cube()?, slab()?);
-    let expected = Expected::at(time, SLACK);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    let expected = Expected::at(time, TIME_ERROR);
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// A cube comes down on a slab at a small angle, halfway through its flight.
+/// Makes a cube that comes down on a slab at a small angle, halfway through its flight.
 fn flat_approach(angle: f64) -> Result<Step> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = Expected::at(0.5, 1e-15 / sin);
-    let step = Step::new(cube()?, slab()?).within(greater(1e-3 * height, 1e-11));
-    step.turned_too(flying, BodyMotion::UNDER, expected)
+    let step = Step::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
+    step.with_rotated_queries(flying, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn hardly_meeting(overlap: f64) -> Result<Step> {
+fn barely_overlapping(overlap: f64) -> Result<Step> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
-    let expected = Expected::at(1.0 / 3.0, SLACK);
+    let expected = Expected::at(1.0 / 3.0, TIME_ERROR);
     let step = Step::new(cube()?, cube()?);
-    step.turned_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
+    step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
 
-/// T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
-fn hardly_reaching(share: f64) -> Result<Step> {
+/// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
+fn barely_reaching_wall(share: f64) -> Result<Step> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
     let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);
@@ -110,10 +116,10 @@ fn hardly_reaching(share: f64) -> Result<Step> {
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = Expected::at(time, 1e-15 / share.sqrt());
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
-    step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
+    step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
-/// T17: two linked rings, a small distance apart.
+/// Makes case T17: two linked rings, a small distance apart.
 fn linked_rings(way: f64) -> Result<Step> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner
@@ -121,8 +127,8 @@ fn linked_rings(way: f64) -> Result<Step> {
     let rim = radius - 2.0 * tube;
     let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
     let hanging = BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).oriented(upright);
-    let step =
-        Step::new(torus(radius, tube)?, torus(radius, tube)?).within(greater(0.1 * way, 1e-11));
-    let expected = Expected::at(way, SLACK);
-    step.exactly(hanging, BodyMotion::STILL, expected)
+    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?)
+        .with_tolerance(greater(0.1 * way, 1e-11));
+    let expected = Expected::at(way, TIME_ERROR);
+    step.with_query(hanging, BodyMotion::STILL, expected)
 }

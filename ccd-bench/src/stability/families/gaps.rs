@@ -1,14 +1,14 @@
-//! Bodies that never meet, with smaller and smaller gaps.
+//! Scenes of bodies that never meet, with smaller and smaller gaps.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
-use super::{family, tenths};
+use super::{family, negative_powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::greater;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, make| family(name, make).over("gap", tenths(1..=12));
+    let family = |name, make| family(name, make).over("gap", negative_powers_of_ten(1..=12));
     vec![
         family("ball passing a box", ball_passing_a_box),
         family("cubes passing", cubes_passing),
@@ -26,56 +26,57 @@ fn tolerance(gap: f64) -> f64 {
     greater(0.25 * gap, 2.5e-13)
 }
 
-/// Returns a step with a gap that survives the rounding of rotated worlds; otherwise only its own world is used.
-fn free(step: Step, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<Step> {
-    let step = step.within(tolerance(gap));
-    step.turned_if(gap >= 1e-12, a, b, Expected::Free)
+/// Returns a step with a gap, in rotated worlds too if the gap survives their rounding.
+fn free_step(step: Step, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<Step> {
+    let step = step.with_tolerance(tolerance(gap));
+    step.with_rotated_queries_if(gap >= 1e-12, a, b, Expected::Free)
 }
 
 fn ball_passing_a_box(gap: f64) -> Result<Step> {
     let step = Step::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
-    free(step, gap, flying, BodyMotion::UNDER)
+    free_step(step, gap, flying, BodyMotion::SLAB_BELOW)
 }
 
 fn cubes_passing(gap: f64) -> Result<Step> {
     let step = Step::new(cube()?, cube()?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    free(step, gap, flying, BodyMotion::STILL)
+    free_step(step, gap, flying, BodyMotion::STILL)
 }
 
 fn balls_passing(gap: f64) -> Result<Step> {
     let step = Step::new(ball(0.5, 600)?, ball(0.5, 600)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    free(step, gap, flying, BodyMotion::STILL)
+    free_step(step, gap, flying, BodyMotion::STILL)
 }
 
 fn sliding(gap: f64) -> Result<Step> {
     let step = Step::new(cube()?, slab()?);
     let sliding = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
-    free(step, gap, sliding, BodyMotion::UNDER)
+    free_step(step, gap, sliding, BodyMotion::SLAB_BELOW)
 }
 
 fn leaving(gap: f64) -> Result<Step> {
     let step = Step::new(cube()?, slab()?);
     let rising = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
-    free(step, gap, rising, BodyMotion::UNDER)
+    free_step(step, gap, rising, BodyMotion::SLAB_BELOW)
 }
 
-/// T16: a peg moves through a hole with a gap on all four sides.
+/// Makes case T16: a peg moves through a hole with a gap on all four sides.
 fn peg_through_a_hole(gap: f64) -> Result<Step> {
     let step = Step::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
     let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
-    free(step, gap, falling, BodyMotion::STILL)
+    free_step(step, gap, falling, BodyMotion::STILL)
 }
 
 fn spinning_top(gap: f64) -> Result<Step> {
     let spinning = BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X).spinning(50.0 * DVec3::Z);
     let step = Step::new(cone(24, 0.7)?, slab()?);
-    free(step, gap, spinning, BodyMotion::UNDER)
+    free_step(step, gap, spinning, BodyMotion::SLAB_BELOW)
 }
 
-/// A rod of half length 2 rotates by half a turn about its middle, past a wall that its corners just do not reach.
+/// Makes a rod of half length 2 that rotates by half a turn about its middle, past a wall that its corners just do not
+/// reach.
 fn rod_past_a_wall(gap: f64) -> Result<Step> {
     let (long, thin) = (2.0, 0.05);
     let reach = f64::hypot(long, thin);
@@ -83,6 +84,6 @@ fn rod_past_a_wall(gap: f64) -> Result<Step> {
     let wall = BodyMotion::rest((reach + gap + 1.0) * DVec3::X);
     // The reach is rounded, and the gap with it.
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?)
-        .within(greater(tolerance(gap), 1e-11));
-    step.turned_too(turning, wall, Expected::Free)
+        .with_tolerance(greater(tolerance(gap), 1e-11));
+    step.with_rotated_queries(turning, wall, Expected::Free)
 }

@@ -1,8 +1,8 @@
-//! Bodies that hold each other: hooks, threads, rings, slits.
+//! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus};
-use super::{family, tenths};
+use super::{family, negative_powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -10,16 +10,17 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub(super) fn families() -> Vec<Family> {
     vec![
-        family("hooks pulled apart", hooks).over("slack", tenths(1..=12)),
-        family("ring onto a ring", ring_onto_ring).over("way to contact", tenths(1..=12)),
+        family("hooks pulled apart", hooks).over("slack", negative_powers_of_ten(1..=12)),
+        family("ring onto a ring", ring_onto_ring)
+            .over("way to contact", negative_powers_of_ten(1..=12)),
         family("screw in its nut", screw)
             .over("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
         family("screw with little play", tight_screw).over(
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
         ),
-        family("sheet between two sheets", between).over("gap", tenths(1..=12)),
-        family("plate through a slit", through_slit).over("gap", tenths(1..=12)),
+        family("sheet between two sheets", between).over("gap", negative_powers_of_ten(1..=12)),
+        family("plate through a slit", through_slit).over("gap", negative_powers_of_ten(1..=12)),
         family("turned frames", turned_frame).over(
             "degrees",
             vec![0.0, 1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 90.0, 120.0, 180.0],
@@ -27,7 +28,7 @@ pub(super) fn families() -> Vec<Family> {
     ]
 }
 
-/// T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
+/// Makes case T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
 fn hooks(slack: f64) -> Result<Step> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
@@ -40,30 +41,30 @@ fn hooks(slack: f64) -> Result<Step> {
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .oriented(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
-    let step = Step::new(hook.clone(), hook).within(greater(0.1 * slack, 1e-11));
-    step.turned_too(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))
+    let step = Step::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
+    step.with_rotated_queries(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))
 }
 
-/// A ring falls flat onto an equal one; they meet all around.
+/// Makes a ring that falls flat onto an equal one; they meet all around.
 fn ring_onto_ring(way: f64) -> Result<Step> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
-    let step =
-        Step::new(torus(radius, tube)?, torus(radius, tube)?).within(greater(0.1 * way, 1e-11));
-    step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
+    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?)
+        .with_tolerance(greater(0.1 * way, 1e-11));
+    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
 }
 
-/// The pitch of the threads.
+/// The pitch of the threads: their rise per turn.
 const PITCH: f64 = 0.2;
 /// The inner and outer radii of the threads.
 const THREAD: [f64; 2] = [0.9, 1.0];
 
-/// T18: the flank of a screw rotates between those of its nut at their common pitch.
+/// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch.
 fn screw(turns: f64) -> Result<Step> {
     threads(turns, 0.5)
 }
 
-/// T18, with one turn, and one flank close to the other.
+/// Makes case T18 with one turn, and with one flank close to the other.
 fn tight_screw(play: f64) -> Result<Step> {
     threads(1.0, play)
 }
@@ -75,39 +76,39 @@ fn threads(turns: f64, play: f64) -> Result<Step> {
     let flank = ribbon(THREAD, PITCH, sides, 3)?;
     let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .spinning(TAU * turns * DVec3::Z);
-    let step = Step::new(flank.clone(), flank).within(0.1 * play * PITCH);
-    step.turned_too(turning, BodyMotion::STILL, Expected::Free)
+    let step = Step::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
+    step.with_rotated_queries(turning, BodyMotion::STILL, Expected::Free)
 }
 
-/// A sheet slides between two others.
+/// Makes a sheet that slides between two others.
 fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
-    free(
+    free_step(
         Step::new(sheet(1.0)?, stacked(&sheet(1.0)?, [-gap, gap].into_iter())?),
         gap,
         sliding,
     )
 }
 
-/// T16: a tilted plate moves through a slit that is wider than its edges by a gap.
+/// Makes case T16: a tilted plate moves through a slit that is wider than its edges by a gap.
 fn through_slit(gap: f64) -> Result<Step> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
     let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
         .oriented(DQuat::from_rotation_y(tilt));
-    free(
+    free_step(
         Step::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
         moving,
     )
 }
 
-fn free(step: Step, gap: f64, moving: BodyMotion) -> Result<Step> {
-    let step = step.within(greater(0.25 * gap, 1e-11));
-    step.turned_if(gap >= 1e-12, moving, BodyMotion::STILL, Expected::Free)
+fn free_step(step: Step, gap: f64, moving: BodyMotion) -> Result<Step> {
+    let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
+    step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL, Expected::Free)
 }
 
-/// T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
+/// Makes case T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
 fn turned_frame(degrees: f64) -> Result<Step> {
     let (long, thin, wall) = (2.0f64, 0.05, 1.2);
     let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);
@@ -116,5 +117,5 @@ fn turned_frame(degrees: f64) -> Result<Step> {
     let turning = BodyMotion::STILL.oriented(frame).spinning(PI * DVec3::Y);
     let step = Step::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / PI, 1e-14);
-    step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
+    step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }

@@ -1,10 +1,10 @@
-//! Meshes with many triangles, and with bad ones.
+//! Scenes of meshes with many triangles, and of meshes with bad ones.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{
-    TOOTH, ball, comb, cone, cube, field_of_cubes, layers, slab, sliver_slab, with_bad_faces,
+    TOOTH_SHARE, ball, comb, cone, cube, field_of_cubes, layers, slab, sliver_slab, with_bad_faces,
 };
-use super::{family, tens, tenths};
+use super::{family, negative_powers_of_ten, powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -15,75 +15,79 @@ pub(super) fn families() -> Vec<Family> {
         |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
     vec![
         family("comb into comb", comb_into_comb).over("teeth", doubled(2..=9)),
-        family("ball onto a slab", ball_onto_slab).over("triangles", tens(2..=6)),
-        family("tip of many triangles", tip_onto_slab).over("triangles at the tip", tens(1..=4)),
-        family("repeated and collapsed faces", bad_faces).over("bad faces", tens(0..=3)),
-        family("layers close behind each other", layered).over("layers", tens(0..=4)),
-        family("slab with a sliver", sliver).over("width of the sliver", tenths(0..=12)),
+        family("ball onto a slab", ball_onto_slab).over("triangles", powers_of_ten(2..=6)),
+        family("tip of many triangles", tip_onto_slab)
+            .over("triangles at the tip", powers_of_ten(1..=4)),
+        family("repeated and collapsed faces", cube_with_bad_faces)
+            .over("bad faces", powers_of_ten(0..=3)),
+        family("layers close behind each other", onto_layers).over("layers", powers_of_ten(0..=4)),
+        family("slab with a sliver", sliver)
+            .over("width of the sliver", negative_powers_of_ten(0..=12)),
         family("field of solids", field_of_solids).over("solids", doubled(2..=12)),
-        family("cones tip onto tip", tip_onto_tip).over("way aside", tenths(1..=12)),
+        family("cones tip onto tip", tip_onto_tip)
+            .over("way aside", negative_powers_of_ten(1..=12)),
     ]
 }
 
-/// T19: the teeth of two combs pass between each other, until their tips meet the bars.
+/// Makes case T19: the teeth of two combs pass between each other, until their tips meet the bars.
 fn comb_into_comb(teeth: f64) -> Result<Step> {
     let step = Step::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
     // TOOTH of the step.
-    let shift = 1.0 - (0.5 - TOOTH) / teeth;
+    let shift = 1.0 - (0.5 - TOOTH_SHARE) / teeth;
     let falling = BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .oriented(DQuat::from_rotation_y(PI));
-    step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
 }
 
-/// T22: a ball with a corner at its pole falls onto a slab.
+/// Makes case T22: a ball with a vertex at its pole falls onto a slab.
 fn ball_onto_slab(triangles: f64) -> Result<Step> {
     let step = Step::new(ball(0.5, triangles as usize / 2 + 2)?, slab()?);
     let falling = BodyMotion::FALLING.spinning(2.0 * DVec3::Z);
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// A cone falls onto a slab, tip first.
+/// Makes a cone that falls onto a slab, tip first.
 fn tip_onto_slab(sides: f64) -> Result<Step> {
     let step = Step::new(cone(sides as u32, 0.7)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).spinning(2.0 * DVec3::Z);
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// A cube falls onto the first of many open sheets.
-fn layered(count: f64) -> Result<Step> {
+/// Makes a cube that falls onto the first of many open sheets.
+fn onto_layers(count: f64) -> Result<Step> {
     let step = Step::new(cube()?, layers(count as u32)?);
     let falling = BodyMotion::FALLING;
-    step.turned_too(falling, BodyMotion::STILL, Expected::at(0.625, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.625, 1e-14))
 }
 
-/// T21: a cube with repeated and collapsed faces.
-fn bad_faces(count: f64) -> Result<Step> {
+/// Makes case T21: a cube with repeated and collapsed faces.
+fn cube_with_bad_faces(count: f64) -> Result<Step> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
     let step = Step::new(cube, slab()?);
     let falling = BodyMotion::FALLING;
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// A cube falls onto a sliver triangle of a slab.
+/// Makes a cube that falls onto a sliver triangle of a slab.
 fn sliver(width: f64) -> Result<Step> {
     let step = Step::new(cube()?, sliver_slab(width)?);
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(BodyMotion::FALLING, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// A cube falls onto one mesh of many cubes, of which every other one is inside out.
+/// Makes a cube that falls onto one mesh of many cubes, of which every other one is inside out.
 fn field_of_solids(count: f64) -> Result<Step> {
     // The cube covers the middle of the field, where at least four others are.
     let step = Step::new(cube()?, field_of_cubes(count as u32)?);
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(BodyMotion::FALLING, BodyMotion::STILL, expected)
+    step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
-/// Two cones meet beside their tips: the tip of each touches a face of the other.
+/// Makes two cones that meet beside their tips: the tip of each touches a face of the other.
 fn tip_onto_tip(aside: f64) -> Result<Step> {
     let (sides, radius) = (8, 0.7);
     // After a rotation by half a side, a face looks along x. It rises by 1 up to its middle.
@@ -92,7 +96,7 @@ fn tip_onto_tip(aside: f64) -> Result<Step> {
     let slope = 1.0 / (radius * half_side.cos());
     let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
     let upside_down = BodyMotion::STILL.oriented(DQuat::from_rotation_y(PI));
-    let step = Step::new(cone.clone(), cone).within(greater(0.1 * aside, 1e-11));
+    let step = Step::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = Expected::at((2.0 + aside * slope) / 4.0, 1e-14);
-    step.turned_too(falling, upside_down, expected)
+    step.with_rotated_queries(falling, upside_down, expected)
 }

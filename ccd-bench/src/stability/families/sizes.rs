@@ -1,8 +1,8 @@
-//! Sizes, distances and units far from 1.
+//! Scenes whose sizes, distances and units are far from 1.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cone, cube, cuboid, slab};
-use super::{family, tens, tenths};
+use super::{family, negative_powers_of_ten, powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -16,34 +16,40 @@ pub(super) fn families() -> Vec<Family> {
     vec![
         family("small against large", size_against_size).over("size against size", sizes(1..=9)),
         family("unit of length", unit_of_length).over("size of the scene", sizes(2..=9)),
-        family("far from the origin", far_from_the_origin).over("distance in sizes", tens(0..=12)),
-        family("slender triangles", slender).over("length against width", tens(0..=12)),
-        family("bullet and paper", bullet_and_paper).over("way against thickness", tens(0..=9)),
+        family("far from the origin", far_from_the_origin)
+            .over("distance in sizes", powers_of_ten(0..=12)),
+        family("slender triangles", slender_needle)
+            .over("length against width", powers_of_ten(0..=12)),
+        family("bullet and paper", bullet_and_paper)
+            .over("way against thickness", powers_of_ten(0..=9)),
         family("margin", margin).over("margin against size", margins()),
-        family("one inside the other", inside).over("size against size", tenths(0..=9)),
+        family("one inside the other", inside)
+            .over("size against size", negative_powers_of_ten(0..=9)),
         family("unit of time", unit_of_time).over("duration", sizes(1..=9)),
-        family("moving together", moving_together).over("common travel", tens(0..=9)),
-        family("far centre of rotation", far_centre).over("distance in sizes", tens(0..=9)),
-        family("needle tip first", needle).over("width", tenths(0..=12)),
+        family("moving together", moving_together).over("common travel", powers_of_ten(0..=9)),
+        family("far centre of rotation", far_centre)
+            .over("distance in sizes", powers_of_ten(0..=9)),
+        family("needle tip first", needle).over("width", negative_powers_of_ten(0..=12)),
     ]
 }
 
 fn margins() -> Vec<f64> {
-    let mut margins = tenths(-2..=6);
+    let mut margins = negative_powers_of_ten(-2..=6);
     margins.sort_by(f64::total_cmp);
     margins.insert(0, 0.0);
     margins
 }
 
-/// A cube falls onto a larger or smaller one, which it meets halfway.
+/// Makes a cube that falls onto a larger or smaller one, which it meets halfway.
 fn size_against_size(size: f64) -> Result<Step> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
-    let step = Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?).within(1e-6 * way);
-    step.turned_too(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
+    let step =
+        Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?).with_tolerance(1e-6 * way);
+    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
 }
 
-/// T1 in other units of length.
+/// Makes case T1 in other units of length.
 fn unit_of_length(size: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
@@ -51,29 +57,29 @@ fn unit_of_length(size: f64) -> Result<Step> {
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
-    .within(1e-6 * size);
+    .with_tolerance(1e-6 * size);
     let slab = BodyMotion::rest(-size * DVec3::Z);
-    step.turned_too(falling, slab, Expected::at(0.625, 1e-14))
+    step.with_rotated_queries(falling, slab, Expected::at(0.625, 1e-14))
 }
 
-/// T1 in other units of time.
+/// Makes case T1 in other units of time.
 fn unit_of_time(duration: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING;
     let step = Step::new(cube()?, slab()?);
     let step = Step { duration, ..step };
-    let slab = BodyMotion::UNDER;
-    step.turned_too(falling, slab, Expected::at(0.625, 1e-14))
+    let slab = BodyMotion::SLAB_BELOW;
+    step.with_rotated_queries(falling, slab, Expected::at(0.625, 1e-14))
 }
 
-/// A cube falls onto another one, and both travel far to the side.
+/// Makes a cube that falls onto another one, while both travel far to the side.
 fn moving_together(travel: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = Step::new(cube()?, cube()?);
-    step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))
+    step.with_query(falling, fleeing, Expected::at(0.5, 1e-14))
 }
 
-/// A cube rotates about a centre far below it, and so moves nearly straight to a wall.
+/// Makes a cube that rotates about a centre far below it, and so moves nearly straight to a wall.
 fn far_centre(distance: f64) -> Result<Step> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
@@ -86,62 +92,62 @@ fn far_centre(distance: f64) -> Result<Step> {
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = Step::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-14);
-    step.exactly(turning, BodyMotion::rest(2.0 * DVec3::X), expected)
+    step.with_query(turning, BodyMotion::rest(2.0 * DVec3::X), expected)
 }
 
-/// A cone falls onto a slab on its tip; its sides are long and thin triangles.
+/// Makes a cone that falls onto a slab on its tip; its sides are long and thin triangles.
 fn needle(width: f64) -> Result<Step> {
     let step = Step::new(cone(8, 0.5 * width)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
+/// Makes case T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
 fn far_from_the_origin(distance: f64) -> Result<Step> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = Step::new(cube()?, cube()?);
-    step.exactly(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))
+    step.with_query(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))
 }
 
-/// A needle falls onto a slab; its sides are long and thin triangles.
-fn slender(ratio: f64) -> Result<Step> {
+/// Makes a needle that falls onto a slab; its sides are long and thin triangles.
+fn slender_needle(ratio: f64) -> Result<Step> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_x(0.3));
     let reach = thin * (sin + cos);
     let expected = Expected::at((3.0 - reach) / 4.0, 1e-14);
     let step = Step::new(cuboid(1.0, thin, thin)?, slab()?);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-/// T13: a bullet travels distance 1; a thin sheet stands halfway.
+/// Makes case T13: a bullet travels distance 1; a thin sheet stands halfway.
 fn bullet_and_paper(ratio: f64) -> Result<Step> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
     let paper = BodyMotion::rest(0.5 * DVec3::X);
     let step = Step::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = Expected::at(0.5 - half - bullet, 1e-14);
-    step.turned_too(flying, paper, expected)
+    step.with_rotated_queries(flying, paper, expected)
 }
 
-/// A cube falls onto a slab, and comes as near as the margin halfway.
+/// Makes a cube that falls onto a slab, and comes as near as the margin halfway.
 fn margin(margin: f64) -> Result<Step> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
     let step = Step { margin, ..step };
-    let slab = BodyMotion::UNDER;
-    step.turned_too(falling, slab, Expected::at(0.5, 1e-14))
+    let slab = BodyMotion::SLAB_BELOW;
+    step.with_rotated_queries(falling, slab, Expected::at(0.5, 1e-14))
 }
 
-/// T24: a cube inside another one, both closed.
+/// Makes case T24: a cube inside another one, both closed.
 fn inside(size: f64) -> Result<Step> {
     let half = 0.9 * size;
     let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
-    step.turned_too(moving, BodyMotion::STILL, Expected::Start)
+    step.with_rotated_queries(moving, BodyMotion::STILL, Expected::Start)
 }

@@ -1,4 +1,4 @@
-//! Compares the exact answers of the families with the referee's.
+//! Compares the exact answers of the families with those of the referee.
 
 use super::families;
 use crate::stability::{Case, Expected, Family, Step};
@@ -6,11 +6,11 @@ use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
-/// The number of triangles above which the referee takes too long.
-const TRIANGLES: usize = 3000;
+/// The number of triangles above which the referee takes too long for a test.
+const MOST_TRIANGLES: usize = 3000;
 
-/// The share of the values, from the easy ones, that are checked; the referee is slow on harder ones.
-const CHECKED: f64 = 0.4;
+/// The share of a family's values, from the easiest, that are checked; the referee is slow on harder ones.
+const CHECKED_SHARE: f64 = 0.4;
 
 #[test]
 fn families_have_names_and_steps_of_their_own() {
@@ -51,19 +51,23 @@ fn the_referee_finds_the_answers_that_are_claimed() {
     let checked: usize = families()
         .par_iter()
         .map(|family| {
-            let count = (CHECKED * family.values.len() as f64) as usize;
+            let count = (CHECKED_SHARE * family.values.len() as f64) as usize;
             let steps = family.values[..count].iter();
-            steps.map(|&value| agree(family, value)).sum::<usize>()
+            steps
+                .map(|&value| assert_referee_agrees(family, value))
+                .sum::<usize>()
         })
         .sum();
     assert!(checked >= 200, "{checked}");
 }
 
 /// Asserts that the referee agrees on a step, and returns the number of queries that it decided.
-fn agree(family: &Family, value: f64) -> usize {
+fn assert_referee_agrees(family: &Family, value: f64) -> usize {
     let step = (family.make)(value).unwrap();
     let Step { meshes, cases, .. } = &step;
-    let many = meshes.iter().any(|mesh| mesh.faces().len() > TRIANGLES);
+    let many = meshes
+        .iter()
+        .any(|mesh| mesh.faces().len() > MOST_TRIANGLES);
     // The referee has no margin.
     if many || step.margin > 0.0 {
         return 0;

@@ -1,8 +1,8 @@
-//! Contacts close to the start and close to the end.
+//! Scenes whose contact is close to the start or close to the end.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, sheet, slab};
-use super::{family, tenths};
+use super::{family, negative_powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -10,10 +10,26 @@ use ccd_core::order::greater;
 pub(super) fn families() -> Vec<Family> {
     let family = |name, values, make| family(name, make).over("time to the limit", values);
     vec![
-        family("contact after the start", tenths(1..=12), after_the_start),
-        family("contact before the end", tenths(1..=14), before_the_end),
-        family("contact after the end", tenths(1..=12), after_the_end),
-        family("sheet falling onto a sheet", tenths(1..=12), sheets),
+        family(
+            "contact after the start",
+            negative_powers_of_ten(1..=12),
+            after_the_start,
+        ),
+        family(
+            "contact before the end",
+            negative_powers_of_ten(1..=14),
+            before_the_end,
+        ),
+        family(
+            "contact after the end",
+            negative_powers_of_ten(1..=12),
+            after_the_end,
+        ),
+        family(
+            "sheet falling onto a sheet",
+            negative_powers_of_ten(1..=12),
+            sheets,
+        ),
     ]
 }
 
@@ -28,27 +44,27 @@ fn falling(time: f64) -> Result<(Step, BodyMotion)> {
 
 fn after_the_start(time: f64) -> Result<Step> {
     let (step, falling) = falling(time)?;
-    let step = step.within(greater(0.1 * time, 1e-11));
+    let step = step.with_tolerance(greater(0.1 * time, 1e-11));
     let expected = Expected::at(time, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
 fn before_the_end(before: f64) -> Result<Step> {
     let (step, falling) = falling(1.0 - before)?;
     let expected = Expected::at(1.0 - before, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
 fn after_the_end(after: f64) -> Result<Step> {
     let (step, falling) = falling(1.0 + after)?;
-    let step = step.within(greater(0.25 * after, 1e-11));
-    let slab = BodyMotion::UNDER;
-    step.turned_if(after > 1e-12, falling, slab, Expected::Free)
+    let step = step.with_tolerance(greater(0.25 * after, 1e-11));
+    let slab = BodyMotion::SLAB_BELOW;
+    step.with_rotated_queries_if(after > 1e-12, falling, slab, Expected::Free)
 }
 
-/// Two flat sheets without thickness, a small distance apart, meet face to face.
+/// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
 fn sheets(way: f64) -> Result<Step> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(sheet(1.0)?, sheet(1.0)?).within(greater(0.1 * way, 1e-11));
-    step.turned_too(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
+    let step = Step::new(sheet(1.0)?, sheet(1.0)?).with_tolerance(greater(0.1 * way, 1e-11));
+    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
 }

@@ -1,8 +1,8 @@
-//! Rotations, from very small ones to thousands of turns.
+//! Scenes of rotations, from very small ones to thousands of turns.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
 use super::super::shapes::{cube, cuboid, slab};
-use super::{family, tens};
+use super::{family, powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -10,61 +10,69 @@ use std::f64::consts::{PI, TAU};
 pub(super) fn families() -> Vec<Family> {
     let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
-        family("mace", mace).over("radians", spins),
-        family("drilling cube", drilling).over("turns", tens(-2..=4)),
-        family("rod turning into a wall", rod_into_a_wall).over("turns", tens(0..=4)),
-        family("rods turning against each other", rods).over("turns", tens(0..=4)),
+        family("mace", swinging_arm).over("radians", spins),
+        family("drilling cube", falling_while_spinning).over("turns", powers_of_ten(-2..=4)),
+        family("rod turning into a wall", rod_into_a_wall).over("turns", powers_of_ten(0..=4)),
+        family("rods turning against each other", rods).over("turns", powers_of_ten(0..=4)),
     ]
 }
 
-/// A cube falls flat onto a slab while it rotates about the vertical.
-fn drilling(turns: f64) -> Result<Step> {
+/// Makes a cube that falls flat onto a slab while it rotates about the vertical.
+fn falling_while_spinning(turns: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
     let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(0.625, 1e-14);
-    step.turned_too(falling, BodyMotion::UNDER, expected)
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
 /// The half length of a rod.
-const LONG: f64 = 2.0;
-/// The half thickness of a rod.
-const THIN: f64 = 0.05;
+const ROD_HALF_LENGTH: f64 = 2.0;
+/// The half width of a rod.
+const ROD_HALF_WIDTH: f64 = 0.05;
 
-/// T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
+/// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
 fn rod_into_a_wall(turns: f64) -> Result<Step> {
     let wall = 1.2;
     let spin = TAU * turns;
-    let angle = (wall / LONG.hypot(THIN)).asin() - THIN.atan2(LONG);
+    let angle = (wall / ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)).asin()
+        - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH);
     let turning = BodyMotion::STILL.spinning(spin * DVec3::Y);
-    let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(1.0, 3.0, 3.0)?);
+    let step = Step::new(
+        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
+        cuboid(1.0, 3.0, 3.0)?,
+    );
     let expected = Expected::at(angle / spin, 1e-15);
-    step.turned_too(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
+    step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
-/// T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip moves along the
-/// wall, so that a bound on the speeds of that moment finds no approach.
-fn mace(spin: f64) -> Result<Step> {
+/// Makes case T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip
+/// moves along the wall, so that a bound on the speeds of that moment finds no approach.
+fn swinging_arm(spin: f64) -> Result<Step> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
-    let hanging = cuboid(THIN, 0.5 * arm, THIN)?;
+    let hanging = cuboid(ROD_HALF_WIDTH, 0.5 * arm, ROD_HALF_WIDTH)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
     let swinging = BodyMotion::STILL.spinning(spin * DVec3::Z);
-    let angle = arm.atan2(THIN) + (wall / arm.hypot(THIN)).asin();
+    let angle = arm.atan2(ROD_HALF_WIDTH) + (wall / arm.hypot(ROD_HALF_WIDTH)).asin();
     let step = Step::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-15);
-    step.turned_too(
+    step.with_rotated_queries(
         swinging,
         BodyMotion::rest((wall + 1.0) * DVec3::Y),
         expected,
     )
 }
 
-/// T14: two rods rotate against each other, as mirror images.
+/// Makes case T14: two rods rotate against each other, as mirror images.
 fn rods(turns: f64) -> Result<Step> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning = |spin: f64, x: f64| BodyMotion::rest(x * DVec3::X).spinning(spin * DVec3::Y);
-    let angle = (0.5 * apart / LONG.hypot(THIN)).asin() - THIN.atan2(LONG);
+    let angle = (0.5 * apart / ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)).asin()
+        - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH);
     debug_assert!(angle < PI);
-    let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(THIN, 0.3, LONG)?);
+    let step = Step::new(
+        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
+        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
+    );
     let expected = Expected::at(angle / spin, 1e-15);
-    step.turned_too(turning(spin, 0.0), turning(-spin, apart), expected)
+    step.with_rotated_queries(turning(spin, 0.0), turning(-spin, apart), expected)
 }

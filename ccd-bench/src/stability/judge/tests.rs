@@ -14,7 +14,8 @@ fn safe(safe_until: f64) -> Claim {
     Claim::Unresolved { safe_until }
 }
 
-/// The easiest step of each family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start inside.
+/// Tests verdicts on the easiest step of each family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start
+/// inside.
 #[rstest]
 #[case("margin", contact(0.5), Verdict::Right)]
 #[case("margin", contact(0.5 - 1e-7), Verdict::Right)]
@@ -47,7 +48,7 @@ fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict
     }
 }
 
-/// The bodies approach at speed 4, so that 0.01 in time is 0.04 in distance.
+/// Tests bodies that approach at speed 4, so that 0.01 in time is 0.04 in distance.
 #[rstest]
 #[case(None, Verdict::Early)]
 #[case(Some(0.02), Verdict::Early)]

@@ -1,4 +1,4 @@
-//! Compares distances with all pairs, and those of two triangles with a grid of points.
+//! Compares distances with those of all pairs of triangles, and those of two triangles with a grid of points.
 
 use super::super::triangle::{nearest, nearest_or_common};
 use super::super::{Referee, Surface};

@@ -1,4 +1,4 @@
-//! Scenes whose first contact is known exactly.
+//! Tests scenes whose first contact is known exactly.
 
 use super::super::{Bracket, Referee, Surface, Truth};
 use super::{at, cuboid, judge, query, still};

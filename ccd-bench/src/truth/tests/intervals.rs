@@ -5,10 +5,10 @@ use dashu_ratio::Relaxed;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The number of pairs of operands for each operation.
+/// The number of random pairs of operands for each operation.
 const PAIRS: u32 = 20_000;
 
-/// The extreme floats: of all, of the normal ones, and of those with finite and normal squares.
+/// The extreme floats: the largest and least of all, of the normal ones, and of those with finite and normal squares.
 const EXTREMES: [f64; 12] = [
     0.0,
     5e-324,
@@ -36,7 +36,7 @@ fn random_float(rng: &mut impl Rng) -> f64 {
     if rng.random() { size } else { -size }
 }
 
-/// Returns one number, two neighbours, or a wide interval.
+/// Returns a random interval: one number, two neighbours, or a wide interval.
 fn random_interval(rng: &mut impl Rng) -> Interval {
     let x = random_float(rng);
     let y = match rng.random_range(0..3) {
@@ -55,7 +55,7 @@ fn fraction(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
-/// Returns test values of an operand: its bounds, and others between them.
+/// Returns numbers in an interval to test with: its bounds, and others between them.
 fn numbers(x: Interval) -> [Relaxed; 3] {
     [x.inf(), x.mid(), x.sup()].map(fraction)
 }
@@ -72,7 +72,7 @@ fn holds(found: Interval, exact: &Relaxed) -> bool {
     !is_above(found.inf(), exact) && !is_below(found.sup(), exact)
 }
 
-/// Asserts that an interval holds the exact results and extends at most two floats beyond them.
+/// Asserts that an interval holds exact results and extends at most two floats beyond them.
 fn assert_tight(found: Interval, results: &[Relaxed], context: &str) {
     for exact in results {
         assert!(

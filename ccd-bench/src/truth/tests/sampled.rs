@@ -1,4 +1,4 @@
-//! Compares random soups with brute force: all pairs of triangles at many times.
+//! Compares answers for random triangles with brute force: all pairs of triangles at many times.
 
 use super::super::{Referee, Surface, Truth};
 use super::{query, random_motion, random_vector, soup};
@@ -59,7 +59,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
     );
 }
 
-/// Returns true if an edge of any triangle passes through another one, with the engine's own poses.
+/// Returns true if an edge of any triangle passes through another one, by the engine's own poses.
 fn meet(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
     let placed = [0, 1].map(|body| {
         let pose = motions[body].pose(time);
@@ -77,8 +77,8 @@ fn meet(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
         .any(|a| b.iter().any(|b| through(a, b) || through(b, a)))
 }
 
-/// Returns true if p + s (q − p) = a + β (b − a) + γ (c − a) has a solution with all parameters in
-/// range.
+/// Returns true if a segment passes through a triangle: p + s (q − p) = a + β (b − a) + γ (c − a) with all parameters
+/// in range.
 fn passes([p, q]: [DVec3; 2], [a, b, c]: &[DVec3; 3]) -> bool {
     let columns = ccd_core::glam::DMat3::from_cols(p - q, b - a, c - a);
     let shares = columns.inverse() * (p - a);

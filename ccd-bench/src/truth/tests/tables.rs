@@ -1,4 +1,4 @@
-//! Tables that are written and read back.
+//! Tests that tables of exact answers are read back as they were written.
 
 use super::super::{Truth, TruthRow};
 

@@ -99,3 +99,17 @@ fn trajectories_have_the_poses_of_their_tangents() {
     }
     let _: DVec3 = swing.pose(0.5).unwrap().translation();
 }
+
+#[test]
+fn deviations_after_times_whose_square_is_zero_are_bounded() {
+    let (time, acceleration) = (1e-162, 1e304);
+    assert_eq!(time * time, 0.0);
+    let stray = Accelerations {
+        linear: acceleration,
+        angular: acceleration,
+    }
+    .deviation_after(time);
+    for bound in [stray.shift, stray.turn] {
+        assert!((0.5e-20..0.500_001e-20).contains(&bound), "{bound:e}");
+    }
+}

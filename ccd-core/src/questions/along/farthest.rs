@@ -306,6 +306,7 @@ impl Motions {
         // The points of the bodies deviate from those of the motions, which turn.
         let strays = self.stray * (2.0 + turn * time);
         let grown = (ends - length(way)) + 0.5 * second_derivative * time * time + strays;
-        greater(0.0, grown) * (1.0 + FARTHEST_F64) + FARTHEST_F64 * scale
+        // Written so that NaN stays.
+        greater(grown, 0.0) * (1.0 + FARTHEST_F64) + FARTHEST_F64 * scale
     }
 }

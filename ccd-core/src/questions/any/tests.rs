@@ -2,13 +2,18 @@
 
 use super::*;
 use crate::answer::Unresolved;
+use crate::body::Body;
+use crate::body::Volume;
 use crate::body::combination::Combination;
-use crate::distance::oracle::{Claim, GiveUp};
+use crate::distance::oracle::{Claim, GiveUp, PiecePair};
 use crate::engine::solve::Solve;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
 use crate::schedule::BestFirst;
-use crate::settings::StartPolicy;
+use crate::settings::{Settings, StartPolicy};
+use crate::tests::meshes::cube;
 use crate::tests::oracle::{Always, Exhaustive};
-use crate::tests::scene::{Kind, RngExt, direction, distance, rng, scene};
+use crate::tests::scene::{Kind, RngExt, direction, distance, pieces, rng, scene};
 
 const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
 
@@ -161,6 +166,57 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
         }
     }
     assert!(unresolved > 50 && others > 50, "{unresolved} {others}");
+}
+
+/// An oracle that gives up after some calls.
+struct Tiring {
+    calls_left: usize,
+}
+
+impl DistanceOracle for Tiring {
+    type Cache = ();
+
+    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+        let left = self.calls_left.checked_sub(1);
+        self.calls_left = left.ok_or(GiveUp::BadFacets)?;
+        Exhaustive.separation(pair, &mut ())
+    }
+}
+
+/// Tests that no time is certified for a body that starts inside a solid, by searches that end early.
+#[test]
+fn a_body_inside_a_solid_is_never_certified_apart() {
+    let outer = Body::new(&pieces(&cube(1.0, 1)), Volume::Solid).unwrap();
+    let inner = Body::new(&pieces(&cube(0.1, 1)), Volume::Solid).unwrap();
+    let start = Pose::at([0.05, 0.02, 0.01]).unwrap();
+    let (mut early, mut inside) = (0, 0);
+    for speed in [0.1, 3.0] {
+        let leaving = Motion::new(start, [speed, 0.2, 0.1], [0.0, 1.0, 4.0]).unwrap();
+        for limit in 0..60 {
+            for (budget, calls_left) in [(limit, usize::MAX), (u64::MAX, limit as usize)] {
+                let config = Settings {
+                    budget,
+                    tolerance: 1e-2,
+                    ..Settings::DEFAULT
+                };
+                let bodies = [(&inner, leaving), (&outer, Motion::STILL)];
+                let problem = Problem::new(bodies, 1.0, &config.terms()).unwrap();
+                let mut schedule = DepthFirst::default();
+                let answer = schedule.any_contact_of(&problem, &mut Tiring { calls_left });
+                match answer.outcome {
+                    Outcome::Unresolved(ended) => {
+                        early += 1;
+                        assert_eq!(ended.safe_until, 0.0, "{speed} {budget} {calls_left}");
+                    }
+                    // A contact of the surfaces is found later, and nothing is claimed about the time before.
+                    Outcome::Contact { .. } => {}
+                    Outcome::Overlapping { .. } => inside += 1,
+                    other => panic!("{speed} {budget} {calls_left}: {other:?}"),
+                }
+            }
+        }
+    }
+    assert!(early > 5 && inside > 20, "{early} {inside}");
 }
 
 #[test]

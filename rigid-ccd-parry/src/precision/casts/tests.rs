@@ -10,7 +10,7 @@ fn cast(radius: Real) -> Option<Real> {
     hit.expect("served").map(|hit| hit.time_of_impact)
 }
 
-/// A value that casts when its thread ends, after the thread's memory is dropped.
+/// A thread-local value that casts when its thread ends, after the thread's memory is dropped.
 struct AtTheEnd;
 
 impl Drop for AtTheEnd {

@@ -3,7 +3,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Body, Motion, Outcome, Pose, Settings};
 use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
 
-/// A knot split into patches, with its hull tree.
+/// Returns a trefoil knot split into patches, with its hull tree.
 fn knot() -> Body {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/knot216.obj");
     let mesh = TriangleMesh::read(file).expect("a mesh");
@@ -21,7 +21,7 @@ fn first_contact(kind: SolverKind, query: &Query<'_>) -> Answer {
         .expect("motions are in range")
 }
 
-/// Motions of a knot past another one or into it, from brief to long.
+/// Returns motions of a knot past another one or into it, from brief to long ones.
 fn motions() -> impl Iterator<Item = Motion> {
     (0..24).map(|k| {
         let k = f64::from(k);

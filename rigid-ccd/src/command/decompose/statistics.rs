@@ -1,4 +1,4 @@
-//! Statistics of a prepared mesh.
+//! Statistics that `ccd decompose` prints about a mesh and its pieces.
 
 use crate::text::Printable;
 use ccd_core::{Body, Volume};
@@ -7,7 +7,7 @@ use indicatif::HumanCount;
 use serde::Serialize;
 use std::fmt;
 
-/// Statistics of a prepared mesh; displayed as aligned lines.
+/// The statistics of a mesh and its pieces; displayed as aligned lines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Statistics {
     mesh: String,

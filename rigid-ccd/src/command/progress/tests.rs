@@ -4,7 +4,7 @@ fn shown(progress: &Progress) -> String {
     line(&progress.bar, progress.total, &progress.steps)
 }
 
-/// A batch of rows is read at once, before any of them is answered.
+/// Tests that progress counts answered rows, although a batch of rows is read at once, before any of them is answered.
 #[test]
 fn answered_rows_count_and_read_rows_do_not() {
     let progress = Progress::new(Total::Bytes(110));
@@ -19,7 +19,7 @@ fn answered_rows_count_and_read_rows_do_not() {
     assert!(shown(&progress).ends_with(", 100 %"));
 }
 
-/// A run may continue an earlier one, or begin at a later row.
+/// Tests that skipped rows count as answered when a run continues an earlier one, or begins at a later row.
 #[test]
 fn rows_that_were_skipped_count_as_answered() {
     let progress = Progress::new(Total::Bytes(100));

@@ -2,7 +2,7 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, name_of, named};
+use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, name_of, named_value_parser};
 use crate::command::numbers::{not_negative, seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::command::pieces::NOT_GIVEN;
@@ -49,7 +49,7 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
     pub(super) margin: f64,
     /// How to treat bodies in contact at the start
-    #[arg(long, value_parser = named(STARTS), default_value = "report")]
+    #[arg(long, value_parser = named_value_parser(STARTS), default_value = "report")]
     pub(super) start: StartPolicy,
     /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal
     /// cost), of a path after N between two poses; a million takes about a second
@@ -64,10 +64,10 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Vector instructions to compute with; they change the time alone, not the answers
-    #[arg(long, value_parser = named(INSTRUCTIONS), default_value = "best")]
+    #[arg(long, value_parser = named_value_parser(INSTRUCTIONS), default_value = "best")]
     pub(super) instructions: Instructions,
     /// Search without these shortcuts, to see what they save; times stay certified
-    #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named(SHORTCUTS))]
+    #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named_value_parser(SHORTCUTS))]
     pub(super) without: Vec<Shortcut>,
     /// Answer only these rows, numbered from 0, TO excluded; either end may be omitted
     #[arg(
@@ -113,7 +113,7 @@ pub(in crate::command) struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// Returns the columns of the table of results.
+    /// Returns the columns of the table of results that these options ask for.
     pub(super) fn columns(&self) -> Vec<Column> {
         let counters = results::COUNTERS.into_iter().filter(|_| self.counters);
         results::columns(self.ask)
@@ -196,7 +196,7 @@ impl QueryArgs {
 /// A range of rows of a table, numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RowRange {
-    /// The first row.
+    /// The number of the first row of the range.
     pub(super) start: usize,
     /// The row after the last one; `None` for a range without an end.
     pub(super) end: Option<usize>,

@@ -1,6 +1,6 @@
 //! The texts that follow the options in the help of `ccd query`.
 
-/// The end of `ccd query -h`.
+/// The text at the end of `ccd query -h`.
 pub(super) const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
@@ -11,7 +11,7 @@ Examples:
 
 See `ccd query --help` for the columns of all tables and the exit codes.";
 
-/// The end of `ccd query --help`.
+/// The text at the end of `ccd query --help`.
 pub(super) const AFTER_LONG_HELP: &str = "\
 Table of motions:
   Columns go by name, in any order. Every column is optional. An empty cell is an error of its row, but

@@ -1,11 +1,11 @@
-//! The journal of a run: its options, and a checkpoint after each batch of rows.
+//! The journal of a run of `ccd query`: its options, and a checkpoint after each batch of rows.
 //!
 //! The file is next to the tables. Each checkpoint ends with the checksum of all before it. It stays when the run has finished, so that the same command with
 //! `--resume` finds nothing left to do.
 
 use crate::command::counts::Counts;
 use crate::command::output::CannotWrite;
-use crate::command::table::Written;
+use crate::command::table::WrittenSize;
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
@@ -13,46 +13,46 @@ use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The progress of a run.
+/// The state of a run after a batch of rows, from which it can be continued.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Checkpoint {
     /// The number of finished rows of the table of motions, including rows skipped before the selected ones.
     pub(super) rows: usize,
-    /// The checksum of these rows.
+    /// The checksum of the finished rows' input.
     pub(super) checksum: u32,
-    /// The number of these rows without a complete answer.
+    /// The number of finished rows without a complete answer.
     pub(super) bad: usize,
-    /// The number of rows of each status in the results.
+    /// The number of finished rows with each status.
     pub(super) counts: Counts,
     /// The length and checksum of the table of results, set when it is flushed.
-    pub(super) results: Written,
+    pub(super) results: WrittenSize,
     /// The length and checksum of the table of contacts, set when it is flushed.
-    pub(super) contacts: Written,
-    /// Whether all rows are finished.
+    pub(super) contacts: WrittenSize,
+    /// Whether the run has answered all selected rows.
     #[serde(rename = "whole")]
     pub(super) finished: bool,
 }
 
-/// The options that determine the tables of a run, with their values.
+/// The options that determine the tables of a run, each with its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Recorded(pub(super) Vec<(String, String)>);
+pub(super) struct RecordedOptions(pub(super) Vec<(String, String)>);
 
-/// The prefix of an entry with the checksum of the file that an option names.
-pub(super) const CONTENT: &str = "content-of:";
+/// The prefix of an entry that holds the checksum of the file that an option names.
+pub(super) const CONTENT_PREFIX: &str = "content-of:";
 
-/// The journal file: options, then checkpoints.
+/// The journal file: the options of the run, followed by checkpoints.
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
-    /// The checksum of the file's content.
+    /// The checksum of what has been written to the journal.
     sum: Hasher,
 }
 
-/// The separator in the journal between the options and the checkpoints.
+/// The line between the options and the checkpoints in the journal.
 const CHECKPOINTS: &str = "\nmarks:\n";
 
-impl Recorded {
-    /// Returns one line for each option; line ends within values are escaped.
+impl RecordedOptions {
+    /// Returns the options as text with one line each; line ends within values are escaped.
     fn to_text(&self) -> String {
         let mut text = String::new();
         for (option, value) in &self.0 {
@@ -61,7 +61,7 @@ impl Recorded {
         text.trim_end().to_owned()
     }
 
-    /// Describes the changed options; `None` if all are the same.
+    /// Describes the options that differ from those in `before`; `None` if all are the same.
     fn changes(&self, before: &str) -> Option<String> {
         let now = self.to_text();
         if before == now {
@@ -76,7 +76,7 @@ impl Recorded {
         }
         let mut changes = Vec::new();
         for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
-            match option.strip_prefix(CONTENT) {
+            match option.strip_prefix(CONTENT_PREFIX) {
                 None => changes.push(format!("{option} was {then} and is now {now}")),
                 // A changed file name implies changed content, so one message is enough.
                 Some(_) if !changes.is_empty() => {}
@@ -88,7 +88,7 @@ impl Recorded {
 }
 
 impl Journal {
-    pub(super) fn create(path: PathBuf, recorded: &Recorded) -> Result<Self, CannotWrite> {
+    pub(super) fn create(path: PathBuf, recorded: &RecordedOptions) -> Result<Self, CannotWrite> {
         let head = format!("{}{CHECKPOINTS}", recorded.to_text());
         let mut sum = Hasher::new();
         sum.update(head.as_bytes());
@@ -103,47 +103,47 @@ impl Journal {
         }
     }
 
-    /// Appends a checkpoint.
+    /// Appends a checkpoint to the journal.
     pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
         let mut append = || {
-            let line = ended(serde_json::to_string(&checkpoint)?, &mut self.sum);
+            let line = with_checksum(serde_json::to_string(&checkpoint)?, &mut self.sum);
             self.file.write_all(line.as_bytes())
         };
         append().map_err(|source| CannotWrite::at(&self.path, source))
     }
 }
 
-/// Appends the checksum to a checkpoint's line, and adds the line to the checksum.
-fn ended(mut line: String, sum: &mut Hasher) -> String {
+/// Returns a checkpoint's line with its checksum at the end, and adds the line to `sum`.
+fn with_checksum(mut line: String, sum: &mut Hasher) -> String {
     sum.update(line.as_bytes());
     let _ = writeln!(line, " {:08x}", sum.clone().finalize());
     line
 }
 
-/// The journal of an earlier run.
-pub(super) struct Earlier {
+/// What the journal of an earlier run tells.
+pub(super) struct EarlierRun {
     recorded: String,
     /// The number of rows that the earlier run answered.
     pub(super) rows: usize,
-    /// The last checkpoint.
+    /// The last checkpoint in the journal.
     pub(super) checkpoint: Checkpoint,
     /// The length of the journal without an incomplete last line.
     bytes: u64,
-    /// The checksum of these bytes.
+    /// The checksum of the journal without an incomplete last line.
     sum: Hasher,
 }
 
 /// The error of a journal that is missing or damaged.
-pub(super) struct Lost;
+pub(super) struct JournalLost;
 
-impl Earlier {
-    /// Reads a journal; `None` for a run that ended before its first checkpoint.
+impl EarlierRun {
+    /// Reads the journal of an earlier run; `None` for a run that ended before its first checkpoint.
     ///
     /// # Errors
-    /// [`Lost`] when the journal is missing or damaged.
-    pub(super) fn read(journal: &Path) -> Result<Option<Self>, Lost> {
-        let text = fs::read_to_string(journal).map_err(|_| Lost)?;
-        let (recorded, checkpoints) = text.split_once(CHECKPOINTS).ok_or(Lost)?;
+    /// [`JournalLost`] when the journal is missing or damaged.
+    pub(super) fn read(journal: &Path) -> Result<Option<Self>, JournalLost> {
+        let text = fs::read_to_string(journal).map_err(|_| JournalLost)?;
+        let (recorded, checkpoints) = text.split_once(CHECKPOINTS).ok_or(JournalLost)?;
         // A line without a line end may be incomplete.
         let Some(end) = checkpoints.rfind('\n') else {
             return Ok(None);
@@ -154,10 +154,10 @@ impl Earlier {
         sum.update(CHECKPOINTS.as_bytes());
         let mut lines = complete
             .split_inclusive('\n')
-            .map(|line| checked(line, &mut sum));
-        let first = lines.next().ok_or(Lost)??;
+            .map(|line| parse_checked(line, &mut sum));
+        let first = lines.next().ok_or(JournalLost)??;
         let checkpoint = lines.try_fold(first, |_, next| next)?;
-        Ok(Some(Earlier {
+        Ok(Some(EarlierRun {
             recorded: recorded.to_owned(),
             rows: checkpoint.rows.saturating_sub(first.rows),
             checkpoint,
@@ -167,7 +167,7 @@ impl Earlier {
     }
 
     /// Describes the options that differ from those of the earlier run.
-    pub(super) fn changes(&self, recorded: &Recorded) -> Option<String> {
+    pub(super) fn changes(&self, recorded: &RecordedOptions) -> Option<String> {
         recorded.changes(&self.recorded)
     }
 
@@ -189,12 +189,12 @@ impl Earlier {
 }
 
 /// Parses a checkpoint and verifies its [checksum](ended).
-fn checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, Lost> {
-    let (checkpoint, _) = line.rsplit_once(' ').ok_or(Lost)?;
-    if ended(checkpoint.to_owned(), sum) == line {
-        serde_json::from_str(checkpoint).map_err(|_| Lost)
+fn parse_checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, JournalLost> {
+    let (checkpoint, _) = line.rsplit_once(' ').ok_or(JournalLost)?;
+    if with_checksum(checkpoint.to_owned(), sum) == line {
+        serde_json::from_str(checkpoint).map_err(|_| JournalLost)
     } else {
-        Err(Lost)
+        Err(JournalLost)
     }
 }
 
@@ -202,10 +202,10 @@ fn checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, Lost> {
 mod tests {
     use super::*;
 
-    fn with(values: [&str; 3]) -> Recorded {
+    fn with(values: [&str; 3]) -> RecordedOptions {
         let options = ["ccd", "--a", "content-of:--a"];
         let pairs = options.iter().zip(values);
-        Recorded(
+        RecordedOptions(
             pairs
                 .map(|(o, v)| ((*o).to_owned(), v.to_owned()))
                 .collect(),

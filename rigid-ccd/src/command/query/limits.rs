@@ -1,8 +1,8 @@
-//! The limits that end a query early, with advice for each.
+//! Advice to the user for each limit that ended a query early.
 
 use ccd_core::Limit;
 
-/// All limits, each with its advice.
+/// All limits of a query, each with the advice for a user whose query reached it.
 const LIMITS: [(Limit, &str); 5] = [
     (
         Limit::Budget,
@@ -33,7 +33,7 @@ const LIMITS: [(Limit, &str); 5] = [
 pub(crate) struct LimitCounts([usize; LIMITS.len()]);
 
 impl LimitCounts {
-    /// Counts a query.
+    /// Counts a query that ended at the given limit.
     pub(crate) fn add(&mut self, limit: Limit) {
         let place = LIMITS.iter().position(|(known, _)| *known == limit);
         place.into_iter().for_each(|k| self.0[k] += 1);

@@ -4,24 +4,24 @@
 //! a half-written one for instance, are dropped when a run continues.
 
 use super::args::QueryArgs;
-use super::journal::{Checkpoint, Earlier, Journal, Lost, Recorded};
-use crate::command::output::{CannotWrite, Output, RESUME};
-use crate::command::table::{Table, Written, measure};
+use super::journal::{Checkpoint, EarlierRun, Journal, JournalLost, RecordedOptions};
+use crate::command::output::{CannotWrite, JOURNAL_EXTENSION, Output};
+use crate::command::table::{Table, WrittenSize, measure};
 use crate::table::contacts;
 use crate::table::results::names;
 use anyhow::{Context, Result, bail};
 use std::fs::File;
 use std::path::PathBuf;
 
-/// The tables of a run.
+/// The open tables of results and contacts, with their journal.
 pub(super) struct Outputs {
     pub(super) results: Table,
     pub(super) contacts: Option<Table>,
     journal: Option<Journal>,
 }
 
-/// The tables of a run, and the rows left to answer.
-pub(super) enum Opened {
+/// The tables of a run after opening them, and the rows that are left to answer.
+pub(super) enum OpenedTables {
     /// New tables: all rows are left.
     New(Outputs),
     /// The tables of an interrupted run with the same options: the rows after the checkpoint are left.
@@ -30,17 +30,17 @@ pub(super) enum Opened {
     Finished(Checkpoint),
 }
 
-/// The claimed files of the tables.
-pub(super) struct Places {
+/// The reserved files of both tables, before anything is written.
+pub(super) struct ClaimedFiles {
     results: Output,
     contacts: Option<Output>,
 }
 
-impl Places {
-    /// Claims both tables.
+impl ClaimedFiles {
+    /// Reserves the files of both tables.
     pub(super) fn claim(args: &QueryArgs) -> Result<Self> {
         let contacts = args.contacts.as_deref();
-        let places = Places {
+        let places = ClaimedFiles {
             results: Output::claim(&args.out)?,
             contacts: contacts.map(Output::claim_table).transpose()?,
         };
@@ -52,45 +52,51 @@ impl Places {
     }
 }
 
-impl Opened {
+impl OpenedTables {
     /// Creates the tables, or opens those of an earlier run with the same options.
-    pub(super) fn new(args: &QueryArgs, places: Places, recorded: &Recorded) -> Result<Self> {
+    pub(super) fn new(
+        args: &QueryArgs,
+        places: ClaimedFiles,
+        recorded: &RecordedOptions,
+    ) -> Result<Self> {
         let Output::File(results, _) = &places.results else {
-            return Ok(Opened::New(Outputs::create(args, places, recorded, None)?));
+            return Ok(OpenedTables::New(Outputs::create(
+                args, places, recorded, None,
+            )?));
         };
-        let journal = results.sibling(RESUME);
-        let earlier = match Earlier::read(&journal) {
+        let journal = results.sibling(JOURNAL_EXTENSION);
+        let earlier = match EarlierRun::read(&journal) {
             Ok(earlier) => earlier,
-            Err(Lost) if results.left() > 0 => bail!(
+            Err(JournalLost) if results.left() > 0 => bail!(
                 "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
                  first to start over",
                 results.partial().display(),
                 journal.display()
             ),
-            Err(Lost) => None,
+            Err(JournalLost) => None,
         };
         let mut places = places;
         if args.resume
             && let Some(finished) = &earlier
             && finished.checkpoint.finished
         {
-            if places.finished(finished, recorded)? {
-                return Ok(Opened::Finished(finished.checkpoint));
+            if places.is_finished(finished, recorded)? {
+                return Ok(OpenedTables::Finished(finished.checkpoint));
             }
-            places = Places::claim(args)?;
+            places = ClaimedFiles::claim(args)?;
         }
-        places.begin(args, recorded, (earlier, journal))
+        places.begin_or_resume(args, recorded, (earlier, journal))
     }
 }
 
-impl Places {
-    /// Continues the tables of an interrupted run, or starts new ones.
-    fn begin(
+impl ClaimedFiles {
+    /// Continues the tables of an interrupted run, or starts new ones if there are none.
+    fn begin_or_resume(
         self,
         args: &QueryArgs,
-        recorded: &Recorded,
-        (earlier, journal): (Option<Earlier>, PathBuf),
-    ) -> Result<Opened> {
+        recorded: &RecordedOptions,
+        (earlier, journal): (Option<EarlierRun>, PathBuf),
+    ) -> Result<OpenedTables> {
         let left = match &self.results {
             Output::File(results, _) if results.left() > 0 => {
                 earlier.map(|earlier| (earlier, results))
@@ -103,7 +109,7 @@ impl Places {
                 let advice = format!("delete {rows} to start over");
                 check_options(&earlier, recorded, "interrupted", &advice)?;
                 let outputs = Outputs::resume(self, &earlier, journal)?;
-                Ok(Opened::Resumed(outputs, earlier.checkpoint))
+                Ok(OpenedTables::Resumed(outputs, earlier.checkpoint))
             }
             Some((earlier, results)) if earlier.rows > 0 => bail!(
                 "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
@@ -111,7 +117,7 @@ impl Places {
                 results.partial().display(),
                 earlier.rows
             ),
-            _ => Ok(Opened::New(Outputs::create(
+            _ => Ok(OpenedTables::New(Outputs::create(
                 args,
                 self,
                 recorded,
@@ -121,21 +127,22 @@ impl Places {
     }
 
     /// Returns whether the tables of a finished run exist; renames those that still have a temporary name.
-    fn finished(self, run: &Earlier, recorded: &Recorded) -> Result<bool> {
+    fn is_finished(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
         let Checkpoint {
             results, contacts, ..
         } = run.checkpoint;
-        if !named(self.results, results)? {
+        if !rename_complete(self.results, results)? {
             return Ok(false);
         }
         check_options(run, recorded, "finished", "omit --resume to start over")?;
         self.contacts
-            .map_or(Ok(true), |table| named(table, contacts))
+            .map_or(Ok(true), |table| rename_complete(table, contacts))
     }
 }
 
-/// Gives a complete table its final name, unless it already has it. Returns whether the table is there.
-fn named(table: Output, written: Written) -> Result<bool> {
+/// Renames a complete table from its temporary to its final name, unless it already has it. Returns whether the table
+/// is there.
+fn rename_complete(table: Output, written: WrittenSize) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);
     };
@@ -161,7 +168,12 @@ fn named(table: Output, written: Written) -> Result<bool> {
 }
 
 /// Returns an error if the options differ from those of the earlier run.
-fn check_options(earlier: &Earlier, recorded: &Recorded, run: &str, advice: &str) -> Result<()> {
+fn check_options(
+    earlier: &EarlierRun,
+    recorded: &RecordedOptions,
+    run: &str,
+    advice: &str,
+) -> Result<()> {
     match earlier.changes(recorded) {
         Some(changes) => bail!(
             "--resume: the {run} run had other options: {changes}; give the same options, or {advice}"
@@ -171,22 +183,22 @@ fn check_options(earlier: &Earlier, recorded: &Recorded, run: &str, advice: &str
 }
 
 impl Outputs {
-    fn resume(places: Places, earlier: &Earlier, journal: PathBuf) -> Result<Self> {
+    fn resume(places: ClaimedFiles, earlier: &EarlierRun, journal: PathBuf) -> Result<Self> {
         let Checkpoint {
             results, contacts, ..
         } = earlier.checkpoint;
-        let contacts = places.contacts.map(|table| continued(table, contacts));
+        let contacts = places.contacts.map(|table| resume_table(table, contacts));
         Ok(Outputs {
             contacts: contacts.transpose()?,
-            results: continued(places.results, results)?,
+            results: resume_table(places.results, results)?,
             journal: Some(earlier.reopen(journal)?),
         })
     }
 
     fn create(
         args: &QueryArgs,
-        places: Places,
-        recorded: &Recorded,
+        places: ClaimedFiles,
+        recorded: &RecordedOptions,
         journal: Option<PathBuf>,
     ) -> Result<Self, CannotWrite> {
         // This comes first, because the journal of an earlier run does not describe these tables.
@@ -216,7 +228,7 @@ impl Outputs {
         }
     }
 
-    /// Gives the tables their final names.
+    /// Renames the complete tables to their final names.
     pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
         // A run that is resumed after this point only renames the tables.
         self.save(Checkpoint {
@@ -231,8 +243,8 @@ impl Outputs {
     }
 }
 
-/// Continues a table of an interrupted run.
-fn continued(table: Output, written: Written) -> Result<Table> {
+/// Opens a table of an interrupted run, to append to it.
+fn resume_table(table: Output, written: WrittenSize) -> Result<Table> {
     let Output::File(claim, _) = table else {
         bail!("--resume needs files");
     };

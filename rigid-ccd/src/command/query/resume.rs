@@ -8,10 +8,10 @@ use crate::command::files::{Rows, input_name};
 use crate::command::{Exit, complain};
 use anyhow::{Context, Result, bail};
 
-/// Prints where the run continues.
+/// Prints the row at which a resumed run continues.
 pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     if earlier.is_some() {
-        tell_of_page(args);
+        warn_of_page(args);
     }
     match earlier {
         Some(_) if args.quiet => {}
@@ -48,8 +48,8 @@ pub(super) fn skip_rows(
     }
 }
 
-/// Prints that a page of a resumed run shows only the rows answered now.
-fn tell_of_page(args: &QueryArgs) {
+/// Warns that the page of a resumed run shows only the rows answered in this run.
+fn warn_of_page(args: &QueryArgs) {
     if args.html.is_some() {
         complain(
             "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
@@ -57,9 +57,9 @@ fn tell_of_page(args: &QueryArgs) {
     }
 }
 
-/// Leaves the tables of a finished run unchanged, if the motions are the same.
-pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
-    tell_of_page(args);
+/// Checks that the motions are those of the finished run, whose tables stay unchanged, and returns the exit status.
+pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
+    warn_of_page(args);
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
     let same = (skipped, rows.checksum()) == (end.rows, end.checksum);

@@ -4,24 +4,24 @@ use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
-use crate::batch::{Timed, Timing};
-use crate::command::answering::{Answered, Answering, Batch};
+use crate::batch::{TimedAnswer, Timing};
+use crate::command::answering::{AnsweredRow, Batch, BatchRun};
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
-use crate::command::view::Chosen;
+use crate::command::view::ChosenRows;
 use crate::table::contacts;
 use crate::table::courses::Course;
 use crate::table::motions::RowPosition;
 use crate::table::results::Line;
 use anyhow::{Context, Result};
 
-/// A run of `ccd query`.
+/// The state of `ccd query` while it answers rows.
 pub(super) struct Run<'a> {
     pub(super) args: &'a QueryArgs,
-    pub(super) answering: Answering<'a>,
+    pub(super) answering: BatchRun<'a>,
     pub(super) outputs: Outputs,
-    /// The rows for a page, if one was requested.
-    pub(super) shown: Option<Chosen>,
+    /// The rows chosen for the page of `--html`; `None` without this option.
+    pub(super) shown: Option<ChosenRows>,
     pub(super) summary: Summary,
 }
 
@@ -51,23 +51,23 @@ impl Run<'_> {
         }
     }
 
-    /// Writes the results and contacts of a batch of rows.
+    /// Writes the results and contacts of a batch of answered rows.
     fn write(&mut self, batch: &Batch) -> Result<(), CannotWrite> {
         let (columns, mut all) = (self.args.columns(), Vec::new());
         for row in &batch.rows {
-            let Answered {
+            let AnsweredRow {
                 position,
                 course,
                 mut row,
                 timed,
-            } = self.answering.answered(row);
+            } = self.answering.answered_row(row);
             match timed {
                 Some(timed) => self.summary.add(row.status, timed),
                 None => self.summary.add_error(),
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);
             if let (Some(shown), Some(course)) = (&mut self.shown, course) {
-                shown.offer(course, &row);
+                shown.add_if_wanted(course, &row);
             }
             self.outputs.results.row(&Line(&columns, &row))?;
             all.extend(
@@ -82,12 +82,12 @@ impl Run<'_> {
     /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
     fn write_contacts(
         &mut self,
-        answered: &[(RowPosition, &Course, &Timed)],
+        answered: &[(RowPosition, &Course, &TimedAnswer)],
     ) -> Result<(), CannotWrite> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
         };
-        let Answering {
+        let BatchRun {
             bodies,
             timing,
             solver,

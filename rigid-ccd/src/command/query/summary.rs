@@ -1,38 +1,38 @@
-//! The summary of many answers.
+//! The summary that a run prints after its last row.
 
 #[cfg(test)]
 mod tests;
 
 use super::limits::LimitCounts;
-use crate::batch::Timed;
+use crate::batch::TimedAnswer;
 use crate::command::counts::Counts;
 use crate::table::results::Status;
 use ccd_core::order::greater;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Counts and times of many answers. Its size does not depend on their number.
+/// Counts, times and counters of many answers. Its size does not depend on their number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Summary {
-    /// The number of rows of each status.
+    /// The number of rows of each status, including those of an earlier run.
     pub(super) counts: Counts,
-    /// The number of rows answered by an earlier run; only their status is known.
+    /// The number of rows that an earlier run answered; only their status is known.
     earlier: usize,
     times: Times,
-    /// The sum of the pairs of nodes visited.
+    /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
-    /// The sum of the calls of the distance backend.
+    /// The number of calls of the distance backend in all queries.
     pub(super) oracle_calls: u64,
-    /// The sum of the steps that advanced all pairs together.
+    /// The number of steps that advanced all pairs together, in all queries.
     pub(super) advancements: u64,
-    /// The sum of the steps of the distance backend's search.
+    /// The number of steps of the distance backend's search, in all queries.
     pub(super) oracle_steps: u64,
-    /// The tolerance of the queries.
+    /// The tolerance given for the queries, in the scene's unit of length.
     tolerance: f64,
     limits: LimitCounts,
-    /// The number of answers whose tolerance was raised.
+    /// The number of answers with a larger tolerance than the given one, because of rounding.
     pub(super) raised: usize,
-    /// The largest tolerance of an answer.
+    /// The largest tolerance of any answer, in the scene's unit of length.
     pub(super) largest_tolerance: f64,
 }
 
@@ -54,7 +54,7 @@ impl Summary {
         }
     }
 
-    /// Starts with the rows of an earlier run.
+    /// Adds the counts of the rows that an earlier run answered.
     pub(super) fn with_earlier(self, counts: Counts) -> Self {
         Summary {
             counts,
@@ -64,7 +64,7 @@ impl Summary {
     }
 
     /// Adds an answer with the given status.
-    pub(super) fn add(&mut self, status: Status, timed: &Timed) {
+    pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
         let answer = &timed.answer;
         self.counts.add(status);
         if let Some(limit) = answer.outcome.limit() {
@@ -79,13 +79,13 @@ impl Summary {
         self.times.add(timed.micros);
     }
 
-    /// Adds a row of status `error`.
+    /// Counts a row of status `error`.
     pub(super) fn add_error(&mut self) {
         self.counts.add(Status::Error);
     }
 
     /// Returns the number of rows answered in this run.
-    fn answered(&self) -> u64 {
+    fn answered_rows(&self) -> u64 {
         self.times.count
     }
 
@@ -101,8 +101,8 @@ impl Summary {
 
     /// Returns the means of the counters as one line; `None` without answers.
     pub(super) fn means(&self) -> Option<String> {
-        let mean = |total: u64| total as f64 / self.answered() as f64;
-        (self.answered() > 0).then(|| {
+        let mean = |total: u64| total as f64 / self.answered_rows() as f64;
+        (self.answered_rows() > 0).then(|| {
             format!(
                 "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
                 mean(self.advancements),
@@ -113,7 +113,7 @@ impl Summary {
     }
 }
 
-/// A histogram of times with a relative resolution of a thousandth; its size does not grow with their number.
+/// A histogram of times with a relative resolution of a thousandth; its size does not grow with the number of times.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Times {
     /// The counts by the leading bits of the time, which sort as the times do.
@@ -122,12 +122,15 @@ struct Times {
     total: f64,
 }
 
-/// The number of low bits dropped from a time: all except 10 of its fraction.
-const DROPPED: u32 = f64::MANTISSA_DIGITS - 1 - 10;
+/// The number of low bits dropped from a time: all except the leading 10 of its fraction.
+const DROPPED_BITS: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl Times {
     fn add(&mut self, micros: f64) {
-        *self.counts.entry(micros.to_bits() >> DROPPED).or_default() += 1;
+        *self
+            .counts
+            .entry(micros.to_bits() >> DROPPED_BITS)
+            .or_default() += 1;
         self.count += 1;
         self.total += micros;
     }
@@ -136,13 +139,13 @@ impl Times {
         0.5 * (self.nth(self.count.saturating_sub(1) / 2) + self.nth(self.count / 2))
     }
 
-    /// Returns the time at an index in ascending order.
+    /// Returns the time at an index in ascending order of times.
     fn nth(&self, index: u64) -> f64 {
         let mut passed = 0;
         for (&bits, &count) in &self.counts {
             passed += count;
             if passed > index {
-                return f64::from_bits(bits << DROPPED);
+                return f64::from_bits(bits << DROPPED_BITS);
             }
         }
         f64::NAN
@@ -151,7 +154,7 @@ impl Times {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (rows, counts) = (self.counts.rows(), self.counts.some());
+        let (rows, counts) = (self.counts.rows(), self.counts.nonzero());
         let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
         let counts: Vec<String> = counts.collect();
         let plural = if rows == 1 { "" } else { "s" };
@@ -165,7 +168,7 @@ impl fmt::Display for Summary {
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,
         }
-        if self.answered() == 0 {
+        if self.answered_rows() == 0 {
             return Ok(());
         }
         write!(

@@ -68,16 +68,16 @@ pub(in crate::command) struct ViewArgs {
     pub(super) quiet: bool,
 }
 
-/// The subject of a page.
+/// What a page shows: rows of a table of motions, or a scene.
 pub(super) enum Subject<'a> {
-    /// Rows of a table of motions of two bodies.
+    /// Rows of a table of motions of two bodies, given by its path.
     Rows(BodiesArgs, &'a Path),
-    /// The bodies of a scene's table.
+    /// The bodies of a scene, given by the path of its table.
     Scene(&'a Path, SceneArgs<'a>),
 }
 
 impl ViewArgs {
-    /// Returns the subject of the page; `None` without the options for one, which the parser refuses.
+    /// Returns what the page shows; `None` if no option says it, which the parser refuses.
     pub(super) fn subject(&self) -> Option<Subject<'_>> {
         let ViewArgs { meshes, pieces, .. } = self;
         if let Some(scene) = &self.scene {

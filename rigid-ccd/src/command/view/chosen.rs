@@ -1,28 +1,28 @@
-//! The choice of the rows on a page.
+//! Chooses the rows to draw on a page.
 
 use crate::table::courses::Course;
 use crate::table::results::{ResultRow, Status};
 
-/// The maximum number of rows of one status, if no ids are given.
-const OF_EACH: usize = 4;
-/// The maximum number of rows on a page.
-const MOST: usize = 100;
+/// The maximum number of rows of each status on a page, if no ids are given.
+const MOST_OF_EACH_STATUS: usize = 4;
+/// The maximum number of rows on a page in total.
+const MOST_ROWS: usize = 100;
 
-/// A choice of rows.
+/// The rows chosen for a page so far, and the rule by which they are chosen.
 #[derive(Debug)]
-pub(in crate::command) struct Chosen {
+pub(in crate::command) struct ChosenRows {
     /// The ids to show; if empty, some rows of each status.
     ids: Vec<String>,
     rows: Vec<(Course, ResultRow)>,
-    /// The number of rows that cannot be shown, and the fault of the first.
+    /// The number of chosen rows that cannot be drawn, and the message about the first.
     left_out: usize,
     first_fault: Option<String>,
 }
 
-impl Chosen {
+impl ChosenRows {
     /// Creates a choice of rows with these ids, or of some of each status.
     pub(in crate::command) fn new(ids: Vec<String>) -> Self {
-        Chosen {
+        ChosenRows {
             ids,
             rows: Vec::new(),
             left_out: 0,
@@ -31,7 +31,7 @@ impl Chosen {
     }
 
     /// Returns whether an id is one of those given; `None` if no ids are given.
-    pub(super) fn is_named(&self, id: &str) -> Option<bool> {
+    pub(super) fn is_requested(&self, id: &str) -> Option<bool> {
         if self.ids.is_empty() {
             None
         } else {
@@ -39,17 +39,17 @@ impl Chosen {
         }
     }
 
-    /// Adds a row if it belongs to the choice.
-    pub(in crate::command) fn offer(&mut self, course: &Course, row: &ResultRow) {
-        let wanted = self.is_named(&row.id).unwrap_or_else(|| {
+    /// Adds a row if it is one of the wanted ids, or if there are few of its status.
+    pub(in crate::command) fn add_if_wanted(&mut self, course: &Course, row: &ResultRow) {
+        let wanted = self.is_requested(&row.id).unwrap_or_else(|| {
             let alike = self
                 .rows
                 .iter()
                 .filter(|(_, known)| known.status == row.status);
-            alike.count() < OF_EACH
+            alike.count() < MOST_OF_EACH_STATUS
         });
         if row.status == Status::Error {
-            if self.is_named(&row.id) != Some(false) {
+            if self.is_requested(&row.id) != Some(false) {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
                 self.leave_out(format!("row {}: {reason}", row.id));
             }
@@ -58,12 +58,12 @@ impl Chosen {
         }
     }
 
-    /// Returns whether no further row can be added.
+    /// Returns whether the page can take no further row.
     pub(super) fn is_full(&self) -> bool {
-        self.rows.len() >= MOST || (!self.ids.is_empty() && self.missing().next().is_none())
+        self.rows.len() >= MOST_ROWS || (!self.ids.is_empty() && self.missing().next().is_none())
     }
 
-    /// Returns the given ids that no row had.
+    /// Returns the given ids that no row of the table had.
     pub(super) fn missing(&self) -> impl Iterator<Item = &str> {
         let has = |id: &&String| self.rows.iter().any(|(_, row)| row.id == **id);
         self.ids
@@ -72,12 +72,12 @@ impl Chosen {
             .map(String::as_str)
     }
 
-    /// Takes the rows out, in the order in which they were added.
+    /// Removes the chosen rows, and returns them in the order in which they were added.
     pub(super) fn take_rows(&mut self) -> Vec<(Course, ResultRow)> {
         std::mem::take(&mut self.rows)
     }
 
-    /// Counts a row that cannot be shown.
+    /// Counts a chosen row that cannot be drawn, with the reason.
     pub(super) fn leave_out(&mut self, fault: String) {
         self.left_out += 1;
         self.first_fault.get_or_insert(fault);
@@ -88,13 +88,13 @@ impl Chosen {
         self.rows.is_empty() && self.left_out == 0
     }
 
-    /// Returns whether no row was left out.
-    pub(super) fn is_whole(&self) -> bool {
+    /// Returns whether all chosen rows could be drawn.
+    pub(super) fn is_complete(&self) -> bool {
         self.left_out == 0
     }
 
-    /// Describes the rows that were left out.
-    pub(super) fn faults(&self) -> Option<String> {
+    /// Describes the chosen rows that could not be drawn; `None` if there are none.
+    pub(super) fn describe_faults(&self) -> Option<String> {
         let fault = self.first_fault.as_ref()?;
         Some(match self.left_out {
             1 => format!("one row is no valid query, and is not shown: {fault}"),

@@ -1,4 +1,4 @@
-//! The pairs from the tree equal those from comparing every two boxes.
+//! Tests that the tree finds the same pairs as a comparison of every two boxes.
 
 use super::*;
 use ccd_core::glam::DVec3;
@@ -38,7 +38,7 @@ fn pairs_are_those_of_the_twin() {
             };
             boxes[2] = boxes[0];
         }
-        let pairs = meeting(&boxes, |_| true);
+        let pairs = meeting_pairs(&boxes, |_| true);
         assert_eq!(pairs, every(&boxes), "{round}");
         meet += pairs.len();
         asked += count * count.saturating_sub(1) / 2;
@@ -46,7 +46,7 @@ fn pairs_are_those_of_the_twin() {
     assert!(meet > 10_000 && 2 * meet < asked, "{meet} of {asked}");
 }
 
-/// Boxes that touch in a face, a corner or a plane meet.
+/// Tests that boxes that touch in a face, a corner or a plane count as meeting.
 #[test]
 fn boxes_that_touch_meet() {
     let unit = |x: f64, y: f64| SweptBox {
@@ -61,7 +61,7 @@ fn boxes_that_touch_meet() {
         unit(3.0_f64.next_up(), 3.0),
     ];
     let asked = |pair: [usize; 2]| pair != [1, 2];
-    assert_eq!(meeting(&boxes, asked), [[0, 1], [0, 2], [2, 3]]);
+    assert_eq!(meeting_pairs(&boxes, asked), [[0, 1], [0, 2], [2, 3]]);
 }
 
 #[test]
@@ -69,8 +69,8 @@ fn a_leaf_outside_its_tree_is_detected() {
     let leaf = |x: f64| Aabb::new(Vector::new(x, 0.0, 0.0), Vector::new(x + 0.5, 1.0, 1.0));
     let leaves: Vec<Aabb> = (0..9).map(|k| leaf(f64::from(k))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
-    assert!((0..9).all(|k| holds(&tree, k, &leaves[k])));
+    assert!((0..9).all(|k| is_within_ancestors(&tree, k, &leaves[k])));
     // This simulates a tree that lost a part.
-    assert!(!holds(&tree, 3, &leaf(40.0)));
-    assert!(!holds(&tree, 12, &leaves[3]));
+    assert!(!is_within_ancestors(&tree, 3, &leaf(40.0)));
+    assert!(!is_within_ancestors(&tree, 12, &leaves[3]));
 }

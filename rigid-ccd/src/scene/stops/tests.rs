@@ -1,4 +1,4 @@
-//! Bodies that stop, checked at sampled times: none overlaps another one, and none stops early.
+//! Tests stopping bodies at sampled times: none overlaps another one, and none stops early.
 
 use super::super::tests::{bodies, parts};
 use super::*;
@@ -6,7 +6,7 @@ use crate::scene::tests::thrown;
 use crate::trajectory::Ballistic;
 use crate::{Body, HitKind, Pose, Solver};
 use ccd_core::Outcome;
-use ccd_core::Settings;
+use ccd_core::{Settings, Stretch, Trajectory};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use rand::{RngExt, SeedableRng};
@@ -14,7 +14,7 @@ use rand_pcg::Pcg64;
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
 
-/// The poses of all bodies at a time, with some of them stopped.
+/// Returns the poses of all bodies at a time, where some of the bodies have stopped.
 fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
     let pose = |(member, stop): (&super::super::Member<'_>, &Stop)| {
         member.movement.pose(lesser(time, stop.time)).unwrap()
@@ -22,7 +22,7 @@ fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
     scene.members.iter().zip(stops).map(pose).collect()
 }
 
-/// The pairs that overlap at these poses.
+/// Returns the pairs of bodies that overlap at the given poses.
 fn overlapping(scene: &Scene<'_>, poses: &[Pose], solver: &mut Solver) -> HashSet<[usize; 2]> {
     let mut pairs = HashSet::new();
     for b in 0..poses.len() {
@@ -113,7 +113,7 @@ fn bodies_that_stop_never_overlap() {
     );
 }
 
-/// Checks that the contact is with the body that stops this one, at the time of the stop, or later at rest. There the
+/// Checks that a stop's contact is with the body that it names, at the time of the stop, or later at rest. There the
 /// witnesses are near, and one behind the other along the normal.
 fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let by = stop.by.unwrap();
@@ -184,7 +184,7 @@ fn a_normal_is_from_the_body_to_what_stops_it() {
     assert_eq!((stop.by, stop.contact), (Some(1), None));
 }
 
-/// A stopped body stops the next one.
+/// Tests that a stopped body stops the next one.
 #[test]
 fn a_queue_of_balls_stops_one_behind_the_other() {
     let (ball, wall) = (
@@ -217,7 +217,7 @@ fn a_queue_of_balls_stops_one_behind_the_other() {
     }
 }
 
-/// A ball that is pressed onto a floor keeps half of the tolerance over many steps.
+/// Tests that a ball that is pressed onto a floor keeps half of the tolerance over many steps.
 #[test]
 fn a_pressed_ball_stays_above_the_floor() {
     let (ball, floor) = (
@@ -280,7 +280,8 @@ fn motions_out_of_range_are_errors_and_unresolved_bodies_stop() {
     assert!(matches!(first.hit.kind, HitKind::Touching(_)), "{first:?}");
 }
 
-/// Distances over a wide floor have larger rounding errors. What is pressed onto it would sink by that in each step.
+/// Tests a pressed ball on a wide floor, where distances have larger rounding errors. What is pressed onto it would
+/// sink by that in each step.
 #[test]
 fn a_pressed_ball_does_not_sink_by_rounding() {
     let mut rng = Pcg64::seed_from_u64(7);
@@ -377,4 +378,46 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
         crossed += through.difference(&at_start).count();
     }
     assert!(stopped > 100 && crossed > 50, "{stopped} {crossed}");
+}
+
+/// A motion whose true poses are known up to a shift only.
+struct Blurred {
+    motion: Motion,
+    shift: f64,
+}
+
+impl Trajectory for Blurred {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let mut stretch = self.motion.stretch(from, to)?;
+        stretch.stray.shift += self.shift;
+        Ok(stretch)
+    }
+}
+
+/// Tests that a body stops as far from one that has stopped as the pose of that one may be off.
+#[test]
+fn stopped_bodies_are_as_blurred_as_moving_ones() {
+    let (ball, wall) = (
+        Body::sphere(0.2).unwrap(),
+        Body::cuboid([0.1, 2.0, 2.0]).unwrap(),
+    );
+    let moving = |from: [f64; 3], velocity: [f64; 3]| {
+        Motion::new(Pose::at(from).unwrap(), velocity, [0.0; 3]).unwrap()
+    };
+    let blurred = Blurred {
+        motion: moving([0.0; 3], [4.0, 0.0, 0.0]),
+        shift: 0.05,
+    };
+    let falling = moving([1.64, 3.0, 0.0], [0.0, -2.0, 0.0]);
+    let mut scene = Scene::new();
+    let wall = scene.add_fixed(&wall, Pose::at([2.0, 0.0, 0.0]).unwrap());
+    let [first, second] = [scene.add(&ball, &blurred), scene.add(&ball, falling)];
+    let stops = scene.stops(2.0).unwrap();
+    assert_eq!(
+        [first, second].map(|body| stops[body].by),
+        [Some(wall), Some(first)]
+    );
+    let at = |motion: &Motion, body: usize| motion.pose(stops[body].time).translation();
+    let gap = at(&blurred.motion, first).distance(at(&falling, second)) - 0.4;
+    assert!((0.05..0.06).contains(&gap), "{gap}");
 }

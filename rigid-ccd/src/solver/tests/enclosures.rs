@@ -1,4 +1,4 @@
-//! Bodies that exceed their shapes: bounds of distances hold for the shapes.
+//! Tests bodies that exceed their shapes: bounds of distances hold for the shapes.
 
 use super::thrown;
 use crate::{Body, Motion, Pose, Settings, Solver};
@@ -13,8 +13,8 @@ const RADIUS: f64 = 1.0;
 /// The allowed excess of a cylinder: its polygons have some twenty corners.
 const EXCESS: f64 = 0.01;
 
-/// Two cylinders side by side, each rotated about its axis; the first moves between two places. Their axes are never
-/// nearer than `apart`, and their surfaces than `least`.
+/// A test scene of two cylinders side by side, each rotated about its axis; the first moves between two places. Their
+/// axes are never nearer than `apart`, and their surfaces than `least`.
 struct Pair {
     body: Body,
     /// The poses of the first cylinder at times 0 and 1, and that of the second.
@@ -23,7 +23,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// Creates the pair with a number: both cylinders are rotated in proportion to it.
+    /// Creates the scene with a number that determines the cylinders' rotations.
     fn new(number: u32) -> Self {
         let round = Round::cylinder(RADIUS, 2.0).unwrap();
         let apart = 2.05 + 0.03 * f64::from(number % 9);
@@ -43,7 +43,7 @@ impl Pair {
         }
     }
 
-    /// The distance of the cylinders at the start and at the end.
+    /// Returns the exact distance of the cylinders at the start, which is that at the end.
     fn greatest(&self) -> f64 {
         f64::hypot(self.least + 2.0 * RADIUS, 1.0) - 2.0 * RADIUS
     }
@@ -155,7 +155,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
     assert!(between > 200, "{between}");
 }
 
-/// A clearance smaller than the excess cannot be proven violated, but it can be kept.
+/// Tests that a clearance smaller than the excess can be kept, but cannot be proven violated.
 #[test]
 fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     let pair = Pair::new(0);
@@ -189,7 +189,7 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     }
 }
 
-/// A ball above a slot, which the single hull of the block fills.
+/// Tests a ball above a slot, which the single hull of the block fills.
 #[cfg(feature = "meshes")]
 #[test]
 fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {

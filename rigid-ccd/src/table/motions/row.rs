@@ -1,9 +1,9 @@
-//! One row of the table, parsed as the motions of two bodies.
+//! Parses one row of a table as the motions or poses of bodies.
 
 use super::Motions;
 #[cfg(feature = "command")]
 use crate::table::columns::BODY;
-use crate::table::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
+use crate::table::columns::{Columns, DURATION_COLUMN, ID_COLUMN, Quantity, Side, TIME_COLUMN};
 use crate::table::error::RowProblem;
 use crate::table::records::{Cells, Record};
 use ccd_core::glam::{DQuat, DVec3};
@@ -24,7 +24,7 @@ pub fn query<R: Record + ?Sized>(
         cells: record.cells(columns)?,
     };
     // Normalise a negative zero.
-    let duration = row.number(DURATION)?.unwrap_or(1.0) + 0.0;
+    let duration = row.number(DURATION_COLUMN)?.unwrap_or(1.0) + 0.0;
     if duration < 0.0 {
         return Err(RowProblem::BadDuration {
             value: duration,
@@ -36,7 +36,7 @@ pub fn query<R: Record + ?Sized>(
         row.motion(Side::B, duration)?,
     ];
     for motion in [&a, &b] {
-        columns.oddities().note_motion(motion, duration);
+        columns.remark_collector().note_motion(motion, duration);
     }
     Ok(Motions {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
@@ -46,12 +46,12 @@ pub fn query<R: Record + ?Sized>(
     })
 }
 
-/// A row of the table of a scene.
+/// A body of a scene, as a row of its table gives it.
 #[cfg(feature = "command")]
 pub(crate) struct BodyRow {
-    /// The id; the index of the row by default.
+    /// The id of the row; its index by default.
     pub(crate) id: String,
-    /// The description of the body.
+    /// The description of the body in the column `body`.
     pub(crate) text: String,
     /// The motion of the body.
     pub(crate) motion: Motion,
@@ -70,7 +70,7 @@ pub(crate) fn body<R: Record + ?Sized>(
         cells: record.cells(columns)?,
     };
     let motion = row.motion(Side::A, duration)?;
-    columns.oddities().note_motion(&motion, duration);
+    columns.remark_collector().note_motion(&motion, duration);
     let text = columns.index(BODY).and_then(|cell| record.text(cell));
     Ok(BodyRow {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
@@ -79,14 +79,14 @@ pub(crate) fn body<R: Record + ?Sized>(
     })
 }
 
-/// The poses of both bodies at a time.
+/// The poses of both bodies in one row of a table of paths.
 pub(in crate::table) struct Poses {
     pub(in crate::table) time: f64,
     pub(in crate::table) a: BodyPose,
     pub(in crate::table) b: BodyPose,
 }
 
-/// The pose of a body in a row of a path.
+/// The pose of a body in one row of a table of paths.
 #[derive(Clone, Copy)]
 pub(in crate::table) struct BodyPose {
     pub(in crate::table) pose: Pose,
@@ -95,7 +95,7 @@ pub(in crate::table) struct BodyPose {
     pub(in crate::table) centre: DVec3,
 }
 
-/// Parses a row of a path.
+/// Parses a row of a table of paths.
 pub(in crate::table) fn poses<R: Record + ?Sized>(
     columns: &Columns,
     record: &R,
@@ -104,11 +104,13 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
         columns,
         cells: record.cells(columns)?,
     };
-    if columns.index(ID).is_some() && id(columns, record).is_none() {
+    if columns.index(ID_COLUMN).is_some() && id(columns, record).is_none() {
         return Err(RowProblem::NoId);
     }
     Ok(Poses {
-        time: row.number(TIME)?.ok_or_else(|| row.empty(TIME))?,
+        time: row
+            .number(TIME_COLUMN)?
+            .ok_or_else(|| row.empty(TIME_COLUMN))?,
         a: row.body_pose(Side::A)?,
         b: row.body_pose(Side::B)?,
     })
@@ -116,7 +118,7 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
 
 /// Returns the id of a row, even if other cells are unreadable; `None` without one.
 pub(in crate::table) fn id<R: Record + ?Sized>(columns: &Columns, record: &R) -> Option<String> {
-    record.text(columns.index(ID)?)
+    record.text(columns.index(ID_COLUMN)?)
 }
 
 struct Row<'a, C> {
@@ -124,14 +126,14 @@ struct Row<'a, C> {
     cells: C,
 }
 
-/// The two ways in which a row specifies a motion.
+/// The two ways in which a row gives the motion of a body.
 enum MotionKind {
     EndPose,
     Velocities,
 }
 
 impl<C: Cells> Row<'_, C> {
-    /// Returns the pose at the start.
+    /// Returns the pose of a body at the start.
     fn start(&self, side: Side) -> Result<Pose, RowProblem> {
         let position = self.vector(side, Quantity::Position)?;
         let orientation = self.quaternion(side, Quantity::Orientation)?;
@@ -170,14 +172,14 @@ impl<C: Cells> Row<'_, C> {
         }
     }
 
-    /// Returns how the row specifies the motion; the cells of the other way must be empty.
+    /// Returns the way in which the row gives the motion of a body; the cells of the other way must be empty.
     fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::Spin];
         let is_given = |cell| self.cells.is_given(cell);
         match (
-            self.slot_where(side, end, is_given),
-            self.slot_where(side, velocities, is_given),
+            self.column_where(side, end, is_given),
+            self.column_where(side, velocities, is_given),
         ) {
             (Some(end), Some(velocity)) => Err(RowProblem::EndPoseAndVelocity {
                 end: self.columns.name(end).to_owned(),
@@ -186,35 +188,35 @@ impl<C: Cells> Row<'_, C> {
             (Some(_), None) => Ok(MotionKind::EndPose),
             (None, Some(_)) => Ok(MotionKind::Velocities),
             // If the table has the columns, reading reports the empty cell.
-            (None, None) => match self.slot_where(side, end, |_| true) {
+            (None, None) => match self.column_where(side, end, |_| true) {
                 Some(_) => Ok(MotionKind::EndPose),
                 None => Ok(MotionKind::Velocities),
             },
         }
     }
 
-    /// Returns the slot of the first column of two quantities whose cell satisfies a condition.
-    fn slot_where(
+    /// Returns the first column of two quantities whose cell satisfies a condition; `None` without one.
+    fn column_where(
         &self,
         side: Side,
         quantities: [Quantity; 2],
         wanted: impl Fn(usize) -> bool,
     ) -> Option<usize> {
         let slots = quantities.into_iter();
-        let mut slots = slots.flat_map(|quantity| self.columns.slots(side, quantity));
+        let mut slots = slots.flat_map(|quantity| self.columns.column_range(side, quantity));
         slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
     }
 
-    /// Returns a vector, with 0 for missing columns; `None` if all of its columns are missing.
+    /// Returns a vector of a body, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.numbers::<3>(self.columns.slots(side, quantity))?;
+        let parts = self.numbers::<3>(self.columns.column_range(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
-    /// Returns a nonzero quaternion before normalisation; `None` if the table has no columns for it.
+    /// Returns a nonzero quaternion of a body as given, not normalised; `None` if the table has no columns for it.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
-        let slots = self.columns.slots(side, quantity);
+        let slots = self.columns.column_range(side, quantity);
         // A table has all four columns, or none.
         let [Some(w), Some(x), Some(y), Some(z)] = self.numbers(slots.clone())? else {
             return Ok(None);
@@ -222,7 +224,9 @@ impl<C: Cells> Row<'_, C> {
         let quaternion = DQuat::from_xyzw(x, y, z, w);
         match Pose::new(DVec3::ZERO, quaternion) {
             Ok(_) => {
-                self.columns.oddities().note_quaternion([w, x, y, z]);
+                self.columns
+                    .remark_collector()
+                    .note_quaternion([w, x, y, z]);
                 Ok(Some(quaternion))
             }
             Err(InputError::ZeroQuaternion) => Err(RowProblem::ZeroQuaternion {
@@ -243,7 +247,7 @@ impl<C: Cells> Row<'_, C> {
         Ok(out)
     }
 
-    /// Returns a number; `None` if the table does not have the column.
+    /// Returns the number in a known column; `None` if the table does not have the column.
     ///
     /// An empty cell is an error: writers of tables leave one for a NaN, and 0 would be another motion.
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {

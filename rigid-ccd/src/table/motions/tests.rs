@@ -116,7 +116,7 @@ fn a_row_leaves_the_velocities_or_the_end_pose_empty() {
     assert_eq!(table.rows[1].1.a.velocity(), DVec3::new(1.0, 2.0, 3.0));
 }
 
-/// Some programs write a missing number as an empty cell.
+/// Tests that an empty cell is an error, because some programs write a missing number as one.
 #[test]
 fn other_empty_cells_are_errors() {
     for (text, column) in [
@@ -222,7 +222,7 @@ fn large_numbers_have_few_digits_in_messages() {
     }
 }
 
-/// A half turn has two rotation vectors of the same length: the sign of the quaternion decides.
+/// Tests that the sign of the quaternion decides between the two rotation vectors of a half turn.
 #[test]
 fn half_a_turn_is_about_the_axis_as_given() {
     let spin = |end: &str| {

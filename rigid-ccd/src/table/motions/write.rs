@@ -1,7 +1,7 @@
-//! Writes the table of motions.
+//! Writes the table of motions as CSV.
 
 use super::Motions;
-use crate::table::columns::{DURATION, Form, ID, Quantity, Side};
+use crate::table::columns::{DURATION_COLUMN, Form, ID_COLUMN, Quantity, Side};
 use ccd_core::Motion;
 use std::io;
 
@@ -22,14 +22,14 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
     let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
     // The parts of an orientation are kept or omitted together.
     let differs = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
-    let orientation = |side| Form::Motions.slots(side, Quantity::Orientation);
+    let orientation = |side| Form::Motions.column_range(side, Quantity::Orientation);
     let kept: Vec<usize> = (0..names.len())
         .filter(|&slot| {
             let whole = [Side::A, Side::B]
                 .map(orientation)
                 .into_iter()
                 .find(|range| range.contains(&slot));
-            slot == ID || whole.map_or_else(|| differs(slot), |mut range| range.any(differs))
+            slot == ID_COLUMN || whole.map_or_else(|| differs(slot), |mut range| range.any(differs))
         })
         .collect();
     let mut writer = csv::Writer::from_writer(output);
@@ -41,15 +41,15 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
     Ok(())
 }
 
-/// Returns a cell for every known column.
+/// Returns the text of a query's cell in every known column.
 fn cells(query: &Motions) -> Vec<String> {
     let mut cells = vec![String::new(); Form::Motions.names().len()];
-    cells[ID].clone_from(&query.id);
-    cells[DURATION] = query.duration.to_string();
+    cells[ID_COLUMN].clone_from(&query.id);
+    cells[DURATION_COLUMN] = query.duration.to_string();
     for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
         let rotation = motion.start().rotation();
         let mut put = |quantity, values: &[f64]| {
-            for (slot, value) in Form::Motions.slots(side, quantity).zip(values) {
+            for (slot, value) in Form::Motions.column_range(side, quantity).zip(values) {
                 cells[slot] = value.to_string();
             }
         };

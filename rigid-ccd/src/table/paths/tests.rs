@@ -18,7 +18,7 @@ fn paths(text: &str) -> Vec<Path> {
     .collect()
 }
 
-/// Returns the row of the only error, and the message.
+/// Returns the row and the message of the only error in a table.
 fn only_problem(text: &str) -> (usize, String) {
     let rows = rows(text, Grouping::ById);
     let mut errors = rows.into_iter().filter_map(Result::err);
@@ -127,8 +127,8 @@ fn a_path_that_cannot_be_followed_is_an_error() {
     }
 }
 
-/// The centre moves in a straight line, and the origin turns about it: a half turn about z, with the centre at (1, 0,
-/// 0).
+/// Tests a half turn about z with the centre at (1, 0, 0): the centre moves in a straight line, and the origin turns
+/// about it.
 #[test]
 fn a_path_has_a_centre_of_rotation() {
     let read = paths("t,a_px,a_qw,a_qx,a_qy,a_qz,a_cx,b_cy\n0,0,1,0,0,0,1,7\n2,2,0,0,0,1,1,7\n");
@@ -145,7 +145,7 @@ fn a_path_has_a_centre_of_rotation() {
     );
 }
 
-/// Rotations of 3.25 turns, of which poses alone show 0.25; the last velocity has no effect.
+/// Tests rotations of 3.25 turns, of which poses alone show 0.25; the last velocity has no effect.
 #[test]
 fn angular_velocities_give_whole_turns_to_the_next_row() {
     let spin = 3.25 * std::f64::consts::TAU / 2.0;
@@ -187,7 +187,7 @@ fn columns_of_motions_are_no_columns_of_paths() {
     assert!(message("id,t,a_pX\n").ends_with("did you mean `a_px`?"));
 }
 
-/// The same digits in other cells give another checksum.
+/// Tests that the same digits in other cells give another checksum.
 #[test]
 fn checksums_tell_cells_apart() {
     let sum = |row: &str| {
@@ -222,7 +222,7 @@ fn checksums_are_of_the_paths_that_are_read() {
     assert_eq!(rows.skip_rows(5).unwrap(), 1);
 }
 
-/// Reading a path also reads the first row of the next one.
+/// Tests the byte counts of paths, although reading a path also reads the first row of the next one.
 #[test]
 fn bytes_are_those_up_to_the_last_path() {
     let text = "id,t\nx,0\nx,1\ny,0\ny,1\n";

@@ -32,7 +32,7 @@ fn only_unclosed_quotes_are_reported() {
     }
 }
 
-/// Found by the fuzz target `motions`.
+/// Tests that the first bytes of a byte order mark alone are the start of a cell; found by the fuzz target `motions`.
 #[test]
 fn a_part_of_a_mark_is_the_start_of_a_cell() {
     for part in [&b"\xef\"a"[..], b"\xef\xbb\"a\n"] {

@@ -9,14 +9,14 @@ use serde::ser::{Serialize, SerializeTuple, Serializer};
 #[derive(Clone, Copy, Debug)]
 pub struct Column(pub &'static str, pub Cells);
 
-/// The cell of each row in a column; empty if it does not apply.
+/// The function that returns the cell of a column for a row, by type; empty cells do not apply.
 #[derive(Clone, Copy, Debug)]
 pub enum Cells {
-    /// Text.
+    /// The cells are texts.
     Text(fn(&ResultRow) -> Option<&str>),
-    /// Numbers.
+    /// The cells are numbers.
     Number(fn(&ResultRow) -> Option<f64>),
-    /// Whole numbers.
+    /// The cells are whole numbers.
     Count(fn(&ResultRow) -> Option<u64>),
 }
 
@@ -81,12 +81,12 @@ pub(crate) fn columns_of(first: &[&str], left_out: &[&str]) -> Vec<Column> {
     first.iter().filter_map(named).chain(others).collect()
 }
 
-/// Returns the names of columns.
+/// Returns the header names of columns.
 pub fn names(columns: &[Column]) -> Vec<&'static str> {
     columns.iter().map(|Column(name, _)| *name).collect()
 }
 
-/// The cells of a row in some columns, as they are written. Numbers read back to the same bits.
+/// Some columns of a row of results, serialised as one line of a table. Numbers read back to the same bits.
 pub struct Line<'a>(pub &'a [Column], pub &'a ResultRow);
 
 impl Serialize for Line<'_> {

@@ -1,30 +1,30 @@
-//! The status of a row.
+//! The status of a row of results.
 
 use crate::batch::question::Question;
 use ccd_core::{Clearance, HitKind, Outcome};
 use serde::Deserialize;
 
-/// The kind of an answer, or an error.
+/// The kind of an answer, or that a row is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The bodies come into contact.
     Contact,
-    /// The bodies stay apart.
+    /// The bodies stay apart for the whole duration.
     Free,
     /// The bodies touch at the start.
     Touching,
     /// The bodies overlap at the start.
     Overlapping,
-    /// The distance is known.
+    /// The distance of the bodies is measured.
     Measured,
     /// The distance is at least the clearance.
     Kept,
     /// The distance is less than the clearance.
     Violated,
-    /// The distance is not known well enough to compare it to the clearance.
+    /// The bounds of the distance are too wide to compare it with the clearance.
     Unverified,
-    /// A limit was reached first.
+    /// A limit was reached before there was an answer.
     Unresolved,
     /// The row is not a valid query.
     #[default]
@@ -46,7 +46,7 @@ impl Status {
         Status::Error,
     ];
 
-    /// Returns the name in the table.
+    /// Returns the text of the status in the table of results.
     pub fn name(self) -> &'static str {
         match self {
             Status::Contact => "contact",

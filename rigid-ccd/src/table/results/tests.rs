@@ -30,7 +30,7 @@ fn contact() -> Contact {
     }
 }
 
-/// A query of the given duration.
+/// Returns a query of two bodies at rest with the given duration.
 fn course(duration: f64) -> Course {
     Course::Motions(Motions {
         id: "a,b".into(),
@@ -40,7 +40,7 @@ fn course(duration: f64) -> Course {
     })
 }
 
-/// A table with one row.
+/// Returns the table with one row as text.
 fn table(columns: &[Column], row: &ResultRow) -> String {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
@@ -50,12 +50,12 @@ fn table(columns: &[Column], row: &ResultRow) -> String {
     String::from_utf8(writer.into_inner().unwrap()).unwrap()
 }
 
-/// The written cells of the row of an outcome, by column.
+/// Returns the cells that are written for an outcome, by column.
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
     cells_of((Question::FirstContact, outcome), None)
 }
 
-/// The written cells of the row of any answer, by column.
+/// Returns the cells that are written for any answer, by column.
 fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static str, String)> {
     let compared = Compared {
         clearance,
@@ -288,7 +288,8 @@ fn distances_are_compared_to_the_clearance() {
     }
 }
 
-/// Bodies that exceed their shapes: an overlap violates no clearance up to the excess, and the reason names the excess.
+/// Tests bodies that exceed their shapes: an overlap violates no clearance up to the excess, and the reason names the
+/// excess.
 #[test]
 fn the_excess_of_bodies_is_reported() {
     let overlapping = |overlap| Outcome::Overlapping {

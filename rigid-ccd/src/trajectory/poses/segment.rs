@@ -1,4 +1,4 @@
-//! The segment from one pose to the next.
+//! The segment of a path from one pose to the next.
 
 use crate::trajectory::rotation::logarithm;
 use ccd_core::glam::{DQuat, DVec3};
@@ -13,12 +13,12 @@ use std::f64::consts::FRAC_PI_2;
 /// orientation after a share `s` is `exp(s e) exp(s w)` times the first one.
 pub(super) struct Segment {
     motion: Motion,
-    /// The rotation vector `e` left over, per unit of time.
+    /// The rotation vector `e` that is left over, divided by the duration.
     leftover: DVec3,
 }
 
-/// The largest leftover rotation: half a turn would leave the number of turns ambiguous.
-pub(crate) const MOST_LEFT: f64 = FRAC_PI_2;
+/// The largest allowed leftover rotation in radians: half a turn would leave the number of turns ambiguous.
+pub(crate) const MOST_LEFTOVER: f64 = FRAC_PI_2;
 
 impl Segment {
     /// Creates the segment with the shortest rotation, or with the number of turns nearest to a given angular velocity.

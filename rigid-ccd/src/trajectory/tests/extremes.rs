@@ -1,8 +1,8 @@
-//! Large times and coordinates, ends of trajectories, and axes of any length.
+//! Tests large times and coordinates, ends of trajectories, and axes of any length.
 
 use super::*;
 
-/// Checks the bounds of segments between two times, far from 0 or with large coordinates.
+/// Checks the deviation bounds of segments between two times, far from 0 or with large coordinates.
 fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, rng: &mut Rng) {
     for _ in 0..1_000 {
         let [a, b] = [(); 2].map(|()| rng.random_range(from..to));
@@ -66,7 +66,7 @@ fn places_may_come_from_afar() {
     check_between("poses", &poses, 0.9, 1.0, &mut rng);
 }
 
-/// A trajectory at rest has a segment, of zero length or after the end.
+/// Tests that a trajectory at rest has a segment, of zero length or after the end.
 #[test]
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
@@ -102,4 +102,22 @@ fn axes_have_any_length_but_0() {
     }
     assert!(Joint::prismatic(Pose::IDENTITY, [0.0; 3]).is_err());
     assert!(screw(Pose::IDENTITY, [0.0; 3], [f64::NAN, 0.0, 0.0], 1.0, 1.0).is_err());
+}
+
+/// Tests that the deviation of a curve whose second differences overflow is not bounded by less than the true one.
+#[test]
+fn differences_that_overflow_are_unbounded() {
+    let points = [[3.0, 0.0, 0.0], [2.0, 1.0, 0.0], [-3.0, 0.0, 0.0]];
+    for duration in [1e-155, 1e-160, 1e-300] {
+        let keys = [
+            (0.0, [0.0, 0.0, 0.0, 1.0]),
+            (duration, [0.0, 0.0, 0.6, 0.8]),
+        ];
+        let curve = Curve::bezier(&points, duration).unwrap();
+        let spline = Spline::new(curve, Turns::slerp(&keys).unwrap());
+        if let Ok(stretch) = spline.stretch(0.0, duration) {
+            let deviation = stretch.stray.shift;
+            assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
+        }
+    }
 }

@@ -28,13 +28,13 @@ use ccd_core::order::greater;
 use ccd_core::vector::length;
 use std::f64::consts::PI;
 
-/// Returns the inner orientation at the middle one of three orientations.
-pub(super) fn inner(before: DQuat, at: DQuat, after: DQuat) -> DQuat {
+/// Returns the inner control orientation of squad at the middle one of three orientations.
+pub(super) fn control_orientation(before: DQuat, at: DQuat, after: DQuat) -> DQuat {
     let log = |other: DQuat| logarithm(at.conjugate() * other);
     (at * exponential(-0.25 * (log(before) + log(after)))).normalize()
 }
 
-/// A quadrangle with a duration.
+/// A spherical quadrangle that is passed in a given duration, with bounds on its derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Squad {
     p: Arc,
@@ -44,11 +44,11 @@ pub(super) struct Squad {
     acceleration: f64,
 }
 
-/// A rotation at a constant rate along the body's axes, for u from 0 to 1.
+/// A rotation at a constant rate about a fixed axis of the body, for u from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 struct Arc {
     start: DQuat,
-    /// The angular velocity per unit of u.
+    /// The angular velocity per unit of u, in radians along the body's axes.
     spin: DVec3,
 }
 
@@ -64,7 +64,7 @@ impl Arc {
         self.start * exponential(u * self.spin)
     }
 
-    /// Returns the speed on the sphere of quaternions.
+    /// Returns the speed on the unit sphere of quaternions, half the angular speed.
     fn speed(&self) -> f64 {
         0.5 * length(self.spin)
     }
@@ -79,9 +79,9 @@ impl Squad {
             (r - p).length()
         };
         // Between two samples the distance grows by at most the rate times half of their spacing.
-        let looks = (0..=LOOKS).map(|k| apart(f64::from(k) / f64::from(LOOKS)));
+        let looks = (0..=ARC_SAMPLES).map(|k| apart(f64::from(k) / f64::from(ARC_SAMPLES)));
         let change = p.speed() + r.speed();
-        let apart = looks.fold(0.0, greater) + 0.5 * change / f64::from(LOOKS);
+        let apart = looks.fold(0.0, greater) + 0.5 * change / f64::from(ARC_SAMPLES);
         // The comparison treats NaN as too far.
         if !(apart * apart <= 2.0) {
             return None;
@@ -104,7 +104,7 @@ impl Squad {
         self.acceleration
     }
 
-    /// Returns the orientation after a time, and the angular velocity along the world's axes.
+    /// Returns the orientation after a time, and the angular velocity in the world frame.
     pub(super) fn at(&self, passed: f64) -> (DQuat, DVec3) {
         let u = passed / self.duration;
         let (h, rate) = (2.0 * u * (1.0 - u), 2.0 - 4.0 * u);
@@ -122,8 +122,8 @@ impl Squad {
     }
 }
 
-/// The number of samples of the distance between both arcs.
-const LOOKS: u32 = 16;
+/// The number of samples from which the distance between both arcs is bounded.
+const ARC_SAMPLES: u32 = 16;
 
 /// Bounds the angular speed and acceleration per unit of u, for arcs with these speeds that are at most `d` apart.
 fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {
@@ -170,7 +170,7 @@ fn bounds(d: f64, [p1, r1]: [f64; 2]) -> [f64; 2] {
     [speed, acceleration].map(|bound| 2.0 * (1.0 + 1e-9) * bound)
 }
 
-/// Bounds on the partial derivatives of a function of h and z.
+/// Bounds on the partial derivatives of a function of h and z, named by the variables.
 struct Function {
     h: f64,
     z: f64,
@@ -180,7 +180,7 @@ struct Function {
 }
 
 impl Function {
-    /// Bounds the first and the second derivative by u.
+    /// Bounds the first and second derivative with respect to u.
     fn derivatives(&self, [h1, h2]: [f64; 2], [z1, z2]: [f64; 2]) -> [f64; 2] {
         [
             self.h * h1 + self.z * z1,
@@ -197,7 +197,8 @@ fn exponential(turn: DVec3) -> DQuat {
     DQuat::from_scaled_axis(turn)
 }
 
-/// Returns the angular velocity, along the body's axes, of a changing rotation vector.
+/// Returns the angular velocity, along the body's axes, of the rotation vector `turn` that changes at the rate
+/// `change`.
 fn jacobian(turn: DVec3, change: DVec3) -> DVec3 {
     let angle = turn.length();
     // The first terms of both series; the next ones are below rounding.
@@ -214,7 +215,8 @@ fn jacobian(turn: DVec3, change: DVec3) -> DVec3 {
     change - first * turn.cross(change) + second * turn.cross(turn.cross(change))
 }
 
-/// The inverse of [`jacobian`].
+/// Returns the rate of change of a rotation vector for an angular velocity along the body's axes: the inverse of
+/// [`jacobian`].
 fn inverse_jacobian(turn: DVec3, spin: DVec3) -> DVec3 {
     let angle = turn.length();
     let second = if angle < 1e-4 {

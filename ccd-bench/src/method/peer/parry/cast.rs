@@ -26,7 +26,7 @@ use anyhow::Result;
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 
-/// Two meshes to cast. It does not report steps.
+/// Two meshes as parry's shapes, to be cast against each other. It does not report steps.
 #[derive(Clone, Debug)]
 pub struct Cast {
     a: TriMesh,
@@ -34,7 +34,7 @@ pub struct Cast {
 }
 
 impl Cast {
-    /// Prepares two meshes.
+    /// Converts two meshes to parry's shapes.
     ///
     /// # Errors
     /// If the library refuses a mesh.

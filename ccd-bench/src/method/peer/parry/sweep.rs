@@ -35,7 +35,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 use std::f64::consts::FRAC_PI_4;
 
-/// Two meshes to sweep. Steps are the segments examined.
+/// Two meshes whose triangles are swept against each other. Steps are the segments examined.
 #[derive(Clone, Debug)]
 pub struct SweptPairs {
     a: Swept,
@@ -50,11 +50,11 @@ const SHARE_OF_TURN: f64 = 0.25;
 const LARGEST_TURN: f64 = FRAC_PI_4;
 /// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
 const LONGEST_TRAVEL: f64 = 0.5;
-/// The maximum number of segments; longer motions are refused.
+/// The maximum number of segments of a motion; longer motions are refused.
 const MOST_SEGMENTS: f64 = 65_536.0;
 
 impl SweptPairs {
-    /// Prepares two meshes.
+    /// Converts two meshes, with their bounding boxes.
     ///
     /// # Errors
     /// If the library refuses a mesh.
@@ -65,12 +65,12 @@ impl SweptPairs {
         })
     }
 
-    /// Returns the number of segments of a query, or `None` if there are too many.
+    /// Returns the number of segments that a query is cut into; `None` if there are too many.
     fn segments(&self, query: &Motions, tolerance: f64) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
-            turn / turn_within(body.reach(motion), tolerance)
+            turn / largest_turn(body.reach(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
         let travel =
@@ -79,7 +79,7 @@ impl SweptPairs {
         (count <= MOST_SEGMENTS).then_some(count as u64)
     }
 
-    /// Returns the time in a segment at which triangles first meet, as a fraction of it.
+    /// Returns the first time in a segment at which triangles meet, as a fraction of the segment.
     fn first_hit(&self, query: &Motions, tolerance: f64, [from, to]: [f64; 2]) -> Option<Real> {
         let a = self.a.segment(&query.a, from, to);
         let b = self.b.segment(&query.b, from, to);
@@ -87,13 +87,13 @@ impl SweptPairs {
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];
-        let slack = a.bulge + b.bulge + tolerance as Real;
-        let swept_a = |aabb: Aabb| boxed(&aabb, &in_frame_a).loosened(slack);
+        let slack = a.path_deviation + b.path_deviation + tolerance as Real;
+        let swept_a = |aabb: Aabb| swept_box(&aabb, &in_frame_a).loosened(slack);
         let swept_b = |aabb: Aabb| {
             if still {
                 aabb
             } else {
-                boxed(&aabb, &in_frame_b)
+                swept_box(&aabb, &in_frame_b)
             }
         };
         let pairs = self
@@ -136,21 +136,21 @@ impl Solver for SweptPairs {
     }
 }
 
-/// A mesh and its bounding box.
+/// A mesh with its bounding box, in the body's frame.
 #[derive(Clone, Debug)]
 struct Swept {
     mesh: TriMesh,
-    /// The corners of the box.
+    /// The lowest and the highest corner of the box.
     corners: [DVec3; 2],
     radius: f64,
 }
 
-/// The motion of a body over a segment.
+/// The motion of a body over a segment of time.
 struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
     /// The largest distance of the body's points from the straight line between start and end.
-    bulge: Real,
+    path_deviation: Real,
 }
 
 impl Swept {
@@ -177,7 +177,7 @@ impl Swept {
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
             // adds less than that.
-            bulge: (0.25 * self.reach(motion) * turn * turn) as Real,
+            path_deviation: (0.25 * self.reach(motion) * turn * turn) as Real,
         }
     }
 
@@ -187,16 +187,16 @@ impl Swept {
     }
 }
 
-/// Returns the largest rotation of a body in a segment.
-fn turn_within(reach: f64, tolerance: f64) -> f64 {
+/// Returns the largest rotation, in radians, that a body may make in a segment.
+fn largest_turn(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
     let off = SHARE_OF_TURN * tolerance / (0.2567 * 1.1 * reach);
     lesser(LARGEST_TURN, 4.0 * off.cbrt())
 }
 
-/// Returns the box that contains a box at the start and at the end.
-fn boxed(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
+/// Returns the box that contains a body's box at the start and at the end of a segment.
+fn swept_box(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))
 }

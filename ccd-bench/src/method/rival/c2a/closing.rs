@@ -9,13 +9,13 @@ use ccd_core::glam::{DMat3, DVec3};
 pub(super) struct Closing {
     a: Spin,
     b: Spin,
-    /// The velocity of A's centre relative to B's, in the world.
+    /// The velocity of A's centre relative to B's, in the world frame.
     velocity_w: DVec3,
-    /// The same velocity in A's frame.
+    /// The velocity of A's centre relative to B's, in A's frame.
     velocity: DVec3,
-    /// B's axis in the world.
+    /// B's axis of rotation in the world frame.
     axis_b_w: DVec3,
-    /// The same axis in A's frame.
+    /// B's axis of rotation in A's frame.
     axis_b: DVec3,
 }
 
@@ -23,11 +23,12 @@ pub(super) struct Closing {
 #[derive(Clone, Debug)]
 struct Spin {
     centre: DVec3,
-    /// The axis in the body's frame, where it is fixed.
+    /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
     rate: f64,
-    /// The lever of each node, with the number of the motion for which it was computed.
-    levers: Vec<(u64, f64)>,
+    /// For each node, the greatest distance of its points from the axis, with the number of the motion for which it was
+    /// computed.
+    axis_distances: Vec<(u64, f64)>,
     motion: u64,
 }
 
@@ -43,7 +44,7 @@ impl Closing {
         }
     }
 
-    /// Sets the motions of a query.
+    /// Sets the motions of both bodies in a query.
     pub(super) fn begin(&mut self, a: &RivalMotion, b: &RivalMotion) {
         self.a.begin(a);
         self.b.begin(b);
@@ -51,22 +52,22 @@ impl Closing {
         self.axis_b_w = b.axis;
     }
 
-    /// Sets body A's placement as the frame of directions.
-    pub(super) fn look_from(&mut self, frame_a: &Placement) {
+    /// Sets the placement of body A, in whose frame directions are given.
+    pub(super) fn set_frame(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
         self.velocity = to_a * self.velocity_w;
         self.axis_b = to_a * self.axis_b_w;
     }
 
-    /// Returns a time during which two nodes, or triangles in them, do not touch. It is the time to close their gap
-    /// along its direction, which is fixed, at the speed
+    /// Returns a time during which two nodes, and the triangles in them, do not touch. It is the time to close their
+    /// gap along its direction, which is fixed, at the speed
     ///
     /// `v·n + |n × ω_A| l_A + |n × ω_B| l_B`
     ///
     /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds for turns of
     /// any size, since the distance of a point from the axis does not change.
     #[inline]
-    pub(super) fn step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
+    pub(super) fn safe_step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
         if !(gap.distance > 0.0) {
             return 0.0;
         }
@@ -88,7 +89,7 @@ impl Spin {
             centre: DVec3::ZERO,
             axis: DVec3::Z,
             rate: 0.0,
-            levers: vec![(0, 0.0); tree.len()],
+            axis_distances: vec![(0, 0.0); tree.len()],
             motion: 0,
         }
     }
@@ -110,9 +111,12 @@ impl Spin {
         if self.rate == 0.0 {
             return 0.0;
         }
-        let lever = &mut self.levers[node as usize];
+        let lever = &mut self.axis_distances[node as usize];
         if lever.0 != self.motion {
-            *lever = (self.motion, tree.lever(node, self.centre, self.axis));
+            *lever = (
+                self.motion,
+                tree.axis_distance(node, self.centre, self.axis),
+            );
         }
         self.rate * across.length() * lever.1
     }

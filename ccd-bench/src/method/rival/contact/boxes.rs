@@ -1,4 +1,4 @@
-//! The continuous overlap test of two oriented boxes.
+//! Tests continuously whether two oriented boxes overlap.
 
 use super::relative::Enclosure;
 use crate::method::rival::interval::cross_sum;
@@ -12,11 +12,11 @@ const COSINE_SLACK: f64 = 1e-14;
 /// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
-    /// The boxes do not meet.
+    /// The boxes do not meet in the interval.
     Apart,
-    /// No axis separates them over the whole interval.
+    /// No axis is found that separates the boxes over the whole interval.
     Near {
-        /// The width of the enclosure of the motion, as a length: the radius of a corner's position.
+        /// The radius of the enclosure of a corner's position over the interval, as a length.
         spread: f64,
     },
 }
@@ -65,7 +65,7 @@ pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
     }
 }
 
-/// Returns upper bounds of the absolute values of cosines.
+/// Returns upper bounds of the absolute values of cosines that are known to within a radius.
 fn upper_cosines(cos: DMat3, radius: DMat3) -> DMat3 {
     let upper =
         |c: DVec3, r: DVec3| (c.abs() + r + COSINE_SLACK).min(DVec3::splat(1.0 + COSINE_SLACK));

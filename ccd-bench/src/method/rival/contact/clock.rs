@@ -2,18 +2,18 @@
 
 use super::relative::{Enclosure, Relative, Span};
 
-/// The largest number of halvings: intervals of 2⁻⁵² of the duration are the resolution of numbers.
+/// The maximum number of times that the duration is halved: 2⁻⁵² of it is the resolution of numbers.
 pub(super) const MAX_LEVEL: usize = 52;
 
-/// An interval from repeated halving, perhaps cut short at its end.
+/// An interval of time from repeated halving, perhaps cut short at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slice {
+pub(super) struct HalvedInterval {
     pub(super) span: Span,
-    /// The number of halvings that led to the interval.
+    /// The number of halvings that led to this interval.
     pub(super) level: usize,
 }
 
-/// A cache of the last enclosure at every level, because the search stays within one interval for many pairs.
+/// Encloses the motion over intervals of time, with a cache of the last enclosure at each level of halving.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     relative: Relative,
@@ -21,7 +21,7 @@ pub(super) struct Clock {
     most_halvings: u64,
     placements: Vec<CachedEnclosure>,
     rates: Vec<CachedEnclosure>,
-    /// The number of halvings so far.
+    /// The number of halvings made so far.
     pub(super) halvings: u64,
 }
 
@@ -31,20 +31,20 @@ struct CachedEnclosure {
     enclosure: Enclosure,
 }
 
-impl Slice {
+impl HalvedInterval {
     /// Returns the interval from 0 to `end`.
     pub(super) fn whole(end: f64) -> Self {
-        Slice {
+        HalvedInterval {
             span: Span { start: 0.0, end },
             level: 0,
         }
     }
 
-    /// Returns the first half and the second.
-    pub(super) fn halves(self) -> [Slice; 2] {
+    /// Returns the first and the second half of the interval.
+    pub(super) fn halves(self) -> [HalvedInterval; 2] {
         let Span { start, end } = self.span;
         let middle = self.span.middle();
-        [(start, middle), (middle, end)].map(|(start, end)| Slice {
+        [(start, middle), (middle, end)].map(|(start, end)| HalvedInterval {
             span: Span { start, end },
             level: self.level + 1,
         })
@@ -74,39 +74,45 @@ impl Clock {
         }
     }
 
-    /// Returns the motion.
+    /// Returns the relative motion of the two bodies.
     pub(super) fn relative(&self) -> &Relative {
         &self.relative
     }
 
-    /// Returns the width at which halving ends.
+    /// Returns the width at which intervals are no longer halved.
     pub(super) fn resolution(&self) -> f64 {
         self.resolution
     }
 
     /// Returns true if an interval must not be halved.
-    pub(super) fn is_short(&self, slice: Slice) -> bool {
-        !(slice.span.width() > self.resolution) || slice.level >= MAX_LEVEL
+    pub(super) fn is_shortest(&self, interval: HalvedInterval) -> bool {
+        !(interval.span.width() > self.resolution) || interval.level >= MAX_LEVEL
     }
 
-    /// Returns true if the limit of halvings is reached.
-    pub(super) fn is_spent(&self) -> bool {
+    /// Returns true if the limit on the number of halvings is reached.
+    pub(super) fn is_at_limit(&self) -> bool {
         self.halvings >= self.most_halvings
     }
 
     /// Returns the enclosure of all placements over an interval.
-    pub(super) fn placements(&mut self, slice: Slice) -> &Enclosure {
-        self.placements[slice.level].of(slice.span, |span| self.relative.over(span))
+    pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
+        self.placements[interval.level]
+            .enclosure_over(interval.span, |span| self.relative.over(span))
     }
 
     /// Returns the enclosure of all rates of change over an interval.
-    pub(super) fn rates(&mut self, slice: Slice) -> &Enclosure {
-        self.rates[slice.level].of(slice.span, |span| self.relative.rates_over(span))
+    pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
+        self.rates[interval.level]
+            .enclosure_over(interval.span, |span| self.relative.rates_over(span))
     }
 }
 
 impl CachedEnclosure {
-    fn of(&mut self, span: Span, enclosure: impl FnOnce(Span) -> Enclosure) -> &Enclosure {
+    fn enclosure_over(
+        &mut self,
+        span: Span,
+        enclosure: impl FnOnce(Span) -> Enclosure,
+    ) -> &Enclosure {
         if self.span != span {
             self.span = span;
             self.enclosure = enclosure(span);

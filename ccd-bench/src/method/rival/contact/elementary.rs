@@ -1,4 +1,4 @@
-//! The continuous elementary tests: a corner against a face, an edge against an edge.
+//! The elementary tests of two triangles in motion: a corner against a face, an edge against an edge.
 
 use super::relative::Enclosure;
 use crate::method::rival::Placement;
@@ -17,20 +17,20 @@ pub(super) struct Facet {
     inward: [DVec3; 3],
 }
 
-/// One elementary test of a pair of triangles.
+/// An elementary test of one feature of each of two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Test {
     /// A corner of the first triangle against the second's face.
     CornerFace(usize),
-    /// The first's face against a corner of the second.
+    /// The face of the first triangle against a corner of the second.
     FaceCorner(usize),
-    /// An edge of each triangle.
+    /// An edge of the first triangle against an edge of the second.
     EdgeEdge(usize, usize),
 }
 
-/// The set of tests that may still have a root.
+/// The set of elementary tests that may still have a root, as bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Open(u16);
+pub(super) struct OpenTests(u16);
 
 /// Two triangles; the second is at rest in the frame of the enclosures.
 #[derive(Clone, Copy, Debug)]
@@ -60,10 +60,10 @@ impl Facet {
 }
 
 impl Test {
-    /// The number of tests.
-    const COUNT: usize = 15;
+    /// The number of elementary tests of two triangles.
+    const TEST_COUNT: usize = 15;
 
-    /// Returns a test by its number: corners first, then faces, then pairs of edges.
+    /// Returns the test with the given number: corners first, then faces, then pairs of edges.
     fn numbered(number: usize) -> Test {
         match number {
             0..3 => Test::CornerFace(number),
@@ -73,20 +73,20 @@ impl Test {
     }
 }
 
-impl Open {
-    /// The empty set.
-    const NONE: Open = Open(0);
+impl OpenTests {
+    /// The set without any test.
+    const NONE: OpenTests = OpenTests(0);
 
-    /// The set of all tests.
-    pub(super) const ALL: Open = Open((1 << Test::COUNT) - 1);
+    /// The set of all elementary tests.
+    pub(super) const ALL: OpenTests = OpenTests((1 << Test::TEST_COUNT) - 1);
 
-    /// Returns true if the set is empty.
+    /// Returns true if no test is in the set.
     pub(super) fn is_empty(self) -> bool {
         self.0 == 0
     }
 
     /// Returns the tests of the set for which `holds` is true.
-    pub(super) fn keep(self, mut holds: impl FnMut(Test) -> bool) -> Open {
+    pub(super) fn filter(self, mut holds: impl FnMut(Test) -> bool) -> OpenTests {
         let (mut kept, mut left) = (0, self.0);
         while left != 0 {
             let k = left.trailing_zeros();
@@ -95,14 +95,14 @@ impl Open {
             }
             left &= left - 1;
         }
-        Open(kept)
+        OpenTests(kept)
     }
 }
 
 impl Triangles {
     /// Returns the contact function of a test at a placement. It is zero where the corner meets the
     /// plane, or where both lines meet.
-    pub(super) fn value(&self, test: Test, at: &Placement) -> f64 {
+    pub(super) fn contact_function(&self, test: Test, at: &Placement) -> f64 {
         let (a, b) = (&self.a, &self.b);
         match test {
             Test::CornerFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
@@ -118,7 +118,12 @@ impl Triangles {
 
     /// Returns the enclosure of the rate of change of a contact function over the interval of the
     /// enclosures.
-    pub(super) fn rate(&self, test: Test, now: &Enclosure, rates: &Enclosure) -> Interval {
+    pub(super) fn contact_function_rate(
+        &self,
+        test: Test,
+        now: &Enclosure,
+        rates: &Enclosure,
+    ) -> Interval {
         let (a, b) = (&self.a, &self.b);
         match test {
             Test::CornerFace(i) => rates.point(a.corners[i]).dot_point(b.normal),
@@ -139,19 +144,19 @@ impl Triangles {
     /// Returns the given tests that may have a root over the interval of the enclosure.
     ///
     /// The result is empty if all corners of one triangle stay on one side of the other's plane.
-    pub(super) fn open(&self, tests: Open, now: &Enclosure) -> Open {
+    pub(super) fn open_tests(&self, tests: OpenTests, now: &Enclosure) -> OpenTests {
         let (a, b) = (&self.a, &self.b);
         let corners = a.corners.map(|corner| now.point(corner));
         let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_point(b.normal));
-        if one_side(over_b) {
-            return Open::NONE;
+        if have_same_sign(over_b) {
+            return OpenTests::NONE;
         }
         let normal = now.rotation * a.normal;
         let over_a = b.corners.map(|x| from_point(x, corners[0]).dot(normal));
-        if one_side(over_a) {
-            return Open::NONE;
+        if have_same_sign(over_a) {
+            return OpenTests::NONE;
         }
-        tests.keep(|test| match test {
+        tests.filter(|test| match test {
             Test::CornerFace(i) => {
                 !(b.is_flat() || over_b[i].excludes_zero()) && self.may_be_in_b(corners[i])
             }
@@ -194,11 +199,11 @@ impl Triangles {
             return false;
         }
         let at_s = w.cross_point(g);
-        if exceeds(at_s, c) {
+        if excludes_multiples(at_s, c) {
             return false;
         }
         let at_u = w.cross(e);
-        if exceeds(at_u, c) {
+        if excludes_multiples(at_u, c) {
             return false;
         }
         let (along, of_e, of_g) = (w.dot_point(g), e.dot_point(g), g.length_squared());
@@ -233,12 +238,12 @@ fn from_point(point: DVec3, from: IntervalVec) -> IntervalVec {
     }
 }
 
-/// Returns true if all three are positive or all three negative.
-fn one_side(values: [Interval; 3]) -> bool {
+/// Returns true if three intervals are all positive or all negative.
+fn have_same_sign(values: [Interval; 3]) -> bool {
     values.iter().all(|value| value.low() > 0.0) || values.iter().all(|value| value.high() < 0.0)
 }
 
-/// Returns true if `part` cannot contain a multiple between 0 and 1 of any vector in `whole`.
-fn exceeds(part: IntervalVec, whole: IntervalVec) -> bool {
+/// Returns true if `part` cannot contain a vector of `whole` scaled by a factor from 0 to 1.
+fn excludes_multiples(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.smallest() - whole.largest()).max_element() > 0.0
 }

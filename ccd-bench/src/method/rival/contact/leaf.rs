@@ -1,47 +1,51 @@
 //! Finds the first contact of two triangles in an interval of time.
 
-use super::clock::{Clock, MAX_LEVEL, Slice};
-use super::elementary::{Open, Test, Triangles};
+use super::clock::{Clock, HalvedInterval, MAX_LEVEL};
+use super::elementary::{OpenTests, Test, Triangles};
 use super::relative::Span;
 use ccd_core::order::{greater, lesser};
 
-/// The result for two triangles over an interval of time.
+/// When two triangles first touch in an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Touch {
-    /// The triangles touch at this time, and not before.
+    /// The triangles first touch at this time.
     At(f64),
-    /// The triangles do not touch.
+    /// The triangles do not touch in the interval.
     Never,
-    /// The work limit was reached.
+    /// The work limit was reached before it was decided.
     Unknown,
 }
 
-/// Returns the first root of all elementary tests. Time is halved, the first half first, until
-/// every test is excluded, or its contact function is monotone so that signs find its root, or the
+/// Returns when two triangles first touch: the first root of all elementary tests. Time is halved, the first half
+/// first, until every test is excluded, or its contact function is monotone so that signs find its root, or the
 /// interval is as short as the resolution \[CONTACT02\].
-pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock) -> Touch {
+pub(super) fn first_touch(
+    triangles: &Triangles,
+    interval: HalvedInterval,
+    clock: &mut Clock,
+) -> Touch {
     let mut first = Touch::Never;
     // The stack holds at most one second half of every level, and both halves of the last.
-    let mut stack = [(slice, Open::ALL); MAX_LEVEL + 2];
+    let mut stack = [(interval, OpenTests::ALL); MAX_LEVEL + 2];
     let mut height = 1;
     while let Some(below) = usize::checked_sub(height, 1) {
         height = below;
-        let (mut slice, open) = stack[height];
+        let (mut interval, open) = stack[height];
         if let Touch::At(time) = first {
-            slice.span.end = lesser(slice.span.end, time);
+            interval.span.end = lesser(interval.span.end, time);
         }
-        if !(slice.span.width() > 0.0 || first == Touch::Never) {
+        if !(interval.span.width() > 0.0 || first == Touch::Never) {
             continue;
         }
-        let open = triangles.open(open, clock.placements(slice));
+        let open = triangles.open_tests(open, clock.placements(interval));
         if open.is_empty() {
             continue;
         }
-        if clock.is_short(slice) {
-            first = Touch::At(slice.span.start);
+        if clock.is_shortest(interval) {
+            first = Touch::At(interval.span.start);
             continue;
         }
-        let open = open.keep(|test| match root(triangles, test, slice, clock) {
+        let open = open.filter(|test| match root(triangles, test, interval, clock) {
             Root::Several => true,
             Root::None => false,
             Root::At(time) => {
@@ -50,11 +54,11 @@ pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock
             }
         });
         if !open.is_empty() {
-            if clock.is_spent() {
+            if clock.is_at_limit() {
                 return Touch::Unknown;
             }
             clock.halvings += 1;
-            let [early, late] = slice.halves();
+            let [early, late] = interval.halves();
             stack[height] = (late, open);
             stack[height + 1] = (early, open);
             height += 2;
@@ -70,22 +74,22 @@ fn earlier(first: Touch, time: f64) -> Touch {
     }
 }
 
-/// The roots of a contact function at which the features meet.
+/// The roots of a contact function in an interval at which the features meet.
 enum Root {
     None,
     At(f64),
-    /// There may be several roots.
+    /// The function may have several roots in the interval.
     Several,
 }
 
-/// Returns the root of a function that is monotone over the interval, if it is known to be.
-fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> Root {
-    let rates = *clock.rates(slice);
-    let rate = triangles.rate(test, clock.placements(slice), &rates);
+/// Returns the root of a contact function over the interval, if the function is known to be monotone.
+fn root(triangles: &Triangles, test: Test, interval: HalvedInterval, clock: &mut Clock) -> Root {
+    let rates = *clock.rates(interval);
+    let rate = triangles.contact_function_rate(test, clock.placements(interval), &rates);
     if !rate.excludes_zero() {
         return Root::Several;
     }
-    let Some(found) = bracket(triangles, test, slice.span, clock) else {
+    let Some(found) = bracket(triangles, test, interval.span, clock) else {
         return Root::None;
     };
     // As wide as the resolution: features that meet at their borders do so except for rounding.
@@ -94,9 +98,9 @@ fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> R
         start: found.start - slack,
         end: found.end + slack,
     };
-    let only = Open::ALL.keep(|other| other == test);
+    let only = OpenTests::ALL.filter(|other| other == test);
     if triangles
-        .open(only, &clock.relative().over(around))
+        .open_tests(only, &clock.relative().over(around))
         .is_empty()
     {
         Root::None
@@ -105,14 +109,14 @@ fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> R
     }
 }
 
-/// The largest number of narrowings of a bracket. Every other one halves it, so 2·53 lead to
-/// neighbouring numbers.
+/// The maximum number of steps that narrow a bracket of a root. Every other one halves it, so 2·53 lead to neighbouring
+/// numbers.
 const MAX_NARROWINGS: usize = 110;
 
 /// Returns the root of a monotone function between two times, to within the resolution. Uses false
 /// position, and bisection after a step that leaves more than half.
 fn bracket(triangles: &Triangles, test: Test, span: Span, clock: &Clock) -> Option<Span> {
-    let value = |time: f64| triangles.value(test, &clock.relative().at(time));
+    let value = |time: f64| triangles.contact_function(test, &clock.relative().at(time));
     let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);
     if ends[0] * ends[1] > 0.0 {
         return None;

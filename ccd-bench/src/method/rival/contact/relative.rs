@@ -4,7 +4,7 @@ use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// The motion of the first body in the frame of the second, both about their reference points.
+/// The motion of the first body in the frame of the second, each about a reference point.
 ///
 /// For a point `x` of the first body relative to its reference point, `rotation(t) x + offset(t)`
 /// is the same point relative to the reference point of the second body, along that body's axes.
@@ -54,7 +54,7 @@ impl Span {
 }
 
 impl Relative {
-    /// Combines two motions; the reference points are given in each body's frame.
+    /// Combines the motions of two bodies, each with its reference point in the body's frame.
     pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not rotate then needs no
         // inverse rotation.
@@ -71,7 +71,7 @@ impl Relative {
         relative
     }
 
-    /// Returns the placement at a time.
+    /// Returns the placement of the first body in the second one's frame at a time.
     pub(super) fn at(&self, time: f64) -> Placement {
         let (first, position_first) = self.first.at(time);
         let (second, position_second) = self.second.at(time);
@@ -147,7 +147,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the position of the reference point of a body that does not rotate, without the linear motion.
+    /// Returns the position of the reference point of a body that does not rotate, without its linear motion.
     fn still_position(&self) -> DVec3 {
         self.from + self.fixed * self.lever
     }
@@ -161,15 +161,15 @@ impl BodyMotion {
 
     fn over(&self, span: Span) -> (IntervalMat, IntervalVec) {
         let half = 0.5 * span.width();
-        let (cos, sin) = self.turned(span.middle());
+        let (cos, sin) = self.coefficients_at(span.middle());
         let arc = Arc::new(self.rate * half);
-        let turning = swing(cos, sin, arc);
+        let turning = rotation_over(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.fixed + turning.middle,
             radius: turning.radius,
         };
         let straight = self.from + self.velocity * span.middle() + self.fixed * self.lever;
-        let round = swing_vec(cos * self.lever, sin * self.lever, arc);
+        let round = vector_rotation_over(cos * self.lever, sin * self.lever, arc);
         let position = IntervalVec {
             middle: straight + round.middle,
             radius: self.velocity.abs() * half + round.radius,
@@ -178,19 +178,19 @@ impl BodyMotion {
     }
 
     fn rates_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
-        let (cos, sin) = self.turned(span.middle());
+        let (cos, sin) = self.coefficients_at(span.middle());
         let arc = Arc::new(self.rate * 0.5 * span.width());
         let (cos, sin) = (sin * self.rate, cos * -self.rate);
-        let round = swing_vec(cos * self.lever, sin * self.lever, arc);
+        let round = vector_rotation_over(cos * self.lever, sin * self.lever, arc);
         let velocity = IntervalVec {
             middle: self.velocity + round.middle,
             radius: round.radius,
         };
-        (swing(cos, sin, arc), velocity)
+        (rotation_over(cos, sin, arc), velocity)
     }
 
     /// Returns the coefficients of cosine and sine for an angle counted from the angle at `time`.
-    fn turned(&self, time: f64) -> (DMat3, DMat3) {
+    fn coefficients_at(&self, time: f64) -> (DMat3, DMat3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         (
             self.cos * cos + self.sin * sin,
@@ -204,7 +204,7 @@ fn columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
 }
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc.
-fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
+fn rotation_over(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
     let Interval { middle, radius } = arc.cos;
     IntervalMat {
         middle: cos * middle,
@@ -212,8 +212,8 @@ fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
     }
 }
 
-/// Like [`swing`], for vectors.
-fn swing_vec(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
+/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc, for vectors.
+fn vector_rotation_over(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {
         middle: cos * middle,

@@ -1,6 +1,6 @@
 use super::DynamicChecker;
 use crate::method::rival::tests::trials::{
-    assert_exact_scenes, assert_gives_up, assert_shots, hovering, knot_216,
+    assert_exact_scenes, assert_gives_up, assert_shots, boxes_rotating_past, knot_216,
 };
 use crate::method::solver::{Claim, Solver};
 use crate::scene::model::Board;
@@ -32,14 +32,14 @@ fn work_without_end_is_given_up() {
 
 #[test]
 fn motions_beyond_numbers_are_given_up() {
-    let (a, b, mut query) = hovering();
+    let (a, b, mut query) = boxes_rotating_past();
     query.a = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1e308 * DVec3::Z).unwrap();
     query.duration = 1e10;
     let reply = DynamicChecker::new(&a, &b).answer(&query, 1e-3);
     assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
 }
 
-/// The bodies touch at a halving time, and all earlier segments are free up to rounding.
+/// Tests bodies that touch at a halving time, when all earlier segments are free up to rounding.
 #[test]
 fn a_touch_at_a_halving_is_a_contact() {
     let cuboid = |x, y, z| Board {

@@ -1,18 +1,18 @@
 use super::*;
-use crate::method::rival::tests::samples::Samples;
+use crate::method::rival::tests::samples::RandomSource;
 use ccd_core::order::{greater, lesser};
 
-/// An allowance for rounding.
+/// The allowed error of a comparison, due to rounding.
 const SLACK: f64 = 1e-12;
 
-fn interval_vec(samples: &mut Samples) -> IntervalVec {
+fn interval_vec(samples: &mut RandomSource) -> IntervalVec {
     IntervalVec {
         middle: samples.vector(2.0),
         radius: samples.vector(1.0).abs(),
     }
 }
 
-fn interval_mat(samples: &mut Samples) -> IntervalMat {
+fn interval_mat(samples: &mut RandomSource) -> IntervalMat {
     let [a, b, c] = [(); 3].map(|()| interval_vec(samples));
     IntervalMat {
         middle: DMat3::from_cols(a.middle, b.middle, c.middle),
@@ -20,11 +20,11 @@ fn interval_mat(samples: &mut Samples) -> IntervalMat {
     }
 }
 
-fn member_vec(of: IntervalVec, samples: &mut Samples) -> DVec3 {
+fn member_vec(of: IntervalVec, samples: &mut RandomSource) -> DVec3 {
     of.middle + of.radius * samples.vector(1.0)
 }
 
-fn member_mat(of: IntervalMat, samples: &mut Samples) -> DMat3 {
+fn member_mat(of: IntervalMat, samples: &mut RandomSource) -> DMat3 {
     let column = |k: usize| IntervalVec {
         middle: of.middle.col(k),
         radius: of.radius.col(k),
@@ -44,7 +44,7 @@ fn has_vec(interval: IntervalVec, value: DVec3) -> bool {
 
 #[test]
 fn results_contain_those_of_members() {
-    let mut samples = Samples::new(1);
+    let mut samples = RandomSource::new(1);
     for _ in 0..2000 {
         let (u, v) = (interval_vec(&mut samples), interval_vec(&mut samples));
         let (m, n) = (interval_mat(&mut samples), interval_mat(&mut samples));

@@ -39,7 +39,10 @@ pub(in crate::method::rival) fn crossing(
     stack.push((0, 0));
     while let Some((i, j)) = stack.pop() {
         let (node_a, node_b) = (a.node(i), b.node(j));
-        if node_a.bounds.apart(&node_b.bounds, &between_origins) {
+        if node_a
+            .bounds
+            .is_separated_from(&node_b.bounds, &between_origins)
+        {
             continue;
         }
         match (node_a.content, node_b.content) {
@@ -63,15 +66,15 @@ pub(in crate::method::rival) fn crossing(
     Crossing::None
 }
 
-/// Returns true if A's node is to be opened, because B's is a leaf or smaller.
+/// Returns true if A's node is to be opened next, because B's is a leaf or smaller.
 fn other_is_smaller(other: Content, a: &Obb, b: &Obb) -> bool {
     matches!(other, Content::Triangle(_)) || a.half.max_element() > b.half.max_element()
 }
 
 impl Obb {
-    /// Returns true if one of the 15 axes separates this box, placed in the other's frame, from the
-    /// other \[OBBTREE96 §5\].
-    fn apart(&self, other: &Obb, placement: &Placement) -> bool {
+    /// Returns true if one of the 15 axes separates this box, placed in the frame of `other`, from that box \[OBBTREE96
+    /// §5\].
+    fn is_separated_from(&self, other: &Obb, placement: &Placement) -> bool {
         let into = other.axes.transpose();
         let t = into * (placement.apply(self.centre) - other.centre);
         let cos = into * (placement.rotation * self.axes);

@@ -1,6 +1,6 @@
 use super::*;
 use crate::method::rival::Placement;
-use crate::method::rival::tests::samples::Samples;
+use crate::method::rival::tests::samples::RandomSource;
 use crate::method::rival::triangles_cross::triangles_cross;
 use crate::scene::model::Model;
 
@@ -70,7 +70,7 @@ fn crossings_are_those_of_all_pairs_of_triangles() {
         .iter()
         .map(|face| face.map(|v| mesh.vertices()[v as usize]))
         .collect();
-    let mut samples = Samples::new(4);
+    let mut samples = RandomSource::new(4);
     let (mut stack, mut crossings) = (Vec::new(), 0);
     for _ in 0..60 {
         let placement = Placement {

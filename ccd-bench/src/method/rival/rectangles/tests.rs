@@ -11,8 +11,8 @@ fn random_vec(rng: &mut Pcg64, size: f64) -> DVec3 {
     size * DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Returns random rectangles. A side may be zero, and a turn may be a multiple of a right angle,
-/// exactly or nearly.
+/// Returns two random rectangles, and the placement of the second in the first one's frame. A side may be zero, and a
+/// turn may be a multiple of a right angle, exactly or nearly.
 fn random_pair(rng: &mut Pcg64) -> (DVec2, DVec2, Placement) {
     let mut lengths = || {
         DVec2::from_array([0, 1].map(|_| match rng.random_range(0..6) {
@@ -43,16 +43,16 @@ fn corners(lengths: DVec2, placement: &Placement) -> [DVec3; 4] {
         .map(|(x, y)| placement.apply(DVec3::new(x * lengths.x, y * lengths.y, 0.0)))
 }
 
-const HERE: Placement = Placement {
+const IDENTITY: Placement = Placement {
     rotation: DMat3::IDENTITY,
     translation: DVec3::ZERO,
 };
 
-/// Returns the distance computed with each rectangle as two triangles.
+/// Returns the distance of two rectangles, computed with each rectangle as two triangles.
 fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
-    for half_a in halves(corners(a, &HERE)) {
+    for half_a in halves(corners(a, &IDENTITY)) {
         for half_b in halves(corners(b, placement)) {
             least = lesser(least, nearest(&half_a, &half_b).between().length());
         }
@@ -60,7 +60,7 @@ fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     least
 }
 
-/// Returns the distance computed by coordinate descent over the four coordinates of the two points.
+/// Returns the distance of two rectangles, computed by coordinate descent over the coordinates of one point in each.
 fn by_descent(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let axes = [
         DVec3::X,
@@ -119,7 +119,7 @@ fn the_vector_is_the_shortest() {
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::INFINITY, lesser);
-            let high = corners(a, &HERE)
+            let high = corners(a, &IDENTITY)
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::NEG_INFINITY, greater);

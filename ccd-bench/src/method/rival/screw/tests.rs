@@ -1,15 +1,15 @@
 use super::*;
-use crate::method::rival::tests::samples::{Samples, query, still};
+use crate::method::rival::tests::samples::{RandomSource, query, still};
 use ccd_core::Pose;
 use ccd_core::order::lesser;
 
-fn off(a: Pose, b: Pose, point: DVec3) -> f64 {
+fn difference(a: Pose, b: Pose, point: DVec3) -> f64 {
     a.transform_point(point).distance(b.transform_point(point))
 }
 
 #[test]
 fn screws_start_and_end_where_the_motion_does() {
-    let mut samples = Samples::new(1);
+    let mut samples = RandomSource::new(1);
     let mut between = 0;
     for _ in 0..2000 {
         // The turn is at most 2.7 circles.
@@ -20,10 +20,10 @@ fn screws_start_and_end_where_the_motion_does() {
             let point = samples.vector(1.0);
             let sine = (0.5 * motion.spin().length()).sin().abs();
             let slack = 1e-12 / lesser(1.0, 10.0 * sine);
-            assert!(off(screw.pose(0.0), motion.pose(0.0), point) <= slack);
-            assert!(off(screw.pose(1.0), motion.pose(1.0), point) <= slack);
+            assert!(difference(screw.pose(0.0), motion.pose(0.0), point) <= slack);
+            assert!(difference(screw.pose(1.0), motion.pose(1.0), point) <= slack);
             assert!(screw.velocity().cross(screw.spin()).length() <= 1e-12 * screw.spin().length());
-            between += usize::from(off(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
+            between += usize::from(difference(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
         }
     }
     assert!(between > 2000, "in between they differ: {between}");
@@ -31,7 +31,7 @@ fn screws_start_and_end_where_the_motion_does() {
 
 #[test]
 fn points_of_the_axis_slide_along_it() {
-    let mut samples = Samples::new(2);
+    let mut samples = RandomSource::new(2);
     for _ in 0..200 {
         let screw = screw(&samples.query(3.0, 3.0)).unwrap().a;
         let centre = |t: f64| screw.pose(t).transform_point(screw.centre());
@@ -42,7 +42,7 @@ fn points_of_the_axis_slide_along_it() {
 
 #[test]
 fn translations_and_turns_about_the_centre_stay_as_they_are() {
-    let mut samples = Samples::new(3);
+    let mut samples = RandomSource::new(3);
     for _ in 0..100 {
         let translation = samples.motion(3.0, 1e-300);
         let translation = Motion::about(
@@ -71,7 +71,7 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
     let screw = screw(&query(motion, still(DVec3::ZERO))).unwrap();
     assert!((screw.a.centre().length() - 1e3).abs() < 1.0);
-    assert!(off(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
+    assert!(difference(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn overflow_is_an_error() {
 
 #[test]
 fn screws_are_distinguished_from_other_motions() {
-    let mut samples = Samples::new(4);
+    let mut samples = RandomSource::new(4);
     for _ in 0..200 {
         let given = samples.query(3.0, 3.0);
         assert!(!is_screw(&given));

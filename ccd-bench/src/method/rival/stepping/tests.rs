@@ -2,7 +2,7 @@ use super::*;
 use crate::method::rival::tests::samples::{cuboid, moving, query, still};
 use ccd_core::glam::{DQuat, DVec3};
 
-/// A cube of side 1 at height 3 falls by 4 onto a slab whose top is at height 0.
+/// Returns a query in which a cube of side 1 falls from height 3 at speed 4 onto a slab whose top is at height 0.
 fn fall() -> Motions {
     let a = moving(
         3.0 * DVec3::Z,

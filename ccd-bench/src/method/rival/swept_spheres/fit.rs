@@ -1,6 +1,6 @@
-//! Builds a tree: fits swept spheres to triangles, and splits sets of triangles.
+//! Builds a tree of swept spheres: fits them to triangles, and splits sets of triangles.
 
-use super::{Below, Node, SphereTree, principal_axes};
+use super::{Node, NodeContent, SphereTree, principal_axes};
 use crate::method::rival::Placement;
 use crate::method::rival::triangles_apart::Triangle;
 use ccd_core::glam::{DMat3, DVec2, DVec3};
@@ -10,8 +10,8 @@ use std::ops::Range;
 /// The relative increase of radii, which covers the rounding here and in computations with the tree.
 const ROUNDING: f64 = 1e-14;
 
-/// Returns the tree over triangles, which are sorted into the order of the leaves.
-pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
+/// Builds the tree over triangles, and sorts these into the order of the leaves.
+pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> SphereTree {
     let mut tree = SphereTree {
         nodes: Vec::with_capacity(2 * triangles.len()),
         frames: Vec::with_capacity(2 * triangles.len()),
@@ -24,12 +24,12 @@ pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
     }
     while let Some((node, range, frame)) = waiting.pop() {
         if range.len() == 1 {
-            tree.nodes[node].below = Below::Triangle(range.start as u32);
+            tree.nodes[node].below = NodeContent::Triangle(range.start as u32);
             continue;
         }
-        let middle = part(&mut triangles, range.clone(), frame.rotation.x_axis);
+        let middle = partition(&mut triangles, range.clone(), frame.rotation.x_axis);
         let first = tree.nodes.len();
-        tree.nodes[node].below = Below::Children(first as u32);
+        tree.nodes[node].below = NodeContent::Children(first as u32);
         for (k, range) in [range.start..middle, middle..range.end]
             .into_iter()
             .enumerate()
@@ -54,7 +54,7 @@ impl SphereTree {
             placement: frame.seen_from(parent),
             lengths,
             radius,
-            below: Below::Triangle(0),
+            below: NodeContent::Triangle(0),
         });
         self.frames.push(frame);
         frame
@@ -62,9 +62,9 @@ impl SphereTree {
 }
 
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
-fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
-    /// The fraction of all triangles below which a side is too small.
-    const LOPSIDED: f64 = 1.0 / 16.0;
+fn partition(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
+    /// The smallest share of the triangles that a side may get.
+    const LEAST_SHARE: f64 = 1.0 / 16.0;
 
     let part = &mut triangles[range.clone()];
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);
@@ -72,7 +72,7 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     let mean = part.iter().map(along).sum::<f64>() / count as f64;
     part.sort_unstable_by(|s, t| along(s).total_cmp(&along(t)));
     let below = part.partition_point(|t| along(t) < mean);
-    let few = greater(1.0, LOPSIDED * count as f64) as usize;
+    let few = greater(1.0, LEAST_SHARE * count as f64) as usize;
     let below = if (few..=count - few).contains(&below) {
         below
     } else {
@@ -81,7 +81,8 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     range.start + below
 }
 
-/// Returns a rectangle across the direction in which triangles are thinnest, and the required radius \[PQP99 §3\].
+/// Fits a rectangle across the direction in which the triangles are thinnest, and returns it with the required radius
+/// \[PQP99 §3\].
 fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let (_, axes) = principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
@@ -91,14 +92,14 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     });
     let radius = 0.5 * (high.z - low.z);
     let middle = 0.5 * (high.z + low.z);
-    let mut shape = Stadium {
+    let mut shape = GrowingRectangle {
         low: DVec2::INFINITY,
         high: DVec2::NEG_INFINITY,
         middle,
         radius,
     };
     points().for_each(|p| shape.reach_sides(p));
-    shape.straighten();
+    shape.repair_crossed_sides();
     points().for_each(|p| shape.reach_corner(p));
     let farthest = points().map(|p| shape.distance(p)).fold(radius, greater);
     let extent = triangles
@@ -112,31 +113,30 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     (frame, shape.high - shape.low, farthest + ROUNDING * extent)
 }
 
-/// A rectangle in a plane z = `middle` that grows until all points are within the radius.
-struct Stadium {
+/// A rectangle in the plane z = `middle` that grows until all points are within the radius of it.
+struct GrowingRectangle {
     low: DVec2,
     high: DVec2,
     middle: f64,
     radius: f64,
 }
 
-impl Stadium {
-    /// Returns the distance from a point's foot in the plane at which the point is still within the
-    /// radius.
-    fn reach(&self, point: DVec3) -> f64 {
+impl GrowingRectangle {
+    /// Returns how far from a point's foot in the plane the rectangle may end with the point still within the radius.
+    fn foot_radius(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
-    /// Moves each side outwards, as a line, until a point is within the radius.
+    /// Moves each side outwards until a point is within the radius of the line along that side.
     fn reach_sides(&mut self, point: DVec3) {
-        let reach = self.reach(point);
+        let reach = self.foot_radius(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
     }
 
-    /// Repairs sides that have passed each other: every position between them is valid.
-    fn straighten(&mut self) {
+    /// Repairs sides that have passed each other, for which every position between them is valid.
+    fn repair_crossed_sides(&mut self) {
         let middle = 0.5 * (self.low + self.high);
         self.low = self.low.min(middle);
         self.high = self.high.max(middle);
@@ -155,7 +155,7 @@ impl Stadium {
         if out.min_element() > 0.0 {
             let along = 0.5 * (out.x + out.y);
             let aside = out - along;
-            let reach = self.reach(point);
+            let reach = self.foot_radius(point);
             let spare = greater(0.0, reach * reach - aside.length_squared());
             // The diagonal's direction is (1, 1) / √2.
             let push = along - (0.5 * spare).sqrt();

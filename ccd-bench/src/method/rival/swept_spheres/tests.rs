@@ -1,4 +1,4 @@
-use super::{Below, Pair, SphereTree, Trees, Under};
+use super::{NodeContent, Pair, PairChildren, SphereTree, Trees};
 use crate::method::rival::Placement;
 use crate::scene::model::Model;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -19,11 +19,13 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
     }
 }
 
-/// Returns the triangles below a node.
+/// Returns the indices of the triangles below a node.
 fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].below {
-        Below::Triangle(k) => vec![k],
-        Below::Children(first) => [triangles(tree, first), triangles(tree, first + 1)].concat(),
+        NodeContent::Triangle(k) => vec![k],
+        NodeContent::Children(first) => {
+            [triangles(tree, first), triangles(tree, first + 1)].concat()
+        }
     }
 }
 
@@ -70,7 +72,7 @@ fn no_split_is_lopsided() {
     let mesh = TriangleMesh::new((0..400).flat_map(corners).collect(), &faces).unwrap();
     let tree = SphereTree::new(&mesh);
     for (k, node) in tree.nodes.iter().enumerate() {
-        let Below::Children(first) = node.below else {
+        let NodeContent::Children(first) = node.below else {
             continue;
         };
         let all = triangles(&tree, k as u32).len();
@@ -92,7 +94,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
     for _ in 0..60 {
         let placement = random_placement(&mut rng);
         let mut pair: Pair = trees.roots(&placement).unwrap();
-        while let Under::Pairs(pairs) = trees.under(&pair) {
+        while let PairChildren::Pairs(pairs) = trees.children(&pair) {
             pair = pairs[rng.random_range(0..2)];
             let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
             if a.len() * b.len() > 3_000 {
@@ -144,7 +146,7 @@ fn levers_reach_all_points() {
             .flat_map(|&t| tree.triangles[t as usize])
             .map(|p| (p - centre).cross(axis).length())
             .fold(0.0, greater);
-        let lever = tree.lever(node, centre, axis);
+        let lever = tree.axis_distance(node, centre, axis);
         let size = tree.nodes[node as usize].size();
         assert!(
             farthest <= lever && lever <= farthest + size,

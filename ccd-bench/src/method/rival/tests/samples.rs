@@ -1,4 +1,4 @@
-//! Random vectors, triangles and motions for the rivals' tests, and distances by brute force.
+//! Makes random vectors, triangles and motions for the rivals' tests, and computes distances by brute force.
 
 use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
@@ -9,19 +9,19 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::table::motions::Motions;
 
-/// A source of random inputs.
-pub(in crate::method::rival) struct Samples(Pcg64);
+/// A generator of random vectors, rotations and motions.
+pub(in crate::method::rival) struct RandomSource(Pcg64);
 
-impl Samples {
+impl RandomSource {
     pub(in crate::method::rival) fn new(seed: u64) -> Self {
-        Samples(Pcg64::seed_from_u64(seed))
+        RandomSource(Pcg64::seed_from_u64(seed))
     }
 
     pub(in crate::method::rival) fn number(&mut self, low: f64, high: f64) -> f64 {
         self.0.random_range(low..high)
     }
 
-    /// Returns a random vector in a cube.
+    /// Returns a random vector in a cube about the origin, of half side `half`.
     pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.number(-half, half)))
     }
@@ -87,7 +87,7 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
     least
 }
 
-/// Returns the distance of a point from a triangle's plane, if its foot lies in the triangle.
+/// Returns the distance of a point from a triangle's plane, if the nearest point of the plane lies in the triangle.
 fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;
@@ -98,8 +98,8 @@ fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     }
 }
 
-/// Returns the distance of two segments: the least over their ends, and over the lines if the feet
-/// are inside.
+/// Returns the distance of two segments: the least over their ends, and over their lines if the nearest points lie on
+/// the segments.
 fn edge_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
     let to_segment = |x: DVec3, a: DVec3, b: DVec3| {
         let s = ((x - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! The tests that all rivals share: scenes with exact answers, and shots checked by brute force.
+//! Tests that all rivals share: scenes with exact answers, and shots checked by brute force.
 
 use crate::method::rival::patience::Patience;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
@@ -13,14 +13,14 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2};
 
-/// Two bodies, their motions, and the first contact.
-struct Exact {
+/// A test case: two bodies, their motions, and the exact first contact.
+struct ExactCase {
     name: &'static str,
     a: TriangleMesh,
     b: TriangleMesh,
     query: Motions,
     time: f64,
-    /// The closing speed at the contact point.
+    /// The closing speed at the contact point, in units of length per unit of time.
     closing_speed: f64,
 }
 
@@ -71,15 +71,15 @@ fn query(a: Motion, b: Motion) -> Motions {
     }
 }
 
-/// The half extents of a slab. Its near face is at the origin's height if it is lowered by its
+/// The half extents of a slab onto which bodies fall. Its near face is at the origin's height if it is lowered by its
 /// third half extent.
 const SLAB: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 
 /// The position of the slab, with its top at 0.
 const SUNK: DVec3 = DVec3::new(0.0, 0.0, -1.0);
 
-fn falling_boxes() -> Vec<Exact> {
-    let fall = |name, a, b, at_b, time| Exact {
+fn falling_boxes() -> Vec<ExactCase> {
+    let fall = |name, a, b, at_b, time| ExactCase {
         name,
         a,
         b,
@@ -111,15 +111,14 @@ fn falling_boxes() -> Vec<Exact> {
     ]
 }
 
-/// Returns rods of half length 2 and half width 0.05 whose corner meets a plane at a height, or
-/// another rod.
-fn turning_rods() -> Vec<Exact> {
+/// Returns cases of rotating rods of half length 2 and half width 0.05 whose corner meets a plane, or another rod.
+fn turning_rods() -> Vec<ExactCase> {
     let (length, width, height) = (2.0_f64, 0.05_f64, 1.2);
     let radius = length.hypot(width);
     let angle = |height: f64| (height / radius).asin() - width.atan2(length);
     // A corner at the radius rises as fast as its distance along.
     let rise = |height: f64| (radius * radius - height * height).sqrt();
-    let mut scenes = vec![Exact {
+    let mut scenes = vec![ExactCase {
         name: "rod on slab",
         a: boxed(DVec3::new(length, 0.3, width)),
         b: boxed(SLAB),
@@ -131,7 +130,7 @@ fn turning_rods() -> Vec<Exact> {
         closing_speed: PI * rise(height),
     }];
     for turns in [1.0, 1.9] {
-        scenes.push(Exact {
+        scenes.push(ExactCase {
             name: "rod on wall",
             a: boxed(DVec3::new(width, 0.3, length)),
             b: boxed(DVec3::new(1.0, 10.0, 10.0)),
@@ -145,7 +144,7 @@ fn turning_rods() -> Vec<Exact> {
     }
     let (apart, speed) = (3.0, 2.0);
     let rod = || boxed(DVec3::new(width, 0.3, length));
-    scenes.push(Exact {
+    scenes.push(ExactCase {
         name: "rod on rod",
         a: rod(),
         b: rod(),
@@ -160,14 +159,14 @@ fn turning_rods() -> Vec<Exact> {
     scenes
 }
 
-/// Returns a rotating rod with an edge along z that meets an edge of a post.
-fn rod_on_post() -> Exact {
+/// Returns the case of a rotating rod with an edge along z that meets an edge of a post.
+fn rod_on_post() -> ExactCase {
     let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
     let near = DVec3::new(at.cos(), at.sin(), 0.0);
     let outward = DMat3::from_rotation_z(at + FRAC_PI_4);
     // The edge of the post faces the rod: its diagonal points against the rod's velocity.
     let facing = DVec3::new(-at.sin(), at.cos(), 0.0);
-    Exact {
+    ExactCase {
         name: "rod on post",
         a: boxed(DVec3::new(length, width, 0.1)),
         b: turned_box(DVec3::new(0.1, 0.1, 0.5), outward),
@@ -210,7 +209,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     }
 }
 
-/// The distance of two knots over all pairs of triangles.
+/// Two torus knots whose distance is computed over all pairs of triangles.
 struct BruteForce {
     triangles: Vec<Triangle>,
     balls: Vec<(DVec3, f64)>,
@@ -314,7 +313,7 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
     give: impl Fn(&mut C, Patience),
 ) {
-    let (a, b, query) = hovering();
+    let (a, b, query) = boxes_rotating_past();
     let mut rival = rival(&a, &b);
     assert_eq!(rival.answer(&query, 1e-6).claim, Claim::Free);
     let short = [
@@ -338,7 +337,7 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
 }
 
 /// Returns two boxes that rotate past each other without contact, so close that the decision takes many steps.
-pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Motions) {
+pub(in crate::method::rival) fn boxes_rotating_past() -> (TriangleMesh, TriangleMesh, Motions) {
     // Its upright edges are at a distance of 1 from its axis.
     let turning = boxed(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(

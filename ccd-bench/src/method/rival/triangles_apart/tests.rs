@@ -8,7 +8,7 @@ fn random_vec(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Returns triangles with corners in the plane, on a grid, or anywhere, or twice the same triangle.
+/// Returns two triangles with corners in the plane, on a grid, or anywhere, or the same triangle twice.
 fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     let kind = rng.random_range(0..5);
     let mut triangle = |shift: DVec3| {
@@ -29,7 +29,7 @@ fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
 }
 
 /// Returns the distance of a point from a triangle, computed by points of the triangle `1/steps` of an edge apart.
-fn sampled(point: DVec3, [a, b, c]: &Triangle, steps: u32) -> f64 {
+fn distance_to_samples(point: DVec3, [a, b, c]: &Triangle, steps: u32) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..=steps {
         for j in 0..=steps - i {
@@ -94,7 +94,10 @@ fn samples_agree() {
                     f64::from(i) / f64::from(STEPS),
                     f64::from(j) / f64::from(STEPS),
                 );
-                least = lesser(least, sampled(p + u * (q - p) + v * (r - p), &b, STEPS));
+                least = lesser(
+                    least,
+                    distance_to_samples(p + u * (q - p) + v * (r - p), &b, STEPS),
+                );
             }
         }
         // Edges are at most √12 long, and some sample is within an edge's step of either point.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::method::rival::tests::samples::Samples;
+use crate::method::rival::tests::samples::RandomSource;
 
 /// Returns true if an edge of one triangle passes through the other, which every crossing in general position has.
 fn pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
@@ -20,7 +20,7 @@ fn pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
 
 #[test]
 fn the_test_agrees_with_edges_through_triangles() {
-    let mut samples = Samples::new(1);
+    let mut samples = RandomSource::new(1);
     let mut crossings = 0;
     for _ in 0..20_000 {
         let (a, b) = (samples.triangle(), samples.triangle());

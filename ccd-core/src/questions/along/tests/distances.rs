@@ -159,3 +159,38 @@ fn greatest_distances_hold_at_sampled_times_and_are_narrow() {
     }
     assert!(apart > 100 && within > 20, "{apart} {within}");
 }
+
+/// A body on a circle whose accelerations are said to be bounded by something that is no number.
+struct WithoutBound;
+
+impl Smooth for WithoutBound {
+    fn tangent(&self, t: f64) -> Result<Motion, InputError> {
+        let angle = std::f64::consts::TAU * t;
+        let start = crate::Pose::at(DVec3::new(2.0 + 3.0 * angle.sin(), 0.0, 0.0))?;
+        let velocity = 3.0 * std::f64::consts::TAU * angle.cos();
+        Motion::new(start, velocity * DVec3::X, DVec3::ZERO)
+    }
+
+    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+        Accelerations {
+            linear: f64::NAN,
+            angular: 0.0,
+        }
+    }
+}
+
+#[test]
+fn a_deviation_that_is_no_number_bounds_no_greatest_distance() {
+    let ball = Body::sphere(0.2).unwrap();
+    let far = Motion::still(crate::Pose::at(-10.0 * DVec3::X).unwrap());
+    let config = Settings {
+        budget: 1_000,
+        ..Settings::DEFAULT
+    };
+    let query = Query::new((&ball, &WithoutBound), (&ball, far), 1.0, &config).unwrap();
+    let answer = DepthFirst::default().greatest_distance(&query, &mut Exhaustive);
+    // The greatest distance is 14.6.
+    if let Ok(answer) = answer {
+        assert!(answer.outcome.upper() >= 14.6, "{answer:?}");
+    }
+}

@@ -2,7 +2,7 @@ use super::*;
 use crate::batch::median;
 use ccd_core::{Answer, Effort, Outcome, Stats};
 
-fn sum<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Summary {
+fn sum<'t>(answers: impl IntoIterator<Item = &'t TimedAnswer>, tolerance: f64) -> Summary {
     let mut summary = Summary::new(tolerance);
     answers
         .into_iter()
@@ -10,8 +10,8 @@ fn sum<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Summ
     summary
 }
 
-fn timed(micros: f64, tolerance: f64) -> Timed {
-    Timed {
+fn timed(micros: f64, tolerance: f64) -> TimedAnswer {
+    TimedAnswer {
         answer: Answer {
             outcome: Outcome::Free { proven_gap: 1.0 },
             tolerance,
@@ -32,7 +32,7 @@ fn timed(micros: f64, tolerance: f64) -> Timed {
 
 #[test]
 fn times_and_visits_are_summed() {
-    let answers: Vec<Timed> = (1..=100)
+    let answers: Vec<TimedAnswer> = (1..=100)
         .rev()
         .map(|micros| timed(f64::from(micros), 1e-3))
         .collect();
@@ -90,7 +90,7 @@ fn a_summary_without_rows_has_no_times() {
 #[test]
 fn the_median_of_many_times_has_a_relative_error_below_a_thousandth() {
     let mut times: Vec<f64> = (0..9999).map(|k| 0.37 * 1.003_f64.powi(k % 4001)).collect();
-    let answers: Vec<Timed> = times.iter().map(|&micros| timed(micros, 1e-3)).collect();
+    let answers: Vec<TimedAnswer> = times.iter().map(|&micros| timed(micros, 1e-3)).collect();
     let exact = median(&mut times);
     let reported = sum(&answers, 1e-3).median_micros();
     assert!(

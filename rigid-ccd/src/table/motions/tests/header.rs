@@ -1,4 +1,4 @@
-//! Headers, and files that are not tables.
+//! Tests headers, and files that are not tables.
 
 use super::*;
 use crate::table::courses::Courses;
@@ -94,7 +94,7 @@ fn columns_that_need_each_other_come_together() {
     assert!(MotionTable::read(&b"a_px,b_vy,a_wz,b_cx\n"[..]).is_ok());
 }
 
-/// A table of Euler angles, read without these columns, would describe another motion.
+/// Tests that columns of Euler angles are refused: without them, the table would describe another motion.
 #[test]
 fn angles_are_pointed_to_quaternions() {
     for (column, columns) in [

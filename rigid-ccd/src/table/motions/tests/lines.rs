@@ -1,4 +1,4 @@
-//! Lines, quotes and row numbers.
+//! Tests lines, quotes and row numbers.
 
 use super::*;
 
@@ -29,7 +29,7 @@ fn a_byte_order_mark_is_ignored() {
     assert_eq!(only_query("\u{feff}id\nx\n").id, "x");
 }
 
-/// Rows before the unclosed cell are read; rows after it are not read as the cell's content.
+/// Tests that rows before an unclosed quote are read, and that rows after it are not read as the cell's content.
 #[test]
 fn an_unclosed_quote_is_reported_where_it_opens() {
     for (text, rows, expected) in [
@@ -63,7 +63,7 @@ fn an_unclosed_quote_is_reported_where_it_opens() {
     ));
 }
 
-/// Closed quotes are legal, with many rows in the buffer after the current one.
+/// Tests closed quotes with many rows in the buffer after the current one.
 #[test]
 fn closed_quotes_are_legal() {
     let mut text = "id,a_px\n".to_owned();
@@ -75,7 +75,7 @@ fn closed_quotes_are_legal() {
     assert_eq!(table.rows[7].1.id, "7\n, \"x\"");
 }
 
-/// Messages give the line that an editor shows, for any kind of line end.
+/// Tests that messages give the line that an editor shows, for any kind of line end.
 #[test]
 fn lines_are_counted_as_editors_count_them() {
     let text = "\u{feff}\nid,a_px\n\nx1,x\n\n\n\"a\nb\",x\nx3,x\n  ,x\n\"c\n\n\",\"\n1\n\"\nlast,x";
@@ -98,9 +98,9 @@ fn lines_are_counted_as_editors_count_them() {
 }
 
 /// A reader of one byte at a time, which splits every pair of a return and a line feed.
-struct Drip<'a>(&'a [u8]);
+struct OneByteReader<'a>(&'a [u8]);
 
-impl io::Read for Drip<'_> {
+impl io::Read for OneByteReader<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let some = out.len().min(1);
         self.0.read(&mut out[..some])
@@ -110,7 +110,7 @@ impl io::Read for Drip<'_> {
 #[test]
 fn lines_split_anywhere_are_the_same_lines() {
     let text = "id,a_px\r\n\r\n1,x\r\n2,2\r\n";
-    let mut rows = MotionRows::new(Drip(text.as_bytes())).unwrap();
+    let mut rows = MotionRows::new(OneByteReader(text.as_bytes())).unwrap();
     let error = rows.next().unwrap().unwrap().unwrap_err();
     assert_eq!((error.position.row, error.position.line), (0, 3));
     assert!(rows.next().unwrap().unwrap().is_ok());
@@ -118,7 +118,7 @@ fn lines_split_anywhere_are_the_same_lines() {
     assert_eq!(rows.bytes(), text.len() as u64);
 }
 
-/// The whole table is buffered at once: buffered rows do not count as read.
+/// Tests that rows that are buffered, but not yet read, do not count.
 #[test]
 fn bytes_are_those_up_to_the_last_row() {
     let header = "id,a_px\n";
@@ -129,10 +129,10 @@ fn bytes_are_those_up_to_the_last_row() {
     }
 }
 
-/// Found by the fuzz target `motions`.
+/// Tests a byte order mark that arrives in several reads; found by the fuzz target `motions`.
 #[test]
 fn a_byte_order_mark_in_parts_is_ignored() {
-    let mut rows = MotionRows::new(Drip("\u{feff}id\nx\n".as_bytes())).unwrap();
+    let mut rows = MotionRows::new(OneByteReader("\u{feff}id\nx\n".as_bytes())).unwrap();
     assert_eq!(rows.next().unwrap().unwrap().unwrap().1.id, "x");
 }
 

@@ -1,25 +1,25 @@
 //! Compares enclosures, boxes and triangles with samples of the motion.
 
 use crate::method::rival::contact::boxes::{Boxes, boxes};
-use crate::method::rival::contact::clock::{Clock, Slice};
+use crate::method::rival::contact::clock::{Clock, HalvedInterval};
 use crate::method::rival::contact::elementary::{Facet, Triangles};
 use crate::method::rival::contact::leaf::{Touch, first_touch};
 use crate::method::rival::contact::relative::{Enclosure, Relative, Span};
 use crate::method::rival::obb_tree::Obb;
-use crate::method::rival::tests::samples::{Samples, distance};
+use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::method::rival::triangles_cross::triangles_cross;
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
-fn relative(samples: &mut Samples, speed: f64, spin: f64) -> Relative {
+fn relative(samples: &mut RandomSource, speed: f64, spin: f64) -> Relative {
     let query = samples.query(speed, spin);
     let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
 }
 
 /// Returns the distance by which a placement, or a rate, lies outside an enclosure.
-fn outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
+fn distance_outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
     let column = |k: usize| {
         let off = (rotation.col(k) - enclosure.rotation.middle.col(k)).abs();
         (off - enclosure.rotation.radius.col(k)).max_element()
@@ -28,7 +28,7 @@ fn outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
     (0..3).map(column).fold(off.max_element(), greater)
 }
 
-fn span(samples: &mut Samples) -> Span {
+fn span(samples: &mut RandomSource) -> Span {
     let start = samples.number(0.0, 1.0);
     let width = samples.number(0.0, 1.0).powi(3);
     Span {
@@ -43,7 +43,7 @@ fn times(span: Span, count: u32) -> impl Iterator<Item = f64> {
 
 #[test]
 fn placements_are_those_of_the_motions() {
-    let mut samples = Samples::new(1);
+    let mut samples = RandomSource::new(1);
     for _ in 0..200 {
         let query = samples.query(3.0, 5.0);
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
@@ -59,7 +59,7 @@ fn placements_are_those_of_the_motions() {
 
 #[test]
 fn enclosures_contain_all_placements_and_rates_between() {
-    let mut samples = Samples::new(2);
+    let mut samples = RandomSource::new(2);
     for k in 0..2000 {
         // Some cases have the second body at rest, some have whole turns.
         let mut relative = relative(&mut samples, 3.0, if k % 3 == 0 { 30.0 } else { 3.0 });
@@ -73,19 +73,19 @@ fn enclosures_contain_all_placements_and_rates_between() {
         let (placements, rates) = (relative.over(span), relative.rates_over(span));
         for time in times(span, 20) {
             let at = relative.at(time);
-            assert!(outside(&placements, at.rotation, at.translation) < 1e-12);
+            assert!(distance_outside(&placements, at.rotation, at.translation) < 1e-12);
             let (before, after) = (relative.at(time - 1e-5), relative.at(time + 1e-5));
             let rotation = (after.rotation - before.rotation) * 0.5e5;
             let offset = (after.translation - before.translation) * 0.5e5;
             // Central differences are off by h²/6 of the third derivative, here about 1e-10 · 60³ · 4.
-            assert!(outside(&rates, rotation, offset) < 1e-4);
+            assert!(distance_outside(&rates, rotation, offset) < 1e-4);
         }
     }
 }
 
 #[test]
 fn enclosures_shrink_with_the_interval() {
-    let mut samples = Samples::new(3);
+    let mut samples = RandomSource::new(3);
     for _ in 0..100 {
         let relative = relative(&mut samples, 3.0, 3.0);
         let start = samples.number(0.0, 1.0);
@@ -103,7 +103,7 @@ fn enclosures_shrink_with_the_interval() {
     }
 }
 
-fn random_box(samples: &mut Samples) -> Obb {
+fn random_box(samples: &mut RandomSource) -> Obb {
     Obb {
         axes: DMat3::from_quat(samples.rotation()),
         centre: samples.vector(1.0),
@@ -132,7 +132,7 @@ fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
 
 #[test]
 fn separated_boxes_never_meet() {
-    let mut samples = Samples::new(4);
+    let mut samples = RandomSource::new(4);
     let (mut apart, mut near, mut met) = (0, 0, 0);
     for _ in 0..6000 {
         let relative = relative(&mut samples, 2.0, 3.0);
@@ -193,12 +193,12 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     }
 }
 
-/// A bound on the relative speed of the triangles' points below: centres move by √3 (2 + 4), points up to 3 √3 from
-/// them by √3 times as much, twice.
+/// A bound on the relative speed of the triangles' points in this test: centres move by √3 (2 + 4), points up to 3 √3
+/// from them by √3 times as much, twice.
 const MAX_SPEED: f64 = 30.0;
 
 /// Returns a motion of the first body towards the second one's start.
-fn approach(samples: &mut Samples) -> Relative {
+fn approach(samples: &mut RandomSource) -> Relative {
     let query = samples.query(1.0, 1.0);
     let (mut a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     a.velocity += query.b.start().translation() - query.a.start().translation();
@@ -207,7 +207,7 @@ fn approach(samples: &mut Samples) -> Relative {
 
 #[test]
 fn triangles_touch_when_samples_first_cross() {
-    let mut samples = Samples::new(5);
+    let mut samples = RandomSource::new(5);
     let (mut hits, mut free) = (0, 0);
     for k in 0..1500 {
         let relative = approach(&mut samples);
@@ -222,7 +222,7 @@ fn triangles_touch_when_samples_first_cross() {
             b: Facet::new(&b),
         };
         let mut clock = Clock::new(relative, tolerance / MAX_SPEED, 1 << 20);
-        let touch = first_touch(&triangles, Slice::whole(1.0), &mut clock);
+        let touch = first_touch(&triangles, HalvedInterval::whole(1.0), &mut clock);
         let span = Span {
             start: 0.0,
             end: 1.0,

@@ -3,7 +3,7 @@
 use super::super::*;
 use crate::method::rival::Placement;
 use crate::method::rival::screw;
-use crate::method::rival::tests::samples::{Samples, distance};
+use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::scene::model::Model;
 use crate::scene::tests::shots::Shots;
 use ccd_core::Motion;
@@ -38,7 +38,8 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Compares answers with samples. Returns the number of hits.
+/// Compares the method's answers to queries with samples, and returns the number of contacts. Returns the number of
+/// hits.
 fn judge(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
@@ -84,15 +85,15 @@ fn shots_are_answered_never_late_and_within_the_tolerance() {
 
 #[test]
 fn both_bodies_may_move_and_turn_far() {
-    let mut samples = Samples::new(8);
+    let mut samples = RandomSource::new(8);
     let queries: Vec<Motions> = shots(20)
         .into_iter()
         .map(|query| {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
             Motions {
                 // A displacement along the axis makes the screw another motion.
-                a: turned(&query.a, query.a.velocity() + 0.1 * spin, spin),
-                b: turned(&query.b, DVec3::ZERO, far),
+                a: another_motion(&query.a, query.a.velocity() + 0.1 * spin, spin),
+                b: another_motion(&query.b, DVec3::ZERO, far),
                 ..query
             }
         })
@@ -101,7 +102,7 @@ fn both_bodies_may_move_and_turn_far() {
     assert!((6..20).contains(&hits), "{hits} of 20 hit");
 }
 
-/// Returns another motion from the same start.
-fn turned(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
+/// Returns another motion from the same start pose.
+fn another_motion(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(motion.start(), velocity, spin).unwrap()
 }

@@ -6,7 +6,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// The half length and half width of the rod.
+/// The half length of the rod, and below it the half width.
 const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 

@@ -1,28 +1,28 @@
-//! Remarks about the rows of a table, collected from any number of threads.
+//! Collects remarks on the rows of a table from any number of threads.
 
 use crate::Remark;
 use ccd_core::Motion;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The remarks about the rows read so far.
+/// The remarks on the rows read so far, one of each kind.
 #[derive(Debug, Default)]
-pub(in crate::table) struct Oddities {
+pub(in crate::table) struct RemarkCollector {
     quaternion: OnceLock<Remark>,
     spin: OnceLock<Remark>,
     /// Whether some body rotates many times by no round number of degrees, which implies radians.
     has_radians: AtomicBool,
 }
 
-impl Oddities {
-    /// Checks a quaternion w, x, y, z before normalisation.
+impl RemarkCollector {
+    /// Adds a remark if a quaternion w, x, y, z is far from unit length.
     pub(in crate::table) fn note_quaternion(&self, parts: [f64; 4]) {
         if let Some(remark) = Remark::of_quaternion(parts) {
             self.quaternion.get_or_init(|| remark);
         }
     }
 
-    /// Checks a motion.
+    /// Adds a remark if a motion's angular velocity seems to be in degrees.
     pub(in crate::table) fn note_motion(&self, motion: &Motion, duration: f64) {
         if !Remark::is_fast(motion.spin(), duration) {
             return;
@@ -35,7 +35,7 @@ impl Oddities {
         }
     }
 
-    /// Returns the remarks, one of each kind.
+    /// Returns the remarks collected so far, one of each kind.
     pub(in crate::table) fn remarks(&self) -> Vec<Remark> {
         let spin = self
             .spin

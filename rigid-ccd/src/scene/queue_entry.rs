@@ -1,29 +1,30 @@
-//! Pairs of bodies that are due at a time.
+//! Entries of a queue of pairs of bodies, ordered by time.
 
 use std::cmp::Ordering;
 
-/// A pair of bodies with what is due then. The greatest, which a heap has first, is the earliest.
-pub(super) struct Due<T> {
+/// An entry of the queue: a pair of bodies, its time, and what is to be done at that time. The greatest, which a heap
+/// has first, is the earliest.
+pub(super) struct QueueEntry<T> {
     pub(super) time: f64,
     pub(super) pair: [usize; 2],
     pub(super) what: T,
 }
 
-impl<T> Ord for Due<T> {
+impl<T> Ord for QueueEntry<T> {
     fn cmp(&self, other: &Self) -> Ordering {
         (other.time.total_cmp(&self.time)).then(other.pair.cmp(&self.pair))
     }
 }
 
-impl<T> PartialOrd for Due<T> {
+impl<T> PartialOrd for QueueEntry<T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<T> Eq for Due<T> {}
+impl<T> Eq for QueueEntry<T> {}
 
-impl<T> PartialEq for Due<T> {
+impl<T> PartialEq for QueueEntry<T> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }

@@ -1,24 +1,24 @@
-//! A cache of bodies by their geometry.
+//! Caches bodies by their geometry.
 
 use crate::form::Form;
 use crate::limits::{KEPT_BODIES, KEPT_BYTES};
 use crate::{Prepared, ShapeError};
 use std::sync::Arc;
 
-/// A cache of the most recently used bodies, for shapes without another owner.
+/// A cache of the most recently used bodies, for shapes that no `Caster` holds.
 ///
 /// A body is found by its form, number by number: no other shape is ever taken for it.
 #[derive(Debug)]
-pub(crate) struct Shelf {
-    /// The bodies, the most recently used one last.
+pub(crate) struct BodyCache {
+    /// The cached bodies, the most recently used one last.
     bodies: Vec<Entry>,
-    /// The maximum memory of the bodies.
+    /// The maximum memory of all cached bodies, in bytes.
     most_bytes: usize,
 }
 
-impl Default for Shelf {
+impl Default for BodyCache {
     fn default() -> Self {
-        Shelf {
+        BodyCache {
             bodies: Vec::new(),
             most_bytes: KEPT_BYTES,
         }
@@ -32,8 +32,8 @@ struct Entry {
     bytes: usize,
 }
 
-impl Shelf {
-    /// Returns the body of a form.
+impl BodyCache {
+    /// Returns the body of a form from the cache, or makes it.
     pub(crate) fn body(&mut self, form: Form) -> Result<Arc<Prepared>, ShapeError> {
         if let Some(at) = self.bodies.iter().rposition(|kept| kept.form == form) {
             self.bodies[at..].rotate_left(1);

@@ -1,6 +1,6 @@
-//! Long work without the GIL, which Ctrl-C can interrupt.
+//! Runs long work without the GIL, so that Ctrl-C can interrupt it.
 
-use crate::errors::fault;
+use crate::errors::panic_error;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -9,14 +9,14 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread::{self, Builder};
 use std::time::Duration;
 
-/// The interval between two checks for signals.
+/// The interval between two checks for signals such as Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Runs work on its own thread, without the GIL, and returns the result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
 /// soon; it comes back beside the result. Without a thread to spare, or after a panic, there is an exception alone.
-pub(crate) fn polled<T: Send>(
+pub(crate) fn run_interruptibly<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
     mut look: impl FnMut(Python<'_>) -> PyResult<()> + Send,
@@ -43,7 +43,7 @@ pub(crate) fn polled<T: Send>(
                     stop.store(seen.is_err(), Ordering::Relaxed);
                 }
             }
-            let result = worker.join().map_err(|panic| fault(panic.as_ref()))?;
+            let result = worker.join().map_err(|panic| panic_error(panic.as_ref()))?;
             Ok((result, seen))
         })
     })

@@ -1,0 +1,148 @@
+//! A queue of a scene's pairs of bodies: the pair with the earliest proven time is advanced first.
+
+use super::event::Event;
+use super::goal::Goal;
+use super::queue_entry::QueueEntry;
+use ccd_core::order::{greater, lesser};
+use ccd_core::schedule::{BestFirst, FirstContact, Progress};
+use ccd_core::{InputError, Query};
+use ccd_distance_gjk::Direct;
+use std::collections::BinaryHeap;
+use std::sync::{Mutex, PoisonError};
+
+/// The part of the duration by which a pair is advanced before another pair takes its turn. Shares so large that pairs
+/// are seldom put aside, and so small that little is proven beyond the answer.
+const SHARE_ADVANCED: f64 = 1.0 / 16.0;
+
+/// The maximum number of finished searches whose memory a worker keeps for reuse.
+const MOST_SPARE_SEARCHES: usize = 1024;
+
+/// The queue of pairs of bodies that threads advance together.
+pub(super) struct PairQueue<'r, 'a> {
+    query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
+    duration: f64,
+    goal: &'r Goal,
+    waiting: Mutex<BinaryHeap<QueuedPair<'a>>>,
+}
+
+/// A queued pair that is proven apart until a time; its search is `None` until it has begun.
+type QueuedPair<'a> = QueueEntry<Option<Search<'a>>>;
+
+type Search<'a> = Box<FirstContact<'a, Direct>>;
+
+impl<'r, 'a> PairQueue<'r, 'a> {
+    pub(super) fn new(
+        pairs: &[[usize; 2]],
+        query: &'r (dyn Fn([usize; 2]) -> Result<Query<'a>, InputError> + Sync),
+        duration: f64,
+        goal: &'r Goal,
+    ) -> Self {
+        let entry = |&pair| QueueEntry {
+            time: 0.0,
+            pair,
+            what: None,
+        };
+        PairQueue {
+            query,
+            duration,
+            goal,
+            waiting: Mutex::new(pairs.iter().map(entry).collect()),
+        }
+    }
+
+    /// Removes the pair with the earliest proven time from the queue, and returns it with the next pair's proven time.
+    fn next(&self) -> Option<(QueuedPair<'a>, f64)> {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let entry = waiting.pop()?;
+        let others = waiting.peek().map_or(f64::INFINITY, |other| other.time);
+        Some((entry, others))
+    }
+
+    fn put_back(&self, entry: QueuedPair<'a>) {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        waiting.push(entry);
+    }
+
+    /// Returns the time to which a pair at `time` is advanced next, which is at most `limit`.
+    fn next_target(&self, time: f64, others: f64, limit: f64) -> f64 {
+        let slice = greater(others, time + SHARE_ADVANCED * self.duration);
+        let until = match self.goal {
+            Goal::All => f64::INFINITY,
+            Goal::First(_) | Goal::OfEach(_) => lesser(slice, limit.next_up()),
+        };
+        // Durations may be too short for slices.
+        if until > time { until } else { f64::INFINITY }
+    }
+}
+
+/// The memory that a thread reuses from pair to pair.
+#[derive(Default)]
+pub(super) struct Worker {
+    oracle: Direct,
+    spare: Vec<BestFirst<Direct>>,
+}
+
+impl Worker {
+    /// Advances one pair after another until the queue is empty, and returns their contacts and errors.
+    pub(super) fn run(&mut self, pair_queue: &PairQueue<'_, '_>) -> Vec<Event> {
+        let mut events = Vec::new();
+        while let Some((entry, others)) = pair_queue.next() {
+            let QueueEntry {
+                time,
+                pair,
+                what: search,
+            } = entry;
+            let limit = pair_queue.goal.last_useful_time(pair);
+            // A later event does not matter to the goal.
+            if time > limit {
+                self.keep_for_reuse(search);
+                continue;
+            }
+            let mut search = match search {
+                Some(search) => search,
+                None => match (pair_queue.query)(pair) {
+                    Ok(query) => Box::new(FirstContact::new(
+                        query,
+                        self.spare.pop().unwrap_or_default(),
+                    )),
+                    Err(error) => {
+                        pair_queue.goal.record(pair, 0.0);
+                        events.push(Event::from_error(pair, error));
+                        continue;
+                    }
+                },
+            };
+            match search.advance(
+                &mut self.oracle,
+                pair_queue.next_target(time, others, limit),
+            ) {
+                Err(error) => {
+                    self.keep_for_reuse(Some(search));
+                    pair_queue.goal.record(pair, 0.0);
+                    events.push(Event::from_error(pair, error));
+                }
+                Ok(Progress::ApartUntil(time)) => pair_queue.put_back(QueueEntry {
+                    time,
+                    pair,
+                    what: Some(search),
+                }),
+                Ok(Progress::Answered(answer)) => {
+                    self.keep_for_reuse(Some(search));
+                    if let Some(event) = Event::from_answer(pair, &answer) {
+                        pair_queue.goal.record(pair, event.time);
+                        events.push(event);
+                    }
+                }
+            }
+        }
+        events
+    }
+
+    fn keep_for_reuse(&mut self, search: Option<Search<'_>>) {
+        if let Some(search) = search
+            && self.spare.len() < MOST_SPARE_SEARCHES
+        {
+            self.spare.push(search.into_memory());
+        }
+    }
+}
