@@ -1,4 +1,4 @@
-//! Disjoint sets (union-find).
+//! A union-find structure for disjoint sets of integers.
 
 /// Disjoint sets of the elements `0..n`. Every element points to another element of its set, and the root to itself.
 pub(crate) struct DisjointSets(Vec<u32>);

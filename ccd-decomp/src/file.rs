@@ -1,4 +1,4 @@
-//! Files of prepared bodies.
+//! Stores prepared bodies in files, and loads them.
 
 pub(crate) mod error;
 mod frame;

@@ -12,8 +12,8 @@ pub(crate) struct Edges {
     uses: Vec<EdgeUse>,
 }
 
-/// A half-edge on an edge, packed in one number: the upper end, the half-edge, and in the lowest bit whether it
-/// starts at the upper end.
+/// A half-edge on an edge, packed in one number. It holds the upper end, the half-edge, and in the lowest bit whether
+/// the half-edge starts at the upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct EdgeUse(u64);
 
@@ -22,7 +22,7 @@ impl EdgeUse {
         EdgeUse(u64::from(upper) << 32 | u64::from(half_edge) << 1 | u64::from(backward))
     }
 
-    fn upper(self) -> u32 {
+    fn upper_end(self) -> u32 {
         (self.0 >> 32) as u32
     }
 
@@ -53,19 +53,19 @@ impl Edges {
         let range = last.map_or(0, |&last| last as usize + 1);
         // A table of all vertices must not dwarf the triangles.
         if range <= 8 * triangles.len() {
-            Edges::by_slot(triangles, Vec::new(), range, |_, vertex| vertex as usize)
+            Edges::group_by_slot(triangles, Vec::new(), range, |_, vertex| vertex as usize)
         } else {
             let mut lower: Vec<u32> = triangles.iter().flatten().copied().collect();
             lower.sort_unstable();
             lower.dedup();
             let slots = lower.len();
-            Edges::by_slot(triangles, lower, slots, |lower, vertex| {
+            Edges::group_by_slot(triangles, lower, slots, |lower, vertex| {
                 lower.partition_point(|&v| v < vertex)
             })
         }
     }
 
-    fn by_slot(
+    fn group_by_slot(
         triangles: &[[u32; 3]],
         lower: Vec<u32>,
         slots: usize,
@@ -107,8 +107,8 @@ impl Edges {
         slots.flat_map(|(slot, (&start, &end))| {
             let lower = self.lower.get(slot as usize).copied().unwrap_or(slot);
             let uses = &self.uses[start as usize..end as usize];
-            let edges = uses.chunk_by(|one, next| one.upper() == next.upper());
-            edges.map(move |uses| ([lower, uses[0].upper()], uses))
+            let edges = uses.chunk_by(|one, next| one.upper_end() == next.upper_end());
+            edges.map(move |uses| ([lower, uses[0].upper_end()], uses))
         })
     }
 

@@ -20,7 +20,7 @@ use ccd_core::{Hull, Loops};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("point {point} has a coordinate that is out of range for exact predicates")]
 pub struct HullError {
-    /// The index of the first point with such a coordinate.
+    /// The index of the first point that is out of range.
     pub point: u32,
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     })
 }
 
-/// Creates a hull from its facets, with those of the points that are corners.
+/// Creates a hull from its facets, and from the points that are corners of them.
 fn hull_from_facets(points: &[DVec3], mut facets: Loops) -> Hull {
     let mut corners: Vec<u32> = facets.corners().to_vec();
     corners.sort_unstable();

@@ -83,8 +83,8 @@ pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
 }
 
 impl BodySource {
-    /// Creates the body. The detail applies to meshes only. Shapes are single pieces, and a stored body keeps its
-    /// pieces.
+    /// Creates the body that the source describes. The detail applies to meshes only. Shapes are single pieces, and a
+    /// stored body keeps its pieces.
     ///
     /// # Errors
     /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::InFile`] if its content
@@ -203,14 +203,16 @@ impl FromStr for BodySource {
             });
         }
         match text.split_once(':') {
-            Some(("box", given)) => lengths("box", given).map(|sides: [f64; 3]| BodySource::Box {
-                half_extents: sides.into(),
-            }),
+            Some(("box", given)) => {
+                parse_lengths("box", given).map(|sides: [f64; 3]| BodySource::Box {
+                    half_extents: sides.into(),
+                })
+            }
             Some(("sphere", given)) => {
-                lengths("sphere", given).map(|[radius]| BodySource::Sphere { radius })
+                parse_lengths("sphere", given).map(|[radius]| BodySource::Sphere { radius })
             }
             Some(("capsule", given)) => {
-                lengths("capsule", given).map(|[radius, half_height]| BodySource::Capsule {
+                parse_lengths("capsule", given).map(|[radius, half_height]| BodySource::Capsule {
                     radius,
                     half_height,
                 })
@@ -263,14 +265,17 @@ const SHAPES: [(&str, usize); 5] = [
 /// Parses the radius, half height and optional excess of a cylinder or cone.
 fn parse_round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
     if given.matches(',').count() == 2 {
-        let [radius, half_height, excess] = lengths(shape, given)?;
+        let [radius, half_height, excess] = parse_lengths(shape, given)?;
         return Ok((radius, half_height, Some(excess)));
     }
-    let [radius, half_height] = lengths(shape, given)?;
+    let [radius, half_height] = parse_lengths(shape, given)?;
     Ok((radius, half_height, None))
 }
 
-fn lengths<const N: usize>(shape: &'static str, given: &str) -> Result<[f64; N], SourceError> {
+fn parse_lengths<const N: usize>(
+    shape: &'static str,
+    given: &str,
+) -> Result<[f64; N], SourceError> {
     let words: Vec<&str> = given.split(',').map(str::trim).collect();
     let words: [&str; N] = words
         .try_into()

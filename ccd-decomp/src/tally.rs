@@ -38,7 +38,7 @@ impl<T> Tally<T> {
 }
 
 impl Tally<u32> {
-    /// Appends another tally. The number `first` is added to each of its elements.
+    /// Adds the elements of another tally, each increased by `first`.
     pub(crate) fn append(&mut self, other: &Self, first: u32) {
         let room = NAMED - self.first.len();
         let numbers = other.first.iter().map(|number| first + number);

@@ -21,7 +21,7 @@ impl Work {
         }
     }
 
-    /// Spends some steps. Returns whether any are left.
+    /// Spends steps from the budget. Returns whether any are left.
     pub(crate) fn spend(&self, steps: usize) -> bool {
         let rest = self.left.get().checked_sub(steps as u64);
         self.left.set(rest.unwrap_or(0));
@@ -29,7 +29,7 @@ impl Work {
     }
 
     /// Returns the number of steps spent from a budget without a limit.
-    pub(crate) fn taken(&self) -> u64 {
+    pub(crate) fn steps_spent(&self) -> u64 {
         u64::MAX - self.left.get()
     }
 

@@ -153,7 +153,7 @@ impl FeatureContact {
     }
 }
 
-/// Returns the sine of the largest angle by which a direction leaves the normal cone of a surface at a point; at most 0
+/// Returns the sine of the angle between a direction and the normal cone of a surface at a point. It is at most 0
 /// within the cone.
 fn angle_from_normal_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;

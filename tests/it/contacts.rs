@@ -218,7 +218,7 @@ fn check_pairs(
     Ok(())
 }
 
-/// Returns the distance from a point to a feature of the mesh at a time; infinity if the mesh does not have the
+/// Returns the distance from a point to a feature of the mesh at a time. It is infinite if the mesh does not have the
 /// feature.
 fn distance_from_feature(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);

@@ -271,7 +271,7 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
     });
 }
 
-/// Tests open surfaces, which have no inner side: two that meet edge to edge, or in the same plane, are in contact at
+/// Tests open surfaces, which have no inner side. Two that meet edge to edge, or in the same plane, are in contact at
 /// the right time.
 #[test]
 fn sheets_within_one_plane_meet() {

@@ -10,8 +10,8 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-/// Tests that a witness lies on the named feature, the least feature of the mesh that contains it: a vertex rather
-/// than an edge, an edge rather than a face. For an edge between facets of several faces, a patch names a face with
+/// Tests that a witness lies on the named feature, and that no smaller feature of the mesh contains it. A vertex is
+/// smaller than an edge, an edge than a face. For an edge between facets of several faces, a patch names a face with
 /// it. On a virtual facet, inside the surface, no feature of the mesh is named.
 #[test]
 fn contacts_of_patches_name_the_mesh() {
@@ -54,9 +54,10 @@ fn contacts_of_patches_name_the_mesh() {
 /// The relation of a feature name to the mesh features that contain a witness.
 #[derive(Clone, Copy)]
 enum NameKind {
-    /// The name is that of the least feature: a vertex rather than an edge, an edge rather than a face.
+    /// The name is that of the smallest feature at the witness: a vertex rather than an edge, an edge rather than a
+    /// face.
     Least,
-    /// The name is that of a face adjacent to the least feature, an edge.
+    /// The smallest feature at the witness is an edge, and the name is that of an adjacent face.
     Larger,
     /// The name is none of the mesh, because no feature of the mesh contains the witness.
     None,

@@ -1,5 +1,5 @@
-//! Compares every bound that an answer along a trajectory proves with sampled distances, including those at knots,
-//! for all questions, kinds of trajectory and tolerances.
+//! Compares every bound that an answer along a trajectory proves with sampled distances. Knots are among the samples.
+//! All questions, kinds of trajectory and tolerances are tested.
 
 use ccd_core::Moving;
 use ccd_core::Unresolved;

@@ -18,13 +18,13 @@ pub struct Case {
     pub why: String,
     /// The end of the time interval, which begins at 0.
     pub duration: f64,
-    /// The value of [`Settings::tolerance`].
+    /// The tolerance of the query, for [`Settings::tolerance`].
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// The value of [`Settings::margin`].
+    /// The margin of the query, for [`Settings::margin`].
     #[serde(default)]
     pub margin: f64,
-    /// The value of [`Settings::start`].
+    /// The policy for contacts at the start, for [`Settings::start`].
     #[serde(default)]
     pub start: Start,
     /// Body A and its motion.

@@ -80,7 +80,7 @@ impl<'a> Judge<'a> {
     /// contact as claimed.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         self.check_time(answer, 0.0)?;
         let reach = self.config.margin + answer.tolerance + self.query.rounding();
@@ -100,7 +100,7 @@ impl<'a> Judge<'a> {
     /// one.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check_time(&self, answer: &Answer, more: f64) -> CheckResult {
         let rounding = self.query.rounding() + more;
         law!(
@@ -141,7 +141,7 @@ impl<'a> Judge<'a> {
     /// Checks that a time is not after a contact that the referee has proven.
     ///
     /// # Errors
-    /// If it is.
+    /// If the time is after a proven contact.
     pub fn check_not_late(&self, time: f64) -> CheckResult {
         let in_range = (0.0..=self.query.duration).contains(&time);
         law!(in_range, "the time {time} is not within the duration");
@@ -153,8 +153,8 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
-    /// are not checked, because they need not be closed together.
+    /// Returns true if a point of a piece at the start is in the solid of its body, or on the mesh. The body is A (0)
+    /// or B (1). Parts are not checked, because they need not be closed together.
     fn is_in_solid(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let placements = Placement::pair(self.query);
         let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();
@@ -195,7 +195,7 @@ impl<'a> Judge<'a> {
 /// Checks the witnesses, the normal, the bounds and the features of a contact.
 ///
 /// # Errors
-/// The one that is wrong.
+/// Describes what is wrong about the contact.
 pub fn check_contact(
     query: &Query,
     time: f64,

@@ -69,7 +69,7 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
 }
 
 impl<'a> Solid<'a> {
-    /// Prepares a closed mesh. Every edge must have the same number of faces in either direction.
+    /// Prepares a closed mesh for locating points. Every edge must have the same number of faces in either direction.
     pub fn new(mesh: &'a Mesh) -> Self {
         Solid {
             mesh,

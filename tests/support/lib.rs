@@ -1,5 +1,5 @@
-//! The parts of the property suite: generated models, an independent referee, scenes with closed-form answers, and
-//! the code that runs one property over every backend, schedule and kind of piece.
+//! The parts of the property suite. They are generated models, an independent referee, scenes with closed-form
+//! answers, and the code that runs one property over every backend, schedule and kind of piece.
 
 pub mod analytic;
 pub mod backends;

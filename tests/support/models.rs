@@ -220,7 +220,7 @@ impl Shape {
 }
 
 impl Mesh {
-    /// Appends another mesh. Vertices and faces are numbered consecutively.
+    /// Appends the vertices and faces of another mesh, numbered consecutively.
     pub fn append(&mut self, other: &Mesh) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
@@ -259,7 +259,7 @@ impl Mesh {
     /// Converts the mesh to the type that `ccd_decomp` reads.
     ///
     /// # Panics
-    /// If it has no faces, or a number that is not finite.
+    /// If the mesh has no faces, or a coordinate that is not finite.
     pub fn for_decomposition(&self) -> TriangleMesh {
         TriangleMesh::new(self.vertices.clone(), &self.faces).expect("a mesh")
     }

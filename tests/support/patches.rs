@@ -1,4 +1,4 @@
-//! Checks convex patches of a closed surface exactly: the hull is in the solid, the faces are on the hull, and the
+//! Checks convex patches of a closed surface exactly. The hull is in the solid, the faces are on the hull, and the
 //! names are right.
 
 use crate::checks::CheckResult;
@@ -24,7 +24,7 @@ pub struct Claim<'a> {
 /// Checks that every face of a mesh is in exactly one patch.
 ///
 /// # Errors
-/// The face that is not.
+/// Names the face that is not in exactly one patch.
 pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
     let mut count = vec![0; mesh.faces.len()];
     for &face in claims.iter().flat_map(|claim| claim.faces) {
@@ -41,7 +41,7 @@ pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
 /// Checks that sampled points of a patch's hull are inside the solid or on its surface. Returns the number of points.
 ///
 /// # Errors
-/// The point that is outside.
+/// Names the point that is outside the solid.
 pub fn check_inside(
     solid: &Solid<'_>,
     claim: &Claim<'_>,
@@ -61,7 +61,7 @@ pub fn check_inside(
 /// Checks that a patch's points, facets and faces are those of the mesh and of its hull.
 ///
 /// # Errors
-/// The one that is not.
+/// Names the point, facet or face that is not.
 pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     check_points(mesh, claim.polytope)?;
     check_hull(claim.polytope)?;
@@ -200,7 +200,7 @@ fn outward_corners(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3],
     Ok(if inside_out { [a, c, b] } else { [a, b, c] })
 }
 
-/// Returns true if a loop of vertices is that of a triangle, with any start.
+/// Returns true if a loop of vertices is the triangle `a b c`, with any start.
 fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()

@@ -74,8 +74,8 @@ impl Query {
         rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
     }
 
-    /// Returns the bodies for combinations of kinds of pieces: each kind with itself and with triangles, and among
-    /// the other kinds those with the fewest pieces.
+    /// Returns the bodies for combinations of kinds of pieces. They are each kind with itself and with triangles, and
+    /// among the other kinds those with the fewest pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
@@ -109,7 +109,7 @@ impl Query {
     /// Builds the engine's query of given bodies.
     ///
     /// # Panics
-    /// If the engine refuses it.
+    /// If the engine refuses the query.
     pub fn problem<'a>(&self, bodies: &'a Bodies, config: &'a Settings) -> ccd_core::Query<'a> {
         let a = Moving::from((bodies.a(), self.a.motion));
         let b = Moving::from((bodies.b(), self.b.motion));
@@ -162,8 +162,8 @@ impl Actor {
         }
     }
 
-    /// Returns a length from which rounding is bounded: an upper bound on the coordinates of the shape's points, in
-    /// which the radius counts once more for every radian of rotation.
+    /// Returns a length from which rounding is bounded. It is an upper bound on the coordinates of the shape's
+    /// points, in which the radius counts once more for every radian of rotation.
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);

@@ -65,7 +65,7 @@ pub struct AnswersAlong {
 }
 
 impl Oracle {
-    /// All distance oracles.
+    /// All distance oracles that are tested.
     pub const ALL: [Oracle; 4] = [
         Oracle::ClosedForm,
         Oracle::Gjk,

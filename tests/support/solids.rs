@@ -46,7 +46,7 @@ impl Solid {
     /// Builds the engine's body of the solid.
     ///
     /// # Panics
-    /// If the engine refuses it.
+    /// If the engine refuses the body.
     pub fn body(&self) -> Body {
         let mesh = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let names: Vec<_> = (0..faces.len() as u32).collect();
@@ -89,8 +89,8 @@ impl Solid {
     }
 }
 
-/// A solid at a pose: the faces of a hull, counterclockwise from outside, or of a point or a segment, grown by a
-/// radius.
+/// A solid at a pose, as a polyhedron grown by a radius. The faces are counterclockwise from outside; a point or a
+/// segment is a degenerate polyhedron.
 pub struct PlacedSolid {
     faces: Vec<Face>,
     radius: f64,

@@ -36,7 +36,7 @@ fn setting(name: &str, default: u32) -> u32 {
 /// Checks random cases by a function. A failure prints the shrunk case in the format of the corpus.
 ///
 /// # Panics
-/// If the law fails for a case.
+/// If the check fails for a case.
 pub fn check_cases(
     cases: u32,
     strategy: impl Strategy<Value = Case>,

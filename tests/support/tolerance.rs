@@ -1,7 +1,7 @@
 //! The tolerances of the test suite, and their derivations.
 
-/// Returns a bound on the difference of a distance that the engine and this suite each compute, in a scene whose
-/// largest coordinate is `scale`.
+/// Returns a bound on the difference between a distance by the engine and the same distance by this suite. `scale` is
+/// the largest coordinate of the scene.
 ///
 /// Each side evaluates a pose (sine, cosine, nine products, sums: fewer than 40 roundings relative
 /// to the coordinate, and to the angle of rotation, which is a factor of `scale`) and a distance

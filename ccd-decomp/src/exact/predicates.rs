@@ -41,8 +41,8 @@ impl Projection {
         })
     }
 
-    /// Returns the side of the line from `a` to `b` on which a point of the triangle's plane lies: `Greater` is to
-    /// the left, seen from the triangle's front.
+    /// Compares a point with the line from `a` to `b` in the triangle's plane. `Greater` is to the left, seen from
+    /// the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {

@@ -6,7 +6,10 @@ use std::cmp::Ordering;
 
 /// Returns whether two non-degenerate triangles meet outside their shared corners. Corners are given by number and by
 /// point.
-pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
+pub(crate) fn meet_outside_shared_corners(
+    corners: [[u32; 3]; 2],
+    triangles: [[DVec3; 3]; 2],
+) -> bool {
     let is_shared = |which: usize, k: usize| corners[1 - which].contains(&corners[which][k]);
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();
     match shared {
@@ -16,9 +19,9 @@ pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
         1 => [0, 1].into_iter().any(|which| {
             let k = (0..3).find(|&k| is_shared(which, k)).unwrap_or(0);
             let far = [(k + 1) % 3, (k + 2) % 3].map(|k| triangles[which][k]);
-            meets(far, triangles[1 - which])
+            segment_meets(far, triangles[1 - which])
         }),
-        2 => folded(corners, triangles),
+        2 => are_folded(corners, triangles),
         // One triangle, from either side.
         _ => true,
     }
@@ -34,12 +37,12 @@ pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
         && !beyond(1)
         && (0..3).any(|k| {
             let edge = |which: usize| [triangles[which][k], triangles[which][(k + 1) % 3]];
-            meets(edge(0), triangles[1]) || meets(edge(1), triangles[0])
+            segment_meets(edge(0), triangles[1]) || segment_meets(edge(1), triangles[0])
         })
 }
 
 /// Returns whether two triangles that share an edge lie in one plane, on one side of it.
-fn folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
+fn are_folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
     let far = |which: usize| (0..3).find(|&k| !corners[1 - which].contains(&corners[which][k]));
     let (Some(k), Some(l)) = (far(0), far(1)) else {
         return true;
@@ -52,10 +55,10 @@ fn folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
 }
 
 /// Returns whether a segment meets a triangle; touching counts.
-fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+fn segment_meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle;
     match (side(triangle, p), side(triangle, q)) {
-        (Ordering::Equal, Ordering::Equal) => meets_in_plane([p, q], triangle),
+        (Ordering::Equal, Ordering::Equal) => segment_meets_in_plane([p, q], triangle),
         (s, t) if s == t => false,
         _ => {
             // The tetrahedra of the segment with each edge have one orientation if it crosses inside.
@@ -66,7 +69,7 @@ fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
 }
 
 /// Returns whether a segment in the triangle's plane meets the triangle; touching counts.
-fn meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+fn segment_meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let Some(projection) = Projection::new(triangle) else {
         return true;
     };

@@ -12,7 +12,7 @@ use super::error::{StoreFault, VERSION};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
-/// The magic bytes at the start of a file, as in PNG: no text begins with them, and a transfer that converts line
+/// The magic bytes at the start of a file, as in PNG. No text begins with them, and a transfer that converts line
 /// ends or strips the eighth bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 

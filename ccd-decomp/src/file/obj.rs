@@ -1,4 +1,4 @@
-//! Writers of Wavefront OBJ.
+//! Writes meshes and pieces as Wavefront OBJ.
 
 use crate::mesh::TriangleMesh;
 use ccd_core::{Piece, Pieces};

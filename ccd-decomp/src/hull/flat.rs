@@ -28,8 +28,8 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
     }
 }
 
-/// Returns the projection of the common plane of some points, of which `a` and `b` are two; `None` if all are on a
-/// line.
+/// Returns the projection of the common plane of some points; `None` if all are on a line. `a` and `b` are two of the
+/// points.
 fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
     let area = |p: &DVec3| (b - a).cross(*p - a).length_squared();
     let is_proper = |p: &DVec3| !is_degenerate([a, b, *p]);

@@ -13,7 +13,7 @@ struct BruteForceHull {
 }
 
 impl BruteForceHull {
-    fn of(points: &[DVec3]) -> Self {
+    fn from_points(points: &[DVec3]) -> Self {
         let n = points.len();
         let first_at = |k: usize| (0..n).find(|&l| points[l] == points[k]) == Some(k);
         let distinct: Vec<usize> = (0..n).filter(|&k| first_at(k)).collect();
@@ -92,7 +92,10 @@ fn assert_proper(points: &[DVec3], hull: &Hull) {
 
 /// Checks the hull of any points, and that it has no facets exactly if all points are on a line.
 fn assert_hull_of(points: &[DVec3]) {
-    let (hull, twin) = (hull(points).expect("in range"), BruteForceHull::of(points));
+    let (hull, twin) = (
+        hull(points).expect("in range"),
+        BruteForceHull::from_points(points),
+    );
     if hull.facets.is_empty() {
         assert!(twin.planes.is_empty() && (1..=2).contains(&hull.points.len()));
     } else {
@@ -172,7 +175,7 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 #[case::tetrahedron(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])]
 fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
     let hull = proper(&points);
-    let twin = BruteForceHull::of(&points);
+    let twin = BruteForceHull::from_points(&points);
     assert_eq!(hull.points, twin.corners);
     // A flat hull has two facets in one plane.
     let planes = twin.planes.len();

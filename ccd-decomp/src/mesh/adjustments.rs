@@ -20,8 +20,8 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adjustments {
-    stated: Option<Unit>,
-    wanted: Option<Unit>,
+    stated_unit: Option<Unit>,
+    target_unit: Option<Unit>,
     /// The factors by which the coordinates are multiplied along each axis, neither 0 nor infinite.
     factors: DVec3,
     is_hollow: bool,
@@ -41,8 +41,8 @@ pub enum Axis {
 impl Adjustments {
     /// The adjustments that change nothing.
     pub const NONE: Adjustments = Adjustments {
-        stated: None,
-        wanted: None,
+        stated_unit: None,
+        target_unit: None,
         factors: DVec3::ONE,
         is_hollow: false,
     };
@@ -51,7 +51,7 @@ impl Adjustments {
     #[must_use]
     pub fn stated_in(self, unit: Unit) -> Self {
         Adjustments {
-            stated: Some(unit),
+            stated_unit: Some(unit),
             ..self
         }
     }
@@ -61,7 +61,7 @@ impl Adjustments {
     #[must_use]
     pub fn converted_to(self, unit: Unit) -> Self {
         Adjustments {
-            wanted: Some(unit),
+            target_unit: Some(unit),
             ..self
         }
     }
@@ -84,8 +84,8 @@ impl Adjustments {
         }
     }
 
-    /// Mirrors the mesh across the plane through the origin normal to an axis, and reverses its triangles, so that a
-    /// solid stays one. Exact.
+    /// Mirrors the mesh along a coordinate axis, across the plane through the origin. The triangles are reversed, so
+    /// that a solid stays one. Exact.
     #[must_use]
     pub fn mirrored(self, axis: Axis) -> Self {
         let mut factors = self.factors;
@@ -102,7 +102,7 @@ impl Adjustments {
         }
     }
 
-    /// Combines two adjustments. The units of `other` take precedence.
+    /// Combines two adjustments, both of which apply. The units of `other` take precedence.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.
@@ -113,8 +113,8 @@ impl Adjustments {
             scale => mirrored.scaled(scale)?,
         };
         Ok(Adjustments {
-            stated: other.stated.or(self.stated),
-            wanted: other.wanted.or(self.wanted),
+            stated_unit: other.stated_unit.or(self.stated_unit),
+            target_unit: other.target_unit.or(self.target_unit),
             is_hollow: self.is_hollow || other.is_hollow,
             ..both
         })
@@ -122,12 +122,12 @@ impl Adjustments {
 
     /// Returns the unit of the numbers in the file, if the adjustments set it.
     pub(crate) fn stated_unit(&self) -> Option<Unit> {
-        self.stated
+        self.stated_unit
     }
 
     /// Returns the unit to convert the coordinates to, if the adjustments set it.
     pub(crate) fn target_unit(&self) -> Option<Unit> {
-        self.wanted
+        self.target_unit
     }
 
     /// Returns whether a closed mesh is treated as a hollow surface.
@@ -144,7 +144,7 @@ impl Adjustments {
     /// Returns whether the adjustments apply to meshes only, not to prepared bodies.
     pub(crate) fn apply_to_meshes_only(&self) -> bool {
         let others = Adjustments {
-            wanted: None,
+            target_unit: None,
             ..*self
         };
         others != Adjustments::NONE
@@ -224,7 +224,7 @@ impl Default for Adjustments {
 /// Formats the adjustments as words that follow a file name. The unit of conversion is omitted.
 impl fmt::Display for Adjustments {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(unit) = self.stated {
+        if let Some(unit) = self.stated_unit {
             write!(f, "@{unit}")?;
         }
         if self.scale() != 1.0 {

@@ -22,7 +22,7 @@ use ccd_core::glam::{DAffine3, DVec3};
 pub struct AffineMap(DAffine3);
 
 impl AffineMap {
-    /// The identity map.
+    /// The map that leaves every point where it is.
     pub const IDENTITY: AffineMap = AffineMap(DAffine3::IDENTITY);
 
     /// Creates the map that scales by a factor about the origin, then places at a pose.

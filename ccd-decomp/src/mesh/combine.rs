@@ -74,9 +74,12 @@ impl TriangleMesh {
         if meshes.is_empty() {
             return Err(MeshFault::NoVertices.into());
         }
-        check_count("vertices", total(&meshes, |mesh| mesh.vertices.len()))?;
-        check_count("corners", 3 * total(&meshes, |mesh| mesh.faces.len()))?;
-        check_count("faces", total(&meshes, |mesh| mesh.face_count as usize))?;
+        check_count("vertices", total_count(&meshes, |mesh| mesh.vertices.len()))?;
+        check_count("corners", 3 * total_count(&meshes, |mesh| mesh.faces.len()))?;
+        check_count(
+            "faces",
+            total_count(&meshes, |mesh| mesh.face_count as usize),
+        )?;
         let (mut vertices, mut faces, mut ids) = (Vec::new(), Vec::new(), Vec::new());
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {
@@ -113,7 +116,7 @@ impl TriangleMesh {
     }
 }
 
-fn total(meshes: &[&TriangleMesh], count: impl Fn(&TriangleMesh) -> usize) -> usize {
+fn total_count(meshes: &[&TriangleMesh], count: impl Fn(&TriangleMesh) -> usize) -> usize {
     let counts = meshes.iter().map(|mesh| count(mesh));
     counts.fold(0, usize::saturating_add)
 }

@@ -26,7 +26,7 @@ pub(crate) struct Content {
 pub(crate) enum Layout {
     /// A list of vertices and faces. Each part of the file is a group of these faces.
     List(Polygons, Groups),
-    /// Shapes and their placements. One shape may be placed several times.
+    /// An assembly of shapes and their placements. One shape may be placed several times.
     Assembly(Assembly),
 }
 
@@ -50,10 +50,12 @@ impl Content {
     /// Returns the faces of one part. Vertices and faces are numbered from 0.
     pub(crate) fn part(&self, part: usize, conversion: Conversion) -> Result<Polygons, MeshFault> {
         let faces = match &self.layout {
-            Layout::List(polygons, groups) => converted(groups.part(polygons, part)?, conversion),
-            Layout::Assembly(assembly) => assembly.expanded(part..part + 1, conversion)?,
+            Layout::List(polygons, groups) => {
+                convert_polygons(groups.part(polygons, part)?, conversion)
+            }
+            Layout::Assembly(assembly) => assembly.expand(part..part + 1, conversion)?,
         };
-        Ok(self.remarked(faces))
+        Ok(self.with_remarks(faces))
     }
 
     /// Returns the faces of each part separately, like [`Content::part`].
@@ -61,36 +63,41 @@ impl Content {
         let parts: Vec<Polygons> = match &self.layout {
             Layout::List(polygons, groups) => {
                 let parts = groups.all(polygons)?.into_iter();
-                parts.map(|part| converted(part, conversion)).collect()
+                parts
+                    .map(|part| convert_polygons(part, conversion))
+                    .collect()
             }
             Layout::Assembly(assembly) => {
                 let parts = 0..assembly.parts.len();
                 assembly.check_size(parts.clone())?;
-                let alone = parts.map(|part| assembly.expanded(part..part + 1, conversion));
+                let alone = parts.map(|part| assembly.expand(part..part + 1, conversion));
                 alone.collect::<Result<_, _>>()?
             }
         };
-        Ok(parts.into_iter().map(|part| self.remarked(part)).collect())
+        Ok(parts
+            .into_iter()
+            .map(|part| self.with_remarks(part))
+            .collect())
     }
 
     /// Returns all faces as one list. Those of a list keep the file's numbers; those of an assembly are numbered part
     /// by part.
     pub(crate) fn all_faces(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
         let mut faces = match self.layout {
-            Layout::List(polygons, _) => converted(polygons, conversion),
-            Layout::Assembly(assembly) => assembly.expanded(0..assembly.parts.len(), conversion)?,
+            Layout::List(polygons, _) => convert_polygons(polygons, conversion),
+            Layout::Assembly(assembly) => assembly.expand(0..assembly.parts.len(), conversion)?,
         };
         faces.remarks = self.remarks;
         Ok(faces)
     }
 
-    fn remarked(&self, faces: Polygons) -> Polygons {
+    fn with_remarks(&self, faces: Polygons) -> Polygons {
         let remarks = self.remarks.clone();
         Polygons { remarks, ..faces }
     }
 }
 
-fn converted(mut polygons: Polygons, conversion: Conversion) -> Polygons {
+fn convert_polygons(mut polygons: Polygons, conversion: Conversion) -> Polygons {
     if conversion != Conversion::NONE {
         for vertex in &mut polygons.vertices {
             *vertex = conversion.apply(*vertex);

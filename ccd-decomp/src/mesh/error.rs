@@ -78,7 +78,7 @@ pub enum MeshFault {
     /// Several parts of the file have the requested name.
     #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), Numbers(.numbers))]
     AmbiguousPart {
-        /// The requested name.
+        /// The name that was requested.
         part: String,
         /// The numbers of the parts with this name, from 0.
         numbers: Vec<usize>,

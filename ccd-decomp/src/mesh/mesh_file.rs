@@ -38,7 +38,7 @@ pub struct MeshFile {
 pub struct NamedMesh {
     /// The name of the part, if it has one. Several parts of a file may have the same name.
     pub name: Option<String>,
-    /// The triangles. Vertices and faces are numbered from 0 in each part.
+    /// The triangles of the part. Vertices and faces are numbered from 0 in each part.
     pub mesh: TriangleMesh,
 }
 
@@ -93,8 +93,8 @@ impl MeshFile {
         }
     }
 
-    /// Returns the unit of the coordinates: that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY and OFF
-    /// have no unit.
+    /// Returns the unit of the coordinates. It is that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY
+    /// and OFF have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
@@ -154,11 +154,11 @@ impl MeshFile {
     /// faults of the part.
     pub fn part(&self, name_or_number: &str) -> Result<TriangleMesh, MeshError> {
         let made = || {
-            let part = self.find(name_or_number)?;
+            let part = self.find_part(name_or_number)?;
             let polygons = self.content.part(part, self.conversion);
             polygons
                 .and_then(TriangleMesh::from_polygons)
-                .map_err(|fault| fault.at(self.place(part)))
+                .map_err(|fault| fault.at(self.part_label(part)))
         };
         made().map_err(|fault| self.error(fault))
     }
@@ -172,7 +172,7 @@ impl MeshFile {
         let parts = parts.map_err(|fault| self.error(fault))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
             let mesh = TriangleMesh::from_polygons(polygons)
-                .map_err(|fault| self.error(fault.at(self.place(part))))?;
+                .map_err(|fault| self.error(fault.at(self.part_label(part))))?;
             let name = self.content.name(part).map(str::to_owned);
             Ok(NamedMesh { name, mesh })
         });
@@ -198,7 +198,7 @@ impl MeshFile {
             .map_err(|fault| error(fault, path.as_deref()))
     }
 
-    fn find(&self, name_or_number: &str) -> Result<usize, MeshFault> {
+    fn find_part(&self, name_or_number: &str) -> Result<usize, MeshFault> {
         let has_name = |name: Option<&str>| name == Some(name_or_number);
         let names = self.part_names().enumerate();
         let named: Vec<usize> = names
@@ -221,7 +221,7 @@ impl MeshFile {
     }
 
     /// Returns the name of a part for messages.
-    fn place(&self, part: usize) -> String {
+    fn part_label(&self, part: usize) -> String {
         element_name("part", part, self.content.name(part))
     }
 
@@ -230,7 +230,7 @@ impl MeshFile {
     }
 }
 
-/// Returns the paths of all files that a mesh is read from: the mesh file, and those that it refers to.
+/// Returns the paths of all files that a mesh is read from, including the files that it refers to.
 pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
     let found = || {
         if !Format::from_path(path).is_ok_and(Format::refers_to_files) {

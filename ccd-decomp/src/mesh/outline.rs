@@ -38,7 +38,7 @@ impl HasPosition for Corner {
 /// # Complexity
 /// Expected `n log n` for `n` corners: corners and edges are inserted in a pseudorandom order. A sweep takes `n²` for
 /// corners on or near a line.
-pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
+pub(super) fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let places = project(points)?;
     // A fault of the library may panic; the fan is used then.
     let (plane, at) = catch_unwind(|| triangulate_constrained(&places)).ok()??;

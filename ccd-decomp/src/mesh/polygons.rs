@@ -98,7 +98,7 @@ impl Polygons {
                 }
                 let points: Vec<DVec3> =
                     corners.iter().map(|&v| self.vertices[v as usize]).collect();
-                match outline::fill(&points) {
+                match outline::triangulate_outline(&points) {
                     Some(filled) => {
                         for (face, triangle) in fan.iter_mut().zip(filled) {
                             *face = triangle.map(|k| corners[k] as u32);

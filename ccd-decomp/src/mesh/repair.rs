@@ -21,10 +21,10 @@ pub struct Repairs {
     /// Faces dropped because another face has the same three points in the same orientation. The same points in the
     /// opposite orientation are kept: two faces back to back are a closed surface.
     pub duplicates: Tally<u32>,
-    /// Faces dropped because two of their corners are the same point, and the remaining segment or point is
-    /// on an edge of another face. Otherwise they are kept.
+    /// Faces that were dropped because they collapse to a segment or point on an edge of another face. Two of their
+    /// corners are the same point. Collapsed faces elsewhere are kept.
     pub collapsed: Tally<u32>,
-    /// Faces without area, which are kept, because their segment or point can be touched, too.
+    /// Faces without area. They are kept, because a segment or point can be touched, too.
     pub zero_area: Tally<u32>,
     /// Vertices that no face uses.
     pub unreferenced: Tally<u32>,
@@ -122,7 +122,8 @@ pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     duplicate
 }
 
-/// Marks every face that has two equal corner points, if the points of the face lie on an edge of an unmarked face.
+/// Marks every collapsed face whose segment or point lies on an edge of an unmarked face. A collapsed face has two
+/// equal corner points.
 pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let welded = |face: &[u32; 3]| face.map(|v| positions[v as usize]);
     let has_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;

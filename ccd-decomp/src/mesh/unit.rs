@@ -93,28 +93,28 @@ impl FromStr for Unit {
 /// or feet a coordinate is rounded up to twice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Conversion {
-    times: f64,
-    over: f64,
+    numerator: f64,
+    denominator: f64,
 }
 
 impl Conversion {
     pub(crate) const NONE: Conversion = Conversion {
-        times: 1.0,
-        over: 1.0,
+        numerator: 1.0,
+        denominator: 1.0,
     };
 
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
         let (from, to) = (from.micrometres(), to.micrometres());
         let common = greatest_common_divisor(from, to);
         Conversion {
-            times: f64::from(from / common),
-            over: f64::from(to / common),
+            numerator: f64::from(from / common),
+            denominator: f64::from(to / common),
         }
     }
 
     /// Converts a point to the new unit. The result is exact if the units are equal.
     pub(crate) fn apply(self, point: DVec3) -> DVec3 {
-        point * self.times / self.over
+        point * self.numerator / self.denominator
     }
 }
 

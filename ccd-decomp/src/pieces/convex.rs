@@ -4,7 +4,7 @@ use super::polytope::{CoveredFacet, polytope};
 use crate::hull::polygons::for_each_polygon;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::{Dihedral, Manifold};
-use crate::solid::shells::shells;
+use crate::solid::shells::shell_numbers;
 use crate::solid::topology::Edge;
 use ccd_core::Polytope;
 
@@ -21,7 +21,7 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
         let edge = Edge(v.min(w), v.max(w));
         return Err(DecomposeError::NotConvex { edge });
     }
-    let parts = shells(manifold)
+    let parts = shell_numbers(manifold)
         .into_iter()
         .max()
         .map_or(0, |last| last + 1);

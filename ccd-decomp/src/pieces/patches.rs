@@ -17,7 +17,7 @@ use crate::solid::manifold::{Dihedral, Manifold};
 use crate::tolerance::PATCH_POLYGONS;
 use crate::work::Work;
 use growing_patch::{GrowingPatch, Join};
-use order::{Frontier, seeds};
+use order::{Frontier, seed_order};
 
 /// A decomposition of a solid's surface into convex patches.
 #[derive(Clone, Debug)]
@@ -70,7 +70,7 @@ pub(crate) fn decompose_flats(
         let patches = vec![Patch { faces, polytope }];
         return Ok(Decomposition { patches });
     }
-    let mut grower = Grower {
+    let mut grower = PatchGrower {
         manifold,
         flats,
         order,
@@ -79,9 +79,9 @@ pub(crate) fn decompose_flats(
         last_tried_by: vec![u32::MAX; flats.len()],
     };
     let mut patches = Vec::new();
-    for seed in seeds(manifold, flats, order) {
+    for seed in seed_order(manifold, flats, order) {
         if !grower.in_patch[seed as usize] {
-            let region = grower.grow(seed, patches.len() as u32);
+            let region = grower.grow_patch(seed, patches.len() as u32);
             work.check()?;
             patches.push(Patch::new(manifold, flats, &region));
         }
@@ -89,7 +89,7 @@ pub(crate) fn decompose_flats(
     Ok(Decomposition { patches })
 }
 
-struct Grower<'a, 'm> {
+struct PatchGrower<'a, 'm> {
     manifold: &'a Manifold<'m>,
     flats: &'a Flats,
     order: Order,
@@ -100,8 +100,8 @@ struct Grower<'a, 'm> {
     last_tried_by: Vec<u32>,
 }
 
-impl Grower<'_, '_> {
-    fn grow(&mut self, seed: u32, patch: u32) -> GrowingPatch {
+impl PatchGrower<'_, '_> {
+    fn grow_patch(&mut self, seed: u32, patch: u32) -> GrowingPatch {
         let mut region = GrowingPatch::new(self.flats, seed);
         self.in_patch[seed as usize] = true;
         let mut frontier = Frontier::new(self.order);

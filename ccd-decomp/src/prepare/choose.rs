@@ -25,10 +25,10 @@ pub(super) fn choose(
     topology: &Topology,
     edges: Option<Edges>,
 ) -> (Parts, Why) {
-    within(mesh, topology, edges, &Work::with_steps(AUTO_WORK))
+    choose_within_budget(mesh, topology, edges, &Work::with_steps(AUTO_WORK))
 }
 
-fn within(
+fn choose_within_budget(
     mesh: &TriangleMesh,
     topology: &Topology,
     edges: Option<Edges>,
@@ -39,7 +39,7 @@ fn within(
         Err(error) => return only_triangles(error),
     };
     let convex = convex_polytope(&manifold);
-    let mut merger = RegionMerger::merged(&manifold);
+    let mut merger = RegionMerger::merge_all(&manifold);
     let estimate = merger.largest_planar_region().estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));

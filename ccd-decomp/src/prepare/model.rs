@@ -10,7 +10,7 @@ use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, Round, Volume};
 /// A prepared body before its tree is built. A `.ccd` file stores it.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// The convex pieces.
+    /// The convex pieces that the body is made of.
     pub pieces: Pieces,
     /// The binary hierarchy over the pieces.
     pub hierarchy: Hierarchy,

@@ -35,7 +35,8 @@ pub(super) struct PieceTree {
 }
 
 impl Choice {
-    /// Creates the model. `triangles` are those of the mesh before any shell is reversed, if computed.
+    /// Creates the model from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
+    /// computed.
     pub(super) fn into_model(
         self,
         mesh: &TriangleMesh,
@@ -83,20 +84,20 @@ impl Choice {
 impl PieceTree {
     /// Creates one piece for each triangle of a mesh.
     pub(super) fn of_triangles(mesh: &TriangleMesh) -> Result<Self, PrepareError> {
-        PieceTree::over(triangles(mesh)?)
+        PieceTree::over_pieces(triangles(mesh)?)
     }
 
     fn of_polytopes(polytopes: &[Polytope]) -> Result<Self, PrepareError> {
-        PieceTree::over(Pieces::polytopes(polytopes)?)
+        PieceTree::over_pieces(Pieces::polytopes(polytopes)?)
     }
 
-    fn over(pieces: Pieces) -> Result<Self, PrepareError> {
+    fn over_pieces(pieces: Pieces) -> Result<Self, PrepareError> {
         let hierarchy = build_hierarchy(&pieces)?;
         Ok(PieceTree { pieces, hierarchy })
     }
 
-    /// Replaces the triangles by those of a mesh that differs only in the order of corners. The hierarchy stays
-    /// valid.
+    /// Replaces the triangles by those of a reoriented mesh, which differs only in the order of corners. The
+    /// hierarchy stays valid.
     fn with_corners_of(self, turned: &TriangleMesh) -> Result<Self, PrepareError> {
         let pieces = triangles(turned)?;
         Ok(PieceTree { pieces, ..self })

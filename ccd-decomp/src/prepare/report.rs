@@ -24,8 +24,8 @@ pub struct Report {
     pub tree_nodes: usize,
     /// The radius added to the pieces so that they certainly cover the mesh, in its unit of length; 0 for exact kinds.
     pub inflated_by: f64,
-    /// A bound on how far the pieces extend beyond the solid, or the open surface: the [excess](ccd_core::Body::excess)
-    /// of the body, in the mesh's unit of length. Contacts may be early by it. 0 for exact kinds.
+    /// A bound on how far the pieces extend beyond the solid or the open surface, in the mesh's unit of length. It is
+    /// the [excess](ccd_core::Body::excess) of the body. Contacts may be early by it. 0 for exact kinds.
     pub sticks_out: f64,
     /// A number that is not used, because the format of stored bodies has one here.
     pub(super) reserved: usize,
@@ -71,8 +71,8 @@ pub enum Why {
     PatchesFaster(Estimate),
 }
 
-/// The estimated time of a query against a body of many triangles, for two kinds of pieces, in microseconds
-/// on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
+/// The estimated times of a query with two kinds of pieces, against a body of many triangles. They are in
+/// microseconds on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The estimated time with triangles as pieces.

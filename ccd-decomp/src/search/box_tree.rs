@@ -153,7 +153,7 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     });
     if !is_leaf {
         let along = nodes[at].oriented.axis_of_largest_spread(elements);
-        let height = |element: &Element| along.dot(element.middle());
+        let height = |element: &Element| along.dot(element.centre());
         elements.select_nth_unstable_by(split, |a, b| {
             let order = height(a).total_cmp(&height(b));
             order.then(a.face.cmp(&b.face))

@@ -77,7 +77,7 @@ impl Fan {
         (fan, others)
     }
 
-    /// Returns whether the fan is flat and a hull lies on one side of its plane, so that no part of the fan is inside
+    /// Returns whether the fan is flat and a hull lies on one side of its plane. Then no part of the fan is inside
     /// the hull.
     fn is_on_one_side_of(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {

@@ -51,7 +51,7 @@ impl BoxTree {
 
     /// Calls `holds` for the triangles whose bounding boxes meet a box. Stops when `holds` returns false or the work
     /// is spent.
-    pub(crate) fn all_in(
+    pub(crate) fn all_meeting_box(
         &self,
         bounds: &Bounds,
         work: &Work,

@@ -61,7 +61,7 @@ impl OrientedBox {
     pub(super) fn axis_of_largest_spread(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
-            let offset = element.middle() - self.centre;
+            let offset = element.centre() - self.centre;
             let along = dot_with_each(&self.axes, offset);
             (lo, hi) = (lo.min(along), hi.max(along));
         }

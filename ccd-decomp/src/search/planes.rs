@@ -67,7 +67,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             }
             for k in 0..3 {
                 let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
-                through(&mut planes, hub, [p, q], r);
+                add_plane_through_edge(&mut planes, hub, [p, q], r);
                 if hub == p {
                     add_axis_parallel_planes(&mut planes, [p, q], &[r], hub);
                     add_axis_parallel_planes(&mut planes, [p, r], &[q], hub);
@@ -146,8 +146,8 @@ pub(super) fn separating_planes_in_plane(corners: &[DVec3; 3], hub: DVec3) -> Ve
     planes
 }
 
-/// Adds the planes through a line, parallel to a coordinate axis, that have some points on or behind them and the hub
-/// on or in front of them.
+/// Adds the separating planes through the line `p q`, parallel to a coordinate axis. They have some points on or
+/// behind them and the hub on or in front of them.
 fn add_axis_parallel_planes(
     planes: &mut Vec<Plane>,
     [p, q]: [DVec3; 2],
@@ -176,7 +176,7 @@ fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
 }
 
 /// Adds the plane through the hub and an edge, if `rest`, the triangle's third corner, is behind it.
-fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
+fn add_plane_through_edge(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {
             planes.push(Plane::through(plane));

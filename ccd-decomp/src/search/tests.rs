@@ -102,8 +102,8 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     })
 }
 
-/// Tests that all triangles that meet a triangle, a segment or the interior of a tetrahedron are found, exactly and
-/// over every triangle.
+/// Tests that all triangles that meet a query shape are found: a triangle, a segment or the interior of a
+/// tetrahedron. The comparison is exact and with every triangle.
 #[test]
 fn skipped_triangles_meet_nothing() {
     let probes = prop::collection::vec([corner(), corner(), corner(), corner()], 20);
@@ -183,7 +183,7 @@ fn the_nearest_triangle_is_found() {
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
-            let all = search.all_in(&bounds, &Work::unbounded(), |face| {
+            let all = search.all_meeting_box(&bounds, &Work::unbounded(), |face| {
                 within.push(face);
                 true
             });

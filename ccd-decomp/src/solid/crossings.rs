@@ -3,7 +3,7 @@
 mod plates;
 
 use super::manifold::Manifold;
-use crate::exact::triangles::meet;
+use crate::exact::triangles::meet_outside_shared_corners;
 use crate::search::region::Region;
 use crate::tolerance::MAX_CROSSINGS;
 use crate::work::{OutOfWork, Work};
@@ -49,7 +49,7 @@ const STEPS_PER_PAIR: usize = 4;
 /// Returns whether two faces meet outside their shared corners.
 fn faces_cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
     let corners = [one, other].map(|f| manifold.faces()[f as usize]);
-    meet(corners, [one, other].map(|f| manifold.triangle(f)))
+    meet_outside_shared_corners(corners, [one, other].map(|f| manifold.triangle(f)))
 }
 
 #[cfg(test)]

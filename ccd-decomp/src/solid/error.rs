@@ -18,7 +18,7 @@ pub enum DecomposeError {
         /// The irregular edges of the mesh, by kind.
         topology: Box<Topology>,
     },
-    /// Faces have no area.
+    /// Some faces of the mesh have no area.
     #[error("faces without area: {faces}; remove them, or use triangles")]
     NoArea {
         /// The numbers of these faces.

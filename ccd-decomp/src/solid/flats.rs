@@ -32,7 +32,7 @@ pub(crate) struct Flat {
 impl Flats {
     /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        RegionMerger::merged(manifold).into_flats()
+        RegionMerger::merge_all(manifold).into_flats()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -71,12 +71,12 @@ pub(crate) struct RegionMerger<'a, 'm> {
 }
 
 impl<'a, 'm> RegionMerger<'a, 'm> {
-    /// Merges adjacent regions while their union is convex, in order of the longest common edge: a diagonal is
-    /// removed before an edge of the outline `[HM83]`.
+    /// Merges adjacent regions while their union is convex. The longest common edge comes first, so that a diagonal
+    /// is removed before an edge of the outline `[HM83]`.
     ///
     /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
     /// covers a convex polygon once.
-    pub(crate) fn merged(manifold: &'a Manifold<'m>) -> Self {
+    pub(crate) fn merge_all(manifold: &'a Manifold<'m>) -> Self {
         let mut merger = RegionMerger::new(manifold);
         let mut edges = merger.flat_edges();
         for &edge in &edges {
@@ -177,8 +177,8 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         true
     }
 
-    /// Follows the boundary from an edge to the last half-edge that has the given region on its other side; `None` if
-    /// the whole boundary has.
+    /// Follows the boundary of a region to the last half-edge that borders another given region. Returns `None` if
+    /// the whole boundary borders it.
     fn last_beside_region(
         &mut self,
         edge: HalfEdge,

@@ -6,7 +6,7 @@ use crate::bounds::{Bounds, BoundsTree};
 use crate::disjoint_sets::members;
 use crate::exact::predicates::{is_degenerate, too_fine};
 use crate::exact::rays::{crossing, probe_segment};
-use crate::exact::triangles::meet;
+use crate::exact::triangles::meet_outside_shared_corners;
 use crate::exact::volume::SignedVolume;
 use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
@@ -17,7 +17,7 @@ use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
-use closed_parts::closed_parts;
+use closed_parts::closed_part_numbers;
 
 /// The shells of a closed mesh whose orientation contradicts their nesting in other shells.
 ///
@@ -41,7 +41,7 @@ impl Nesting {
     ///
     /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
     pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {
-        let shell_of = closed_parts(mesh, edges);
+        let shell_of = closed_part_numbers(mesh, edges);
         let faces_of = members(&shell_of);
         match faces_of[..] {
             [] | [_] => Nesting::default(),
@@ -178,8 +178,8 @@ impl<'m> Shells<'m> {
         }
     }
 
-    /// Returns the other shells with a winding number other than 0 about a shell; `None` if every ray meets an edge
-    /// or vertex.
+    /// Returns the other shells whose winding number about a shell is not 0; `None` if every ray meets an edge or
+    /// vertex.
     fn shells_winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
@@ -212,8 +212,8 @@ impl<'m> Shells<'m> {
         is_alone.then_some(middle)
     }
 
-    /// Returns the other shells with a winding number other than 0 about the start of a ray; `None` if the ray meets
-    /// an edge or vertex.
+    /// Returns the other shells whose winding number about the start of a ray is not 0; `None` if the ray meets an
+    /// edge or vertex.
     fn shells_winding_about_start(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
@@ -251,7 +251,7 @@ impl<'m> Shells<'m> {
                     let other = self.shell_of[near as usize];
                     if other != shell && !crossed.contains(&other) && !flat(near) {
                         let ids = [face, near].map(|f| self.mesh.welded_face(f));
-                        if meet(ids, [one, self.mesh.triangle(near)]) {
+                        if meet_outside_shared_corners(ids, [one, self.mesh.triangle(near)]) {
                             crossed.push(other);
                         }
                     }

@@ -20,7 +20,7 @@ pub(crate) fn check_orientation(
     manifold: &Manifold<'_>,
     work: &Work,
 ) -> Result<(), DecomposeError> {
-    let shell_of = shells(manifold);
+    let shell_of = shell_numbers(manifold);
     let near = manifold.triangle(0)[0];
     let faces_of = members(&shell_of);
     for faces in &faces_of {
@@ -48,7 +48,7 @@ pub(crate) fn check_orientation(
 }
 
 /// Returns the shell number of each face. Shells are connected over edges.
-pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
+pub(crate) fn shell_numbers(manifold: &Manifold<'_>) -> Vec<u32> {
     let faces = manifold.faces().len();
     let mut shells = DisjointSets::new(faces);
     for face in 0..faces as u32 {

@@ -41,7 +41,7 @@ pub enum BodyError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// The text is empty.
+    /// The text that describes the body is empty.
     #[error("no body given; {EXAMPLES}")]
     Empty,
     /// The word before the colon is not the name of a shape.

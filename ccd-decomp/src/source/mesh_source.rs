@@ -135,7 +135,7 @@ impl From<PathBuf> for MeshSource {
     }
 }
 
-/// Parses a path. A path that is not UTF-8 is a file name without a part.
+/// Parses the description in a path. A path that is not UTF-8 is a file name without a part.
 impl TryFrom<OsString> for MeshSource {
     type Error = UnknownAdjustment;
 

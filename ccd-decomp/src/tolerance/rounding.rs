@@ -8,27 +8,27 @@ use ccd_core::rounding::U64;
 /// face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
-/// Returns a bound on how far clipping a polygon to a voxel moves its points, for coordinates up to `farthest`, in
+/// Returns a bound on how far clipping a polygon to a voxel moves its points. Coordinates are up to `farthest`, in
 /// the same unit. A grid of 128 layers is halved at most 21 times.
 ///
 /// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
 /// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
 /// each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed because they are between two
-/// others on an edge are off by twice [`on_edge`] more for each of three edges: 804u. 1024u are used. Voxels are
+/// others on an edge are off by twice [`on_edge_distance`] more for each of three edges: 804u. 1024u are used. Voxels are
 /// widened by this margin, so that neighbours overlap.
 pub(crate) fn clip_rounding(farthest: f64) -> f64 {
     1024.0 * U64 * farthest
 }
 
-/// Returns the distance from an edge within which a clipped point counts as on the edge, for coordinates up to
+/// Returns the distance from an edge within which a clipped point counts as on the edge. Coordinates are up to
 /// `farthest`, in the same unit. One cut moves a point by less than a third of it.
-pub(crate) fn on_edge(farthest: f64) -> f64 {
+pub(crate) fn on_edge_distance(farthest: f64) -> f64 {
     64.0 * U64 * farthest
 }
 
-/// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along
-/// `direction`, a vector of length about 1. It covers the difference of points and the extent of the box, for
-/// coordinates up to `reach`, in the same unit.
+/// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
+/// axis. `direction` is the axis, of length about 1. It covers the difference of points and the extent of the box,
+/// for coordinates up to `reach`, in the same unit.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a difference
 /// is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as there is one of the
@@ -38,9 +38,9 @@ pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 
-/// Returns a bound on the error of the sum of `terms` products `a · (b × c)` of rounded differences of points, in the
-/// unit of the products. `size` is the sum of `|a| |b| |c|`. The rounding errors of the additions are summed
-/// separately.
+/// Returns a bound on the rounding error of a sum of triple products `a · (b × c)`, in the unit of the products. The
+/// vectors are rounded differences of points. `terms` is the number of products, and `size` is the sum of `|a| |b|
+/// |c|`. The rounding errors of the additions are summed separately.
 ///
 /// With `u` half a unit in the last place: of the six products of three coordinates each comes from three differences,
 /// and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most

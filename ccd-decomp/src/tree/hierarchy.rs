@@ -124,7 +124,7 @@ impl Splitter<'_> {
     /// Builds the subtree over some pieces, in parallel if they are many.
     fn build_subtree(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
         if centres.len() <= PIECES_PER_TASK {
-            return self.one_by_one(centres, slot, &mut Workspace::default());
+            return self.build_sequentially(centres, slot, &mut Workspace::default());
         }
         halve(centres, slot, |[left, right]| {
             rayon::join(
@@ -134,11 +134,16 @@ impl Splitter<'_> {
         });
     }
 
-    fn one_by_one(&self, centres: &mut [Centre], slot: Slot<'_, Node>, workspace: &mut Workspace) {
+    fn build_sequentially(
+        &self,
+        centres: &mut [Centre],
+        slot: Slot<'_, Node>,
+        workspace: &mut Workspace,
+    ) {
         if centres.len() > MAX_CLUSTER_PIECES {
             return halve(centres, slot, |sides| {
                 for (centres, slot) in sides {
-                    self.one_by_one(centres, slot, workspace);
+                    self.build_sequentially(centres, slot, workspace);
                 }
             });
         }

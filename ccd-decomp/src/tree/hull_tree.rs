@@ -31,25 +31,29 @@ pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
     }
     let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
     let mut nodes = vec![HullNode::Leaf(0); (2 * order.len()).saturating_sub(1)];
-    let grower = Grower {
+    let grower = TreeBuilder {
         pieces,
         splitter: Splitter::new(pieces),
     };
     if let Some(slot) = Slot::whole(&mut nodes) {
-        grower.grow(&mut order, slot)?;
+        grower.build_subtree(&mut order, slot)?;
     }
     Ok(HullTree::new(pieces, &nodes)?)
 }
 
-struct Grower<'a> {
+struct TreeBuilder<'a> {
     pieces: &'a Pieces,
     splitter: Splitter,
 }
 
-impl Grower<'_> {
+impl TreeBuilder<'_> {
     /// Builds the subtree over some pieces, parents before children. Each child gets at least a fixed fraction of the
     /// pieces, so that the depth is logarithmic.
-    fn grow(&self, pieces: &mut [u32], mut slot: Slot<'_, HullNode>) -> Result<(), BuildError> {
+    fn build_subtree(
+        &self,
+        pieces: &mut [u32],
+        mut slot: Slot<'_, HullNode>,
+    ) -> Result<(), BuildError> {
         if let [piece] = *pieces {
             *slot.node = HullNode::Leaf(piece);
             return Ok(());
@@ -61,9 +65,15 @@ impl Grower<'_> {
             return Ok(());
         };
         let (grown_left, grown_right) = if count >= PARALLEL_PIECES {
-            rayon::join(|| self.grow(of_left, left), || self.grow(of_right, right))
+            rayon::join(
+                || self.build_subtree(of_left, left),
+                || self.build_subtree(of_right, right),
+            )
         } else {
-            (self.grow(of_left, left), self.grow(of_right, right))
+            (
+                self.build_subtree(of_left, left),
+                self.build_subtree(of_right, right),
+            )
         };
         grown_left.and(grown_right)?;
         let children = &slot.below[..2];

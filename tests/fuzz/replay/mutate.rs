@@ -1,4 +1,4 @@
-//! Changes files at random.
+//! Changes files at random for the replay of the fuzz targets.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;

@@ -33,6 +33,8 @@ pub struct Bodies {
 }
 
 impl Bodies {
+    /// Makes the bodies of a case.
+    ///
     /// # Errors
     /// The reason why the engine refuses the meshes.
     pub fn new(case: &Case, kind: Kind, trees: Trees) -> Result<Self, String> {
@@ -44,6 +46,8 @@ impl Bodies {
         })
     }
 
+    /// Builds the engine's query of a case on these bodies.
+    ///
     /// # Errors
     /// The reason why the engine refuses the query.
     pub fn problem<'a>(

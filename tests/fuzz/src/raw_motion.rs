@@ -41,14 +41,14 @@ impl RawPose {
     }
 
     /// Returns the rotation as a unit quaternion.
-    fn rotation_angle(&self) -> [Double; 4] {
+    fn unit_quaternion(&self) -> [Double; 4] {
         let q = self.quaternion.map(Double::new);
         let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
         q.map(|x| x / square.sqrt())
     }
 
     fn point(&self, x: Vector<Double>) -> Vector<Double> {
-        let [w, a, b, c] = self.rotation_angle();
+        let [w, a, b, c] = self.unit_quaternion();
         let (u, two) = (Vector([a, b, c]), Double::new(2.0));
         let across = u.cross(x) * two;
         x + across * w + u.cross(across) + Vector::from_array(self.position)
@@ -96,7 +96,7 @@ impl RawMotion {
             Goal::End(end) => {
                 let velocity = (end.point(centre) - start) * per_time;
                 let (axis, angle) =
-                    shortest_turn(self.start.rotation_angle(), end.rotation_angle());
+                    shortest_turn(self.start.unit_quaternion(), end.unit_quaternion());
                 (velocity, axis, angle * per_time)
             }
         };

@@ -1,5 +1,5 @@
-//! The referee computes the bodies' distance at a time, and the first time with a distance below a threshold, by
-//! conservative advancement over all pairs of triangles.
+//! The referee computes distances of the bodies by brute force. It finds the first time with a distance below a
+//! threshold, by conservative advancement over all pairs of triangles.
 //!
 //! Positions and their differences are computed in [`Double`]. Distances are searched in f64 and
 //! judged in [`Double`]. A contact found is evidence; contacts may exist that are not found.

@@ -179,7 +179,7 @@ fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> F
     }
 }
 
-/// Returns the case with triangles dropped for as long as it fails in the same way.
+/// Drops triangles of a case for as long as it fails in the same way, and returns the rest.
 pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut methods = vec![(Kind::Triangles, Method::Direct)];

@@ -11,7 +11,7 @@ impl Judge<'_> {
     /// Checks an answer to "do they touch at all?": it is never missed, never false, and has a contact as claimed.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
@@ -34,7 +34,7 @@ impl Judge<'_> {
     /// given time, and no farther apart than the tolerance.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
@@ -77,7 +77,7 @@ impl Judge<'_> {
     /// least distance.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
@@ -115,7 +115,7 @@ impl Judge<'_> {
     /// given time, and no farther apart than the tolerance.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check_greatest(&self, answer: &Answer) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
@@ -150,7 +150,7 @@ impl Judge<'_> {
     /// Checks the first and the last contact. There is none before and after them, and both are within the tolerance.
     ///
     /// # Errors
-    /// The law that the answer breaks.
+    /// Describes how the answer is wrong.
     pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Interval { first, last } => {

@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 use dashu_ratio::Relaxed;
 use std::cell::OnceCell;
 
-/// A convex combination of points with whole numbers as weights, kept exactly: `Σ w p / Σ w`.
+/// An exact convex combination of points, with whole numbers as weights: `Σ w p / Σ w`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blend(Vec<(u32, DVec3)>);
 

@@ -49,7 +49,7 @@ fn certain_sign(x: f64, rounding: f64) -> Option<Ordering> {
     (x.abs() > rounding + f64::MIN_POSITIVE).then(|| x.total_cmp(&0.0))
 }
 
-/// Returns the largest absolute coordinate of some points and of those that a point combines.
+/// Returns the largest absolute coordinate of some points and of the combined points of `p`.
 fn size_of(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
     sizes.fold(p.size, greater)

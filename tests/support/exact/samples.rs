@@ -33,8 +33,8 @@ impl Effort {
     };
 }
 
-/// The sum of the weights of a random point, a power of two, so that its coordinates stay as short in binary as those
-/// of the corners.
+/// The sum of the weights of a random point. It is a power of two, so that coordinates stay as short in binary as
+/// those of the corners.
 const WHOLE: u32 = 64;
 
 /// Returns points of a polytope's hull: means, middles, and random ones on facets, segments and inside. The result

@@ -76,8 +76,8 @@ pub fn inradius(mesh: &Mesh) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Returns a torus about z: `rings` sections on a circle of radius `major`, each of `sides`
-/// vertices at distance `minor`, one of them nearest to the axis. The first section lies on +x.
+/// Returns a torus about z, with its first section on +x. It has `rings` sections on a circle of radius `major`, each
+/// of `sides` vertices at distance `minor`, one of them nearest to the axis.
 pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
     let angle = |k: usize, n: usize| TAU * k as f64 / n as f64;
     let vertex = |i: usize, j: usize| {

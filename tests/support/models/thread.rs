@@ -23,7 +23,7 @@ pub fn nut(clearance: f64, fineness: usize) -> Shape {
     Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
-/// Returns a helical surface, which a rotation by an angle and a lift by the same fraction of the pitch map to itself,
+/// Returns a helical surface. A rotation by an angle and a lift by the same fraction of the pitch map it to itself,
 /// up to its facets.
 fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
     let (segments, rows_per_pitch) = (SEGMENTS * fineness, ROWS_PER_PITCH * fineness);

@@ -3,8 +3,8 @@
 use crate::query::{Actor, Query};
 use ccd_core::glam::DVec3;
 
-/// The map from a body's points to positions at time t, relative to the start of body A's centre: `x(t) = R(t) R₀ (x
-/// − c) + d + v t`.
+/// The map from a body's points to positions in the world at time t. It is relative to the start of body A's centre:
+/// `x(t) = R(t) R₀ (x − c) + d + v t`.
 ///
 /// Offsets are subtracted before anything is rounded at their size, and A's velocity is subtracted
 /// from both bodies, so that far and fast scenes keep their digits.

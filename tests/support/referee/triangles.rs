@@ -151,7 +151,7 @@ pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
 
 /// A triangle, prepared for computing nearest points.
 pub(crate) struct Face {
-    /// The corner points. The longest edge is between the first two.
+    /// The corner points of the triangle. The longest edge is between the first two.
     pub(crate) corners: [DVec3; 3],
     /// The unit vectors along the longest edge and perpendicular to it. For a needle, whose normal is mostly rounding,
     /// these two are accurate to the last relevant digits.
@@ -238,7 +238,7 @@ pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
     mesh.faces.iter().map(angle).sum::<f64>() > 2.0 * PI
 }
 
-/// An axis-aligned box.
+/// An axis-aligned box around the faces of a group.
 #[derive(Clone, Copy)]
 struct Bounds {
     lo: DVec3,

@@ -9,8 +9,8 @@ use ccd_core::glam::DVec3;
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
 /// `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
-    let hull = Growing::all(points, simplex);
-    let left = hull.facets.into_iter().filter(|facet| facet.is_there);
+    let hull = Growing::hull_of_all(points, simplex);
+    let left = hull.facets.into_iter().filter(|facet| facet.is_on_hull);
     left.map(|facet| facet.corners).collect()
 }
 
@@ -31,11 +31,11 @@ const NONE: u32 = u32::MAX;
 struct Facet {
     corners: [u32; 3],
     plane: Plane,
-    /// The adjacent facets. The first is across the edge from the first corner to the second.
+    /// The indices of the adjacent facets. The first is across the edge from the first corner to the second.
     adjacent: [u32; 3],
     /// The points that see the facet and are not inserted yet.
     seen_by: Vec<u32>,
-    is_there: bool,
+    is_on_hull: bool,
     /// The last point that was tested against the facet, and whether it sees it.
     last_test: (u32, bool),
 }
@@ -46,11 +46,11 @@ struct Growing<'a> {
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
     /// By point, one facet that it sees. It is a removed facet or [`NONE`] if the point is inside the hull.
-    sees: Vec<u32>,
+    visible_facet: Vec<u32>,
     /// By point, the last facet that the point was tested against.
     last_tested: Vec<u32>,
     /// By point, the new facet whose horizon edge starts there.
-    starting_at: Vec<u32>,
+    facet_at_rim_start: Vec<u32>,
 }
 
 /// A horizon edge, which bounds the visible part of the hull: its ends, the hidden facet, and the visible facet.
@@ -61,7 +61,7 @@ struct RimEdge {
 }
 
 impl<'a> Growing<'a> {
-    fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
+    fn hull_of_all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         order.sort_unstable_by_key(|&v| (hash(v).leading_zeros(), v));
         order.reverse();
@@ -77,9 +77,9 @@ impl<'a> Growing<'a> {
             points: LocalPoints::new(points),
             spare: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
-            sees: vec![NONE; points.len()],
+            visible_facet: vec![NONE; points.len()],
             last_tested: vec![NONE; points.len()],
-            starting_at: vec![NONE; points.len()],
+            facet_at_rim_start: vec![NONE; points.len()],
         };
         hull.push([a, b, c], [1, 2, 3], order);
         hull.push([b, a, d], [0, 3, 2], order);
@@ -96,7 +96,7 @@ impl<'a> Growing<'a> {
         for &v in candidates {
             let is_new = std::mem::replace(&mut self.last_tested[v as usize], number) != number;
             if is_new && self.points.is_in_front(&plane, corners, v) {
-                self.sees[v as usize] = number;
+                self.visible_facet[v as usize] = number;
                 seen_by.push(v);
             }
         }
@@ -109,21 +109,21 @@ impl<'a> Growing<'a> {
             plane,
             adjacent,
             seen_by,
-            is_there: true,
+            is_on_hull: true,
             last_test: (NONE, false),
         });
     }
 
     fn insert(&mut self, v: u32) {
-        let first = self.sees[v as usize];
+        let first = self.visible_facet[v as usize];
         // A point that sees a new facet also saw one of the two facets at its rim edge, so that no conflict is lost.
-        if first == NONE || !self.facets[first as usize].is_there {
+        if first == NONE || !self.facets[first as usize].is_on_hull {
             return;
         }
         let (removed, rim) = self.remove_visible(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
-            self.starting_at[edge.ends[0] as usize] = k;
+            self.facet_at_rim_start[edge.ends[0] as usize] = k;
         }
         let mut candidates = Vec::new();
         for (k, edge) in (base..).zip(&rim) {
@@ -133,7 +133,7 @@ impl<'a> Growing<'a> {
                 candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
             }
             // The previous facet is set once all are added.
-            let adjacent = [edge.beyond, self.starting_at[b as usize], NONE];
+            let adjacent = [edge.beyond, self.facet_at_rim_start[b as usize], NONE];
             self.push([a, b, v], adjacent, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
@@ -157,7 +157,7 @@ impl<'a> Growing<'a> {
     /// their horizon edges.
     fn remove_visible(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
-        self.facets[first as usize].is_there = false;
+        self.facets[first as usize].is_on_hull = false;
         let mut at = 0;
         // Every facet is removed once.
         while let Some(&seen) = removed.get(at) {
@@ -167,11 +167,11 @@ impl<'a> Growing<'a> {
             } = self.facets[seen as usize];
             for k in 0..3 {
                 let beyond = adjacent[k];
-                if !self.facets[beyond as usize].is_there {
+                if !self.facets[beyond as usize].is_on_hull {
                     continue;
                 }
                 if self.is_seen(beyond, v) {
-                    self.facets[beyond as usize].is_there = false;
+                    self.facets[beyond as usize].is_on_hull = false;
                     removed.push(beyond);
                 } else {
                     let ends = [corners[k], corners[(k + 1) % 3]];

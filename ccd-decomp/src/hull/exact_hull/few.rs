@@ -7,7 +7,7 @@ use ccd_core::glam::DVec3;
 ///
 /// O(n²), with hardly any memory: the fastest method for few points.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
-    let hull = Growing::all(points, simplex);
+    let hull = Growing::hull_of_all(points, simplex);
     hull.facets.into_iter().map(|facet| facet.corners).collect()
 }
 
@@ -22,7 +22,7 @@ struct Facet {
 }
 
 impl<'a> Growing<'a> {
-    fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
+    fn hull_of_all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let [a, b, c, d] = simplex;
         let mut hull = Growing {
             points: LocalPoints::new(points),

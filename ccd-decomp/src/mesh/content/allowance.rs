@@ -6,8 +6,8 @@ use crate::tolerance::{EXPANSION_BASE, EXPANSION_MAX, EXPANSION_PER_BYTE, VERTEX
 /// The remaining budget of elements that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Allowance {
-    left: u64,
-    all: u64,
+    remaining: u64,
+    limit: u64,
 }
 
 /// Returns the cost of an expansion to some vertices and face corners.
@@ -22,18 +22,21 @@ impl Allowance {
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);
         let repeated = EXPANSION_BASE.saturating_add(bytes.saturating_mul(EXPANSION_PER_BYTE));
-        let all = once.saturating_add(repeated.min(EXPANSION_MAX));
-        Allowance { left: all, all }
+        let limit = once.saturating_add(repeated.min(EXPANSION_MAX));
+        Allowance {
+            remaining: limit,
+            limit,
+        }
     }
 
     /// Spends a cost from the budget; returns an error if too little is left.
     pub(crate) fn spend(&mut self, cost: u64) -> Result<(), MeshFault> {
-        match self.left.checked_sub(cost) {
+        match self.remaining.checked_sub(cost) {
             Some(left) => {
-                self.left = left;
+                self.remaining = left;
                 Ok(())
             }
-            None => Err(MeshFault::Repeats { limit: self.all }),
+            None => Err(MeshFault::Repeats { limit: self.limit }),
         }
     }
 }

@@ -74,7 +74,7 @@ impl Assembly {
     }
 
     /// Returns the triangles of some parts, one part after the other.
-    pub(super) fn expanded(
+    pub(super) fn expand(
         &self,
         parts: Range<usize>,
         conversion: Conversion,

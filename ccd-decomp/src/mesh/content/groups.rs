@@ -1,4 +1,4 @@
-//! Named groups of faces.
+//! Named groups of a file's faces, each a part of the mesh.
 
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;

@@ -33,15 +33,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
                     file.add_face(&statement, number)?;
                 }
             }
-            "o" => file.objects.set(name_after_keyword(line)),
-            "g" => file.groups.set(name_after_keyword(line)),
+            "o" => file.objects.set_current(name_after_keyword(line)),
+            "g" => file.groups.set_current(name_after_keyword(line)),
             "" => {}
             word if may_continue && word.parse::<f64>().is_ok() => {}
             other => skip_statement(other, number, &mut file.polygons.remarks)
                 .map_err(|fault| fault.at(format!("line {number}")))?,
         }
     }
-    file.finish()
+    file.into_content()
 }
 
 fn without_comment(line: &str) -> &str {
@@ -129,7 +129,7 @@ impl Reader {
     }
 
     /// Checks that all face corners name vertices, and returns the content.
-    fn finish(mut self) -> Result<Content, MeshFault> {
+    fn into_content(mut self) -> Result<Content, MeshFault> {
         let polygons = &self.polygons;
         let vertices = polygons.vertices.len();
         let beyond = polygons.corners.iter().position(|&v| v >= vertices as i64);
@@ -151,10 +151,10 @@ impl Reader {
                 });
             }
         }
-        let groups = if self.objects.is_used() {
-            self.objects.groups()
+        let groups = if self.objects.has_names() {
+            self.objects.into_groups()
         } else {
-            self.groups.groups()
+            self.groups.into_groups()
         };
         Ok(Content {
             unit: None,
@@ -186,7 +186,7 @@ struct Labels {
 }
 
 impl Labels {
-    fn set(&mut self, name: &str) {
+    fn set_current(&mut self, name: &str) {
         let next = self.numbers.len() as u32 + 1;
         self.current = match self.numbers.get(name) {
             _ if name.is_empty() => 0,
@@ -196,12 +196,12 @@ impl Labels {
     }
 
     /// Returns whether any face has a name.
-    fn is_used(&self) -> bool {
+    fn has_names(&self) -> bool {
         self.of_face.iter().any(|&label| label > 0)
     }
 
     /// Converts the names to groups of faces, numbered by their first face.
-    fn groups(self) -> Groups {
+    fn into_groups(self) -> Groups {
         let mut labels = vec![None; self.numbers.len() + 1];
         for (name, number) in self.numbers {
             labels[number as usize] = Some(name);

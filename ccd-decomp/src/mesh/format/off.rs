@@ -18,7 +18,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let (vertices, faces) = read_counts(first, &mut lines)?;
     let mut polygons = Polygons::default();
     for vertex in 0..vertices {
-        let mut line = lines.need(|| format!("vertex {vertex} of {vertices}"))?;
+        let mut line = lines.next_line(|| format!("vertex {vertex} of {vertices}"))?;
         let what = "the three coordinates of a vertex";
         let mut coordinate = || line.number::<f64>(what);
         let point = DVec3::new(coordinate()?, coordinate()?, coordinate()?);
@@ -26,7 +26,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         polygons.vertex_lines.push(line.number);
     }
     for face in 0..faces {
-        let mut line = lines.need(|| format!("face {face} of {faces}"))?;
+        let mut line = lines.next_line(|| format!("face {face} of {faces}"))?;
         let corners: u32 = line.number("the number of corners of a face")?;
         for _ in 0..corners {
             let corner = line.number("the number of a vertex for each corner of a face")?;
@@ -68,7 +68,7 @@ fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u6
                 });
             }
             Some(_) => {}
-            None => line = lines.need(|| "the numbers of vertices and faces".into())?,
+            None => line = lines.next_line(|| "the numbers of vertices and faces".into())?,
         }
     }
     let what = "the numbers of vertices and faces";
@@ -87,7 +87,7 @@ struct Line<'a> {
 }
 
 impl<'a> Lines<'a> {
-    fn need(&mut self, missing: impl Fn() -> String) -> Result<Line<'a>, MeshFault> {
+    fn next_line(&mut self, missing: impl Fn() -> String) -> Result<Line<'a>, MeshFault> {
         self.next()
             .ok_or_else(|| MeshFault::Truncated { missing: missing() })
     }

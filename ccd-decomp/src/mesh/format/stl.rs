@@ -137,7 +137,7 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     Err(MeshFault::Truncated { missing })
 }
 
-/// Facets under construction. Corners at exactly the same point become one vertex.
+/// The polygons of a file under construction. Corners at exactly the same point become one vertex.
 #[derive(Default)]
 struct Facets {
     polygons: Polygons,

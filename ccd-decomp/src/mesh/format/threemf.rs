@@ -29,7 +29,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     let unit = models.list[0].model.unit.unwrap_or(Unit::Millimetre);
     let parts = models.parts()?;
     let objects = models.objects()?;
-    let unused = models.check_used(&objects, &parts)?;
+    let unused = models.check_used_objects(&objects, &parts)?;
     let mut remarks = Remarks::default();
     for Named { model, .. } in &models.list {
         remarks.append(&model.remarks);
@@ -41,10 +41,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
             None,
         );
     }
-    let allowance = Allowance::for_file(models.package.unpacked() + bytes.len() as u64);
+    let allowance = Allowance::for_file(models.package.unpacked_bytes() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
         let problem = "is a component of itself".into();
-        MeshFault::syntax(None, problem).at(models.place(circle.object))
+        MeshFault::syntax(None, problem).at(models.object_name(circle.object))
     })?;
     Ok(Content {
         unit: Some(unit),
@@ -60,7 +60,7 @@ struct Models<'a> {
     /// The number of each model in the package, by its path.
     numbers: BTreeMap<String, usize>,
     /// The assembly's object number, by model number and object id in that model.
-    known: BTreeMap<(usize, u32), usize>,
+    object_numbers: BTreeMap<(usize, u32), usize>,
     /// The model number and the index there of each object of the assembly.
     places: Vec<(usize, usize)>,
 }
@@ -78,13 +78,13 @@ impl<'a> Models<'a> {
             package,
             list: Vec::new(),
             numbers: BTreeMap::new(),
-            known: BTreeMap::new(),
+            object_numbers: BTreeMap::new(),
             places: Vec::new(),
         };
         models.model_number(&first)?;
         let mut next = 0;
         while let Some(Named { model, .. }) = models.list.get(next) {
-            for path in model.paths() {
+            for path in model.referenced_models() {
                 models.model_number(&path)?;
             }
             next += 1;
@@ -111,7 +111,9 @@ impl<'a> Models<'a> {
     fn number_objects(&mut self) -> Result<(), MeshFault> {
         for (number, Named { path, model }) in self.list.iter().enumerate() {
             for (k, object) in model.objects.iter().enumerate() {
-                let new = self.known.insert((number, object.id), self.places.len());
+                let new = self
+                    .object_numbers
+                    .insert((number, object.id), self.places.len());
                 if new.is_some() {
                     let problem = format!("has two objects {}", object.id);
                     return Err(MeshFault::syntax(None, problem).at(format!("{:?}", Quote(path))));
@@ -163,7 +165,7 @@ impl<'a> Models<'a> {
             None => Some(&from),
             Some(path) => self.numbers.get(&package::normalized_path(path)),
         };
-        let object = model.and_then(|&model| self.known.get(&(model, used.object)));
+        let object = model.and_then(|&model| self.object_numbers.get(&(model, used.object)));
         object.copied().ok_or_else(|| {
             let problem = format!("names object {}, which there is not", used.object);
             MeshFault::syntax(None, problem)
@@ -199,7 +201,8 @@ impl<'a> Models<'a> {
         };
         let member = |(k, component): (usize, &ObjectRef)| {
             let found = self.find_object(model, component);
-            let at = |fault: MeshFault| fault.at(format!("{}, component {k}", self.place(number)));
+            let at =
+                |fault: MeshFault| fault.at(format!("{}, component {k}", self.object_name(number)));
             let map: AffineMap = component.map;
             Ok(PlacedObject {
                 object: found.map_err(at)?,
@@ -210,7 +213,7 @@ impl<'a> Models<'a> {
     }
 
     /// Checks that all used objects are triangle meshes. Returns the number of unused objects.
-    fn check_used(&self, objects: &[Object], parts: &[Part]) -> Result<usize, MeshFault> {
+    fn check_used_objects(&self, objects: &[Object], parts: &[Part]) -> Result<usize, MeshFault> {
         let mut seen = vec![false; objects.len()];
         let mut waiting: Vec<usize> = parts.iter().map(|part| part.placed.object).collect();
         while let Some(number) = waiting.pop() {
@@ -223,7 +226,7 @@ impl<'a> Models<'a> {
                     what: format!("a shape of another kind, {:?}", Quote(what)),
                     instead: "a mesh of triangles",
                 };
-                return Err(fault.at(self.place(number)));
+                return Err(fault.at(self.object_name(number)));
             }
             waiting.extend(objects[number].members.iter().map(|member| member.object));
         }
@@ -231,11 +234,11 @@ impl<'a> Models<'a> {
     }
 
     /// Returns the name of an object of the assembly for messages.
-    fn place(&self, number: usize) -> String {
+    fn object_name(&self, number: usize) -> String {
         let (model, place) = self.places[number];
         let Named { path, model } = &self.list[model];
         let object = &model.objects[place];
-        model::place(Some(path), object.id, object.name.as_deref())
+        model::object_name(Some(path), object.id, object.name.as_deref())
     }
 }
 

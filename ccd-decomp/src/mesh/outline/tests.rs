@@ -52,7 +52,7 @@ fn outlines_are_filled_unless_they_meet_themselves() {
             }
         };
         let points: Vec<DVec3> = radii.iter().enumerate().map(corner).collect();
-        let filled = fill(&points);
+        let filled = triangulate_outline(&points);
         if meets_itself(&points) {
             assert_eq!(filled, None, "{points:?}");
             crossed += 1;
@@ -88,9 +88,12 @@ fn outlines_are_filled_from_whichever_side() {
             DVec3::from_array(p)
         };
         let points: Vec<DVec3> = notch.iter().map(placed).collect();
-        assert_eq!(fill(&points), Some(vec![[0, 1, 2], [0, 2, 3]]));
+        assert_eq!(
+            triangulate_outline(&points),
+            Some(vec![[0, 1, 2], [0, 2, 3]])
+        );
         let turned: Vec<DVec3> = points.iter().rev().copied().collect();
-        let filled = fill(&turned).unwrap();
+        let filled = triangulate_outline(&turned).unwrap();
         let plane = Projection::new([points[0], points[2], points[1]]).unwrap();
         let [a, b, c] = filled[0].map(|k| turned[k]);
         assert_eq!(plane.turn(a, b, c), Ordering::Greater);
@@ -100,17 +103,17 @@ fn outlines_are_filled_from_whichever_side() {
 #[test]
 fn outlines_without_an_inside_are_not_filled() {
     let line: Vec<DVec3> = (0..5).map(|k| DVec3::X * f64::from(k)).collect();
-    assert_eq!(fill(&line), None);
-    assert_eq!(fill(&[DVec3::ONE; 6]), None);
+    assert_eq!(triangulate_outline(&line), None);
+    assert_eq!(triangulate_outline(&[DVec3::ONE; 6]), None);
     let twice = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::X, DVec3::Y];
-    assert_eq!(fill(&twice), None);
+    assert_eq!(triangulate_outline(&twice), None);
     let fine = [
         DVec3::ZERO,
         1e-300 * DVec3::X,
         DVec3::ONE,
         1e-300 * DVec3::Y,
     ];
-    assert_eq!(fill(&fine), None);
+    assert_eq!(triangulate_outline(&fine), None);
 }
 
 /// Tests the time for outlines of many corners on or near a line, or in convex position, for which a sweep takes
@@ -139,7 +142,7 @@ fn outlines_of_many_corners_take_no_longer_than_others() {
         chain(|x| 1e-9 * (x % 13.0)),
         comb,
     ] {
-        let filled = fill(&points).expect("the outline does not meet itself");
+        let filled = triangulate_outline(&points).expect("the outline does not meet itself");
         assert_eq!(filled.len(), points.len() - 2);
         let area = |[a, b, c]: [usize; 3]| (points[b] - points[a]).cross(points[c] - points[a]).z;
         let pairs = points.iter().zip(points.iter().cycle().skip(1));
@@ -148,10 +151,10 @@ fn outlines_of_many_corners_take_no_longer_than_others() {
         assert!((sum - whole).abs() < 1e-6 * whole.abs(), "{sum}, {whole}");
         // Outlines with a repeated corner, or an edge through another corner.
         points.push(points[count / 3]);
-        assert_eq!(fill(&points), None);
+        assert_eq!(triangulate_outline(&points), None);
     }
     let again: Vec<DVec3> = (0..count)
         .map(|k| [DVec3::ZERO, DVec3::X, DVec3::Y][k % 3])
         .collect();
-    assert_eq!(fill(&again), None);
+    assert_eq!(triangulate_outline(&again), None);
 }

@@ -83,7 +83,7 @@ impl GrowingPatch {
         // The hull so far must lie behind the polygon, …
         match self.side_of_highest_corner(points, plane(flat)) {
             Ordering::Greater => return Join::Refused,
-            Ordering::Equal if !self.has_volume && self.lies_in(points, plane(flat)) => {
+            Ordering::Equal if !self.has_volume && self.is_hull_in_plane(points, plane(flat)) => {
                 return Join::InPlane;
             }
             _ => {}
@@ -142,7 +142,7 @@ impl GrowingPatch {
         highest
     }
 
-    fn lies_in(&self, points: &[DVec3], plane: [u32; 3]) -> bool {
+    fn is_hull_in_plane(&self, points: &[DVec3], plane: [u32; 3]) -> bool {
         let mut corners = self.hull.corners().iter();
         corners.all(|&v| side_of(points, plane, v) == Ordering::Equal)
     }

@@ -86,8 +86,8 @@ impl<'a> Obstacle<'a> {
         })
     }
 
-    /// Returns whether the plane through three points has the hull strictly on one side, and the triangle on the other
-    /// or in the plane. Collinear points separate nothing.
+    /// Returns whether the plane through three points separates the hull from a triangle. The hull is strictly on one
+    /// side, and the triangle on the other or in the plane. Collinear points separate nothing.
     fn separates(&self, plane: [u32; 3], triangle: [u32; 3]) -> bool {
         let mut hull_side = Ordering::Equal;
         for &v in self.hull.corners() {

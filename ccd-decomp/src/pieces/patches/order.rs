@@ -17,7 +17,7 @@ pub enum Order {
 }
 
 /// Returns all polygons in the order in which they may start a patch.
-pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
+pub(super) fn seed_order(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == Order::Cresting {
         let height = steps_to_reflex(manifold, flats);

@@ -218,7 +218,7 @@ fn steps_per_face_stay_bounded() {
             let flats = Flats::new(&manifold);
             let found = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
             check(&mesh, &found);
-            let steps = work.taken() / mesh.faces().len() as u64;
+            let steps = work.steps_spent() / mesh.faces().len() as u64;
             assert!(steps < 8_000, "{count}: {steps}");
         }
     }

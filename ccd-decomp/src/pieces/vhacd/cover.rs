@@ -9,7 +9,7 @@
 use super::target::Target;
 use super::voxels::{Cell, Voxels};
 use crate::exact::predicates::lexicographic;
-use crate::tolerance::on_edge;
+use crate::tolerance::on_edge_distance;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -38,7 +38,7 @@ pub(super) fn points_by_part(
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
     let mut parts = vec![Vec::new(); count];
-    let near = on_edge(target.farthest_coordinate());
+    let near = on_edge_distance(target.farthest_coordinate());
     let triangles: Vec<_> = target.triangles().collect();
     let pieces: Vec<_> = triangles
         .par_chunks(TRIANGLES_PER_TASK)
@@ -136,7 +136,8 @@ fn classify_remaining(target: &Target<'_>, voxels: &Voxels, contents: &mut [Voxe
         if contents[seed] != VoxelClass::Unknown {
             continue;
         }
-        let content = if target.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded()) {
+        let content = if target.winds_about(voxels.corner(voxels.cell_of(seed)), &Work::unbounded())
+        {
             VoxelClass::Full
         } else {
             VoxelClass::Nothing
@@ -144,7 +145,7 @@ fn classify_remaining(target: &Target<'_>, voxels: &Voxels, contents: &mut [Voxe
         contents[seed] = content;
         stack.push(seed);
         while let Some(cell) = stack.pop() {
-            for next in voxels.neighbours(voxels.cell(cell)) {
+            for next in voxels.neighbours(voxels.cell_of(cell)) {
                 if contents[next] == VoxelClass::Unknown {
                     contents[next] = content;
                     stack.push(next);

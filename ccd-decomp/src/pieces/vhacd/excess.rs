@@ -28,7 +28,7 @@ pub(super) fn excess_bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
     let mut search = Search {
         target,
         parts: &parts,
-        taken: 0,
+        steps_spent: 0,
         largest_distance: 0.0,
         heap: BinaryHeap::new(),
     };
@@ -53,7 +53,7 @@ struct Search<'a> {
     target: &'a Target<'a>,
     parts: &'a [PartPlanes<'a>],
     /// The number of steps of work spent.
-    taken: u64,
+    steps_spent: u64,
     /// The largest distance from the solid to a point of a part that was found.
     largest_distance: f64,
     heap: BinaryHeap<BoundedBox>,
@@ -76,7 +76,7 @@ struct Examined {
     distance: f64,
     /// The examined box; `None` if no point of the part in it exceeds the largest known distance.
     cell: Option<BoundedBox>,
-    taken: u64,
+    steps_spent: u64,
 }
 
 impl Search<'_> {
@@ -101,7 +101,7 @@ impl Search<'_> {
             planes: (0..planes.len() as u32).collect(),
         };
         let examined = self.examine(&whole, whole.bounds);
-        self.note(examined);
+        self.record(examined);
     }
 
     /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
@@ -127,12 +127,12 @@ impl Search<'_> {
             .collect();
         examined
             .into_iter()
-            .for_each(|examined| self.note(examined));
-        !worst.is_empty() && self.taken < EXCESS_WORK && self.heap.len() < EXCESS_BOXES
+            .for_each(|examined| self.record(examined));
+        !worst.is_empty() && self.steps_spent < EXCESS_WORK && self.heap.len() < EXCESS_BOXES
     }
 
-    fn note(&mut self, examined: Examined) {
-        self.taken += examined.taken;
+    fn record(&mut self, examined: Examined) {
+        self.steps_spent += examined.steps_spent;
         self.largest_distance = greater(self.largest_distance, examined.distance);
         self.heap.extend(examined.cell);
     }
@@ -171,7 +171,7 @@ impl Search<'_> {
                 planes,
             });
         }
-        examined.taken = work.taken();
+        examined.steps_spent = work.steps_spent();
         examined
     }
 }

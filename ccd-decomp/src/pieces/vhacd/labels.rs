@@ -27,7 +27,7 @@ pub(super) fn label_voxels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> 
         }
     }
     while let Some(index) = queue.pop_front() {
-        for next in voxels.neighbours(voxels.cell(index)) {
+        for next in voxels.neighbours(voxels.cell_of(index)) {
             if labels[next] == NONE {
                 labels[next] = labels[index];
                 queue.push_back(next);

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 pub(super) fn merge_to_count(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
     let mut merger = PartMerger::new(parts);
     // Each step removes one part.
-    while merger.count > most && merger.merge_best() {}
+    while merger.count > most && merger.merge_cheapest_pair() {}
     let parts = merger.parts.into_iter().flatten();
     parts.map(|part| part.points).collect()
 }
@@ -68,7 +68,7 @@ impl PartMerger {
     }
 
     /// Merges the pair with the least added volume. Returns whether there was one.
-    fn merge_best(&mut self) -> bool {
+    fn merge_cheapest_pair(&mut self) -> bool {
         let live = |k: usize| self.parts[k].is_some();
         let pairs = (0..self.parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
         let best = pairs

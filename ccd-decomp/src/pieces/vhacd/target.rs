@@ -75,10 +75,12 @@ impl<'a> Target<'a> {
         work: &Work,
     ) -> Option<Vec<[DVec3; 3]>> {
         let mut found = Vec::new();
-        let all = self.search.all_in(&Bounds { lo, hi }, work, |face| {
-            found.push(self.mesh.triangle(face));
-            found.len() <= most
-        });
+        let all = self
+            .search
+            .all_meeting_box(&Bounds { lo, hi }, work, |face| {
+                found.push(self.mesh.triangle(face));
+                found.len() <= most
+            });
         all.then_some(found)
     }
 
@@ -120,9 +122,9 @@ impl<'a> Target<'a> {
     /// second is the distance to a point that is certainly on a triangle: the library's projection with clamped
     /// weights, which may be wrong for needles.
     fn distance_bounds(&self, point: DVec3, work: &Work) -> (f64, f64) {
-        let query = vector(point);
+        let query = to_parry(point);
         let project = |corners: [DVec3; 3]| {
-            let [a, b, c] = corners.map(vector);
+            let [a, b, c] = corners.map(to_parry);
             Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
         };
         let distance = |corners: [DVec3; 3]| {
@@ -165,7 +167,7 @@ impl<'a> Target<'a> {
         let above = Region::segment([point, top]);
         let mut winding = 0;
         self.search.all_meeting(&above, work, |face| {
-            winding += crossing(self.mesh.triangle(face), point);
+            winding += ray_crossing(self.mesh.triangle(face), point);
             true
         });
         winding != 0
@@ -192,12 +194,12 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     })
 }
 
-/// Returns how the ray from a point along z crosses a triangle: 1 from back to front, −1 from front to back, 0 if it
-/// misses.
+/// Returns how the ray from a point along z crosses a triangle. It is 1 from back to front, −1 from front to back, 0
+/// if it misses.
 ///
 /// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
 /// triangles at an edge.
-fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
+fn ray_crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
     let [a, b, c] = triangle;
     let around: i32 = [(a, b), (b, c), (c, a)]
         .into_iter()
@@ -218,7 +220,7 @@ fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
     around * i32::from(side(triangle, point) == below)
 }
 
-fn vector(p: DVec3) -> Vector {
+fn to_parry(p: DVec3) -> Vector {
     Vector::new(p.x, p.y, p.z)
 }
 

@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
-/// A voxel grid. Its planes are at stored coordinates, so that adjacent voxels share planes exactly.
+/// A voxel grid over a mesh. Its planes are at stored coordinates, so that adjacent voxels share planes exactly.
 pub(super) struct Voxels {
     planes: [Vec<f64>; 3],
     /// The lower corner of the mesh, which is the centre of the first voxel.
@@ -91,7 +91,7 @@ impl Voxels {
         (i * y + j) * z + k
     }
 
-    pub(super) fn cell(&self, index: usize) -> Cell {
+    pub(super) fn cell_of(&self, index: usize) -> Cell {
         let [_, y, z] = self.counts();
         [index / z / y, index / z % y, index % z]
     }

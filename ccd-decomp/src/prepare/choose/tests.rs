@@ -46,14 +46,14 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = bounding_solid(&mesh).unwrap();
-    let plane = RegionMerger::merged(&manifold).largest_planar_region();
+    let plane = RegionMerger::merge_all(&manifold).largest_planar_region();
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
 }
 
 /// Returns the largest planar part, by a walk over adjacent coplanar polygons.
 fn largest_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
-    let flats = RegionMerger::merged(manifold).into_flats();
+    let flats = RegionMerger::merge_all(manifold).into_flats();
     let mut seen = vec![false; flats.len()];
     let mut largest = PlanarRegion::default();
     for seed in 0..flats.len() as u32 {
@@ -89,7 +89,7 @@ fn the_largest_plane_is_that_of_a_walk() {
     ];
     for mesh in &solids {
         let manifold = bounding_solid(mesh).unwrap();
-        let plane = RegionMerger::merged(&manifold).largest_planar_region();
+        let plane = RegionMerger::merge_all(&manifold).largest_planar_region();
         assert_eq!(plane, largest_by_walk(&manifold));
     }
 }
@@ -115,7 +115,8 @@ fn slow_decompositions_stay_triangles() {
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
-        let (parts, why) = within(&mesh, &Topology::of(&mesh), None, &Work::with_steps(steps));
+        let (parts, why) =
+            choose_within_budget(&mesh, &Topology::of(&mesh), None, &Work::with_steps(steps));
         assert_eq!(why, Why::TooLong);
         assert!(matches!(parts, Parts::Triangles));
     }

@@ -16,7 +16,7 @@ use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
 /// Returns whether a tetrahedron and its copy moved by `offset` are reported to intersect.
-fn meet(offset: DVec3) -> bool {
+fn meet_outside_shared_corners(offset: DVec3) -> bool {
     let solid = tetrahedron();
     let both = merged_meshes(&[&solid, &placed(&solid, 1.0, offset)]);
     match bounding_solid(&both).map(|_| ()) {
@@ -41,13 +41,13 @@ fn meet(offset: DVec3) -> bool {
 #[case::in_one_plane_apart(dvec3(1.5, 1.5, 0.0), false)]
 #[case::almost_a_corner_on_a_face(dvec3(0.25, 0.25, 0.5 + 1e-16), false)]
 fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
-    assert_eq!(meet(offset), expected);
+    assert_eq!(meet_outside_shared_corners(offset), expected);
 }
 
 /// Tests that two tetrahedra that share only a corner do not intersect.
 #[test]
 fn a_shared_corner_is_no_intersection() {
-    assert!(!meet(DVec3::X));
+    assert!(!meet_outside_shared_corners(DVec3::X));
     let solid = tetrahedron();
     let inside = placed(&solid, 0.5, DVec3::ZERO);
     let nested = merged_meshes(&[&solid, &inside]);
@@ -126,7 +126,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     );
     let work = Work::unbounded();
     assert_eq!(check_solid(&manifold, &work), Ok(()));
-    work.taken() / mesh.faces().len() as u64
+    work.steps_spent() / mesh.faces().len() as u64
 }
 
 /// Tests the work for a solid of slivers that is not star-shaped. Each sliver is near a few others.
@@ -141,8 +141,8 @@ fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     }
 }
 
-/// Returns a prism over an outline, on a grid, so that corners coincide and edges lie in lines, or over a rough
-/// circle. It is large enough for fans.
+/// Returns a prism over an outline on a grid, or over a rough circle. On a grid, corners coincide and edges lie in
+/// lines. The prism is large enough for fans.
 fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
         let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;

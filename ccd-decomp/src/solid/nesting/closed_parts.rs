@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 ///
 /// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
 /// between them, so that solids that share a face stay separate.
-pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
+pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     let mut parts = DisjointSets::new(mesh.faces().len());
     let mut is_manifold = true;
     for (_, uses) in edges.iter() {
@@ -123,8 +123,8 @@ impl<'m> AngularOrder<'m> {
         self.ends.map(|v| self.mesh.vertices()[v as usize])
     }
 
-    /// Returns the class of a point's angle from the first face: 0 for no angle, 1 below half a turn, 2 for half a
-    /// turn, 3 above.
+    /// Returns the class of a point's angle from the first face. The classes are 0 for no angle, 1 below half a turn,
+    /// 2 for half a turn, 3 above.
     fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;

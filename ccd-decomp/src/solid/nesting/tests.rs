@@ -147,8 +147,8 @@ fn shells_that_share_faces_are_distinguished() {
     assert!(shared > 40, "{shared}");
 }
 
-/// Searches for the largest error of the points on both sides of a face, for needles of an aspect of a million and
-/// far from the origin.
+/// Searches for the largest error of the points on both sides of a face. Faces are needles of an aspect of up to a
+/// million, and far from the origin.
 #[test]
 fn worst_middle() {
     let found = Worst::of("FACE_ROUNDING", 10_000).search(|tape| {

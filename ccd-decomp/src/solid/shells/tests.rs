@@ -1,6 +1,6 @@
 use crate::solid::bounding_solid;
 use crate::solid::error::DecomposeError;
-use crate::solid::shells::shells;
+use crate::solid::shells::shell_numbers;
 use crate::test_meshes::{block, cubes, merged_meshes, placed, reversed_faces, tetrahedron};
 use ccd_core::glam::{DVec3, dvec3};
 
@@ -8,7 +8,7 @@ use ccd_core::glam::{DVec3, dvec3};
 fn parts_are_distinguished() {
     let one = cubes(&block([2, 1, 1]));
     let two = merged_meshes(&[&one, &placed(&one, 1.0, dvec3(3.0, 0.0, 0.0))]);
-    let shells = shells(&bounding_solid(&two).unwrap());
+    let shells = shell_numbers(&bounding_solid(&two).unwrap());
     let faces = one.faces().len();
     assert!(shells[..faces].iter().all(|&s| s == 0));
     assert!(shells[faces..].iter().all(|&s| s == 1));

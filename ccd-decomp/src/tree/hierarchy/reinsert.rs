@@ -134,15 +134,15 @@ impl<'a> Tree<'a> {
         debug_assert_ne!(to, beside);
         let [moved, raised] = [to, beside].map(|node| self.nodes[node as usize]);
         self.nodes[to as usize].below = Below::Children(from.min(beside));
-        self.put(moved, beside);
-        self.put(raised, parent);
+        self.set_node(moved, beside);
+        self.set_node(raised, parent);
         self.parents[beside as usize] = to;
         self.parents[from as usize] = to;
         self.refit(to);
         self.refit(parent);
     }
 
-    fn put(&mut self, node: Node, index: u32) {
+    fn set_node(&mut self, node: Node, index: u32) {
         self.nodes[index as usize] = node;
         if let Below::Children(first) = node.below {
             self.parents[first as usize..][..2].fill(index);

@@ -1,5 +1,5 @@
-//! Tries to break the engine: draws queries from families of hard cases, answers each by many
-//! methods, and judges the answers by a referee in double-double numbers.
+//! Tries to break the engine by random queries. They are drawn from families of hard cases, answered by many methods,
+//! and judged by a referee in double-double numbers.
 //!
 //! ```sh
 //! cargo run --release -p ccd-fuzz --example fuzz -- --family needles --queries 100000 --seed 1

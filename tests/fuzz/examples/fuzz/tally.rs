@@ -76,6 +76,8 @@ impl Tally {
         count as f64 / self.queries as f64
     }
 
+    /// Checks that both contacts and free bodies occur often enough.
+    ///
     /// # Panics
     /// If almost no query has a contact, or almost all have one: then little is tested.
     pub fn assert_representative(&self) {

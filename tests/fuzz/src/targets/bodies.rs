@@ -83,8 +83,8 @@ fn check_answers_agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     }
 }
 
-/// Returns whether the answer `free` proves that the answer `contact` is false: its contact is well within the
-/// tolerance, at a time before which there is none.
+/// Returns whether the answer `free` proves that the answer `contact` is false. The contact is then well within the
+/// tolerance, at a time before which `free` proves that there is none.
 fn contradicts(free: &Answer, contact: &Answer) -> bool {
     let safe_until = match free.outcome {
         Outcome::Contact { time, .. } => time,

@@ -21,8 +21,7 @@ const MEMORY_OF_BODIES: usize = 1 << 28;
 const MAX_TRIANGLES: usize = 48;
 /// The maximum number of triangles for bodies of any kind. Scenes of few bytes may have many.
 const MAX_SCENE_TRIANGLES: usize = 1 << 11;
-/// The number of files for each of which approximate hulls are made of one file, because they take a hundred times as
-/// long as the rest.
+/// Approximate hulls are made of one file in this many, because they take a hundred times as long as the rest.
 const FILES_PER_APPROXIMATION: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {

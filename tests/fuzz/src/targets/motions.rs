@@ -1,4 +1,4 @@
-//! Reads tables of motions.
+//! The fuzz target that reads tables of motions.
 
 use crate::memory;
 use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, write};

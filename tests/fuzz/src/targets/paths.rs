@@ -1,4 +1,4 @@
-//! Reads tables of paths.
+//! The fuzz target that reads tables of paths.
 
 use super::motions::{OneByteReader, within_limits};
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};

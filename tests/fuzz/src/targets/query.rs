@@ -18,6 +18,8 @@ struct Question {
     more: bool,
 }
 
+/// Decodes a query, answers it by its methods, and judges the answers.
+///
 /// # Panics
 /// If an answer has a fault.
 pub(super) fn run(bytes: &[u8]) {

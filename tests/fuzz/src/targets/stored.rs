@@ -1,4 +1,5 @@
-//! Loads stored bodies. The frame of the `.ccd` file is repaired, so that changed payloads pass the checksum.
+//! The fuzz target that loads stored bodies. The frame of the `.ccd` file is repaired, so that changed payloads pass
+//! the checksum.
 
 use super::bodies;
 use crate::memory;

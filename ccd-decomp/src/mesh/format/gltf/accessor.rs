@@ -27,7 +27,7 @@ enum Component {
 }
 
 /// The elements of an accessor in memory, at a constant stride.
-struct Rows<'a> {
+struct StridedElements<'a> {
     bytes: &'a [u8],
     stride: usize,
     size: usize,
@@ -50,7 +50,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// Spends the cost of `count` face corners from the allowance.
-    pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
+    pub(super) fn spend_corners(&mut self, count: usize) -> Result<(), MeshFault> {
         self.allowance.spend(cost(0, count as u64))
     }
 
@@ -74,7 +74,7 @@ impl<'a> Accessors<'a> {
         self.read_named(accessor, |accessors, about| {
             check_kind(about, "SCALAR")?;
             let component = Component::index_from_code(about.component_type)?;
-            let whole = |row: &[u8]| component.whole(row);
+            let whole = |row: &[u8]| component.to_u32(row);
             accessors.elements(about, component.size(), cost(0, about.count), 0, whole)
         })
     }
@@ -98,7 +98,7 @@ impl<'a> Accessors<'a> {
         zero: T,
         read: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, MeshFault> {
-        let rows = self.rows(about, size)?;
+        let rows = self.strided_elements(about, size)?;
         self.allowance.spend(price)?;
         let mut elements: Vec<T> = match rows {
             Some(rows) => rows.iter().map(&read).collect(),
@@ -116,11 +116,15 @@ impl<'a> Accessors<'a> {
     }
 
     /// Returns the elements of an accessor; `None` if all except the sparse elements are zero.
-    fn rows(&self, about: &schema::Accessor, size: usize) -> Result<Option<Rows<'a>>, MeshFault> {
+    fn strided_elements(
+        &self,
+        about: &schema::Accessor,
+        size: usize,
+    ) -> Result<Option<StridedElements<'a>>, MeshFault> {
         match (about.buffer_view, &about.sparse) {
             (Some(view), _) => {
                 let stride = self.buffers.stride(view);
-                self.rows_at(view, about.byte_offset, (about.count, size), stride)
+                self.strided_elements_at(view, about.byte_offset, (about.count, size), stride)
                     .map(Some)
             }
             (None, Some(_)) => Ok(None),
@@ -128,13 +132,13 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    fn rows_at(
+    fn strided_elements_at(
         &self,
         view: usize,
         offset: u64,
         (count, size): (u64, usize),
         stride: Option<u64>,
-    ) -> Result<Rows<'a>, MeshFault> {
+    ) -> Result<StridedElements<'a>, MeshFault> {
         let bytes = self.buffers.view(view, offset)?;
         let stride = stride.unwrap_or(size as u64);
         if stride < size as u64 {
@@ -148,7 +152,7 @@ impl<'a> Accessors<'a> {
             return Err(MeshFault::Truncated { missing });
         }
         // All elements are within the bytes.
-        Ok(Rows {
+        Ok(StridedElements {
             bytes,
             stride: stride as usize,
             size,
@@ -161,9 +165,9 @@ impl<'a> Accessors<'a> {
         let about = &sparse.indices;
         let component = Component::index_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
-        let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
+        let rows = self.strided_elements_at(about.buffer_view, about.byte_offset, layout, None)?;
         self.allowance.spend(cost(0, sparse.count))?;
-        let checked = |row| match component.whole(row) as usize {
+        let checked = |row| match component.to_u32(row) as usize {
             number if number < length => Ok(number),
             number => {
                 let problem = format!("replaces element {number} of {length}");
@@ -173,10 +177,14 @@ impl<'a> Accessors<'a> {
         rows.iter().map(checked).collect()
     }
 
-    fn sparse_values(&self, sparse: &Sparse, size: usize) -> Result<Rows<'a>, MeshFault> {
+    fn sparse_values(
+        &self,
+        sparse: &Sparse,
+        size: usize,
+    ) -> Result<StridedElements<'a>, MeshFault> {
         let about = &sparse.values;
         let layout = (sparse.count, size);
-        self.rows_at(about.buffer_view, about.byte_offset, layout, None)
+        self.strided_elements_at(about.buffer_view, about.byte_offset, layout, None)
     }
 }
 
@@ -189,9 +197,9 @@ fn check_kind(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
     }
 }
 
-impl<'a> Rows<'a> {
+impl<'a> StridedElements<'a> {
     fn iter(&self) -> impl Iterator<Item = &'a [u8]> {
-        let Rows {
+        let StridedElements {
             bytes,
             stride,
             size,
@@ -238,7 +246,7 @@ impl Component {
 
     /// Reads a coordinate from its bytes. A normalized integer is a fraction of the largest value of its type.
     fn coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
-        let number = self.exact(bytes);
+        let number = self.to_f64(bytes);
         let largest: f64 = match self {
             _ if !normalized => return number,
             Component::I8 => i8::MAX.into(),
@@ -251,16 +259,16 @@ impl Component {
         greater(number / largest, -1.0)
     }
 
-    fn exact(self, bytes: &[u8]) -> f64 {
+    fn to_f64(self, bytes: &[u8]) -> f64 {
         match self {
             Component::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
             Component::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
             Component::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
-            Component::U8 | Component::U16 | Component::U32 => self.whole(bytes).into(),
+            Component::U8 | Component::U16 | Component::U32 => self.to_u32(bytes).into(),
         }
     }
 
-    fn whole(self, bytes: &[u8]) -> u32 {
+    fn to_u32(self, bytes: &[u8]) -> u32 {
         match self {
             Component::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
             Component::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),

@@ -37,7 +37,7 @@ impl<'a> Buffers<'a> {
     pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
         if about.extensions.meshopt.is_some() && self.is_empty(about.buffer) {
-            return Err(extensions::meshopt());
+            return Err(extensions::meshopt_fault());
         }
         let found = || {
             let buffer = element(&self.bytes, "buffer", about.buffer)?;
@@ -86,7 +86,7 @@ fn content<'a>(
             None => {
                 let name = percent_decoded(uri)?;
                 let bytes = linked.get(&name).map(Vec::as_slice);
-                bytes.ok_or_else(|| alone(name))?.into()
+                bytes.ok_or_else(|| file_needed(name))?.into()
             }
         },
     };
@@ -99,7 +99,7 @@ fn content<'a>(
     }
 }
 
-fn alone(name: String) -> MeshFault {
+fn file_needed(name: String) -> MeshFault {
     MeshFault::LinkedFile {
         name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"

@@ -27,19 +27,19 @@ impl<'a> Container<'a> {
                 binary: None,
             });
         };
-        let version = number(&mut rest)?;
+        let version = read_u32(&mut rest)?;
         if version != VERSION {
             return Err(MeshFault::Unsupported {
                 what: format!("binary glTF of version {version}"),
                 instead: "glTF 2.0",
             });
         }
-        let length = number(&mut rest)? as usize;
+        let length = read_u32(&mut rest)? as usize;
         if bytes.len() < length {
             let missing = format!("byte {} of the {length} that it announces", bytes.len());
             return Err(MeshFault::Truncated { missing });
         }
-        let Chunk { kind, content } = chunk(&mut rest)?;
+        let Chunk { kind, content } = read_chunk(&mut rest)?;
         if kind != *b"JSON" {
             return Err(MeshFault::syntax(
                 None,
@@ -51,7 +51,7 @@ impl<'a> Container<'a> {
             binary: None,
         };
         if !rest.is_empty() {
-            let Chunk { kind, content } = chunk(&mut rest)?;
+            let Chunk { kind, content } = read_chunk(&mut rest)?;
             // Other chunks are of extensions.
             container.binary = (kind == *b"BIN\0").then_some(content);
         }
@@ -64,25 +64,25 @@ struct Chunk<'a> {
     content: &'a [u8],
 }
 
-fn chunk<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, MeshFault> {
-    let length = number(rest)? as usize;
-    let kind = four(rest)?;
-    let (content, after) = rest.split_at_checked(length).ok_or_else(cut_short)?;
+fn read_chunk<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, MeshFault> {
+    let length = read_u32(rest)? as usize;
+    let kind = read_four_bytes(rest)?;
+    let (content, after) = rest.split_at_checked(length).ok_or_else(truncated)?;
     *rest = after;
     Ok(Chunk { kind, content })
 }
 
-fn number(rest: &mut &[u8]) -> Result<u32, MeshFault> {
-    four(rest).map(u32::from_le_bytes)
+fn read_u32(rest: &mut &[u8]) -> Result<u32, MeshFault> {
+    read_four_bytes(rest).map(u32::from_le_bytes)
 }
 
-fn four(rest: &mut &[u8]) -> Result<[u8; 4], MeshFault> {
-    let (bytes, after) = rest.split_first_chunk().ok_or_else(cut_short)?;
+fn read_four_bytes(rest: &mut &[u8]) -> Result<[u8; 4], MeshFault> {
+    let (bytes, after) = rest.split_first_chunk().ok_or_else(truncated)?;
     *rest = after;
     Ok(*bytes)
 }
 
-fn cut_short() -> MeshFault {
+fn truncated() -> MeshFault {
     MeshFault::Truncated {
         missing: "a chunk".into(),
     }

@@ -33,8 +33,8 @@ pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
     let mut required = root.extensions_required.iter();
     match required.find(|name| !known(name)).map(String::as_str) {
         None => Ok(()),
-        Some(DRACO) => Err(draco()),
-        Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt()),
+        Some(DRACO) => Err(draco_fault()),
+        Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt_fault()),
         Some(name) => Err(MeshFault::Unsupported {
             what: format!("what the extension {:?} says", Quote(name)),
             instead: "glTF without this extension",
@@ -42,21 +42,21 @@ pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
     }
 }
 
-pub(super) fn draco() -> MeshFault {
+pub(super) fn draco_fault() -> MeshFault {
     MeshFault::Unsupported {
         what: format!("meshes compressed by Draco ({DRACO})"),
         instead: "glTF without compression",
     }
 }
 
-pub(super) fn meshopt() -> MeshFault {
+pub(super) fn meshopt_fault() -> MeshFault {
     MeshFault::Unsupported {
         what: "buffers compressed by meshopt (EXT_meshopt_compression)".into(),
         instead: "glTF without compression",
     }
 }
 
-pub(super) fn instancing() -> MeshFault {
+pub(super) fn instancing_fault() -> MeshFault {
     MeshFault::Unsupported {
         what: "instances in a buffer (EXT_mesh_gpu_instancing)".into(),
         instead: "glTF with a node for each instance",

@@ -37,7 +37,7 @@ struct Walk<'a> {
     root: &'a Root,
     accessors: Accessors<'a>,
     /// The object number of each mesh that has been read, by mesh index.
-    known: HashMap<usize, usize>,
+    object_of_mesh: HashMap<usize, usize>,
     visited: Vec<bool>,
     scene: Scene,
 }
@@ -47,7 +47,7 @@ impl<'a> Walk<'a> {
         Walk {
             root,
             accessors,
-            known: HashMap::new(),
+            object_of_mesh: HashMap::new(),
             visited: vec![false; root.nodes.len()],
             scene: Scene {
                 objects: Vec::new(),
@@ -112,7 +112,7 @@ impl<'a> Walk<'a> {
         let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
         let skinned = shown.iter().filter(|(node, _)| node.skin.is_some());
         let used = self
-            .known
+            .object_of_mesh
             .keys()
             .flat_map(|&mesh| &root.meshes[mesh].primitives);
         let thin = used
@@ -142,7 +142,7 @@ impl<'a> Walk<'a> {
             return Ok(());
         };
         if node.extensions.instancing.is_some() {
-            return Err(extensions::instancing());
+            return Err(extensions::instancing_fault());
         }
         self.place(mesh, node.name.clone(), map)
     }
@@ -154,7 +154,7 @@ impl<'a> Walk<'a> {
         map: AffineMap,
     ) -> Result<(), MeshFault> {
         let about = element(&self.root.meshes, "mesh", mesh)?;
-        let object = match self.known.get(&mesh) {
+        let object = match self.object_of_mesh.get(&mesh) {
             Some(&object) => object,
             None => {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
@@ -163,7 +163,7 @@ impl<'a> Walk<'a> {
                 let members = Vec::new();
                 self.scene.objects.push(Object { shape, members });
                 *self
-                    .known
+                    .object_of_mesh
                     .entry(mesh)
                     .or_insert(self.scene.objects.len() - 1)
             }

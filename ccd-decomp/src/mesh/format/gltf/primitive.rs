@@ -48,7 +48,7 @@ fn add(
         return Ok(());
     };
     if primitive.extensions.draco.is_some() && !accessors.has_bytes(position) {
-        return Err(extensions::draco());
+        return Err(extensions::draco_fault());
     }
     let vertices = match known.get(&position) {
         Some(&vertices) => vertices,
@@ -70,7 +70,7 @@ fn add(
     };
     mode.check(corners.len())?;
     // A strip has a triangle for almost each corner.
-    accessors.take_corners(3 * corners.len())?;
+    accessors.spend_corners(3 * corners.len())?;
     for (face, triangle) in mode.triangles(&corners).enumerate() {
         if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices.count) {
             return Err(MeshFault::NoSuchVertex {

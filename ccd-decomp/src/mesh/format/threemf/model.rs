@@ -95,14 +95,14 @@ pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
 }
 
 /// Returns the name of an object for messages.
-pub(super) fn place(path: Option<&str>, id: u32, name: Option<&str>) -> String {
+pub(super) fn object_name(path: Option<&str>, id: u32, name: Option<&str>) -> String {
     let path = path.map_or_else(String::new, |path| format!("{:?}: ", Quote(path)));
     path + &element_name("object", id, name)
 }
 
 impl Model {
     /// Returns the paths of the other models that this model refers to.
-    pub(super) fn paths(&self) -> BTreeSet<String> {
+    pub(super) fn referenced_models(&self) -> BTreeSet<String> {
         let components = self
             .objects
             .iter()
@@ -118,7 +118,7 @@ impl Model {
     fn at(&self, open: &[Tag], fault: MeshFault) -> MeshFault {
         match self.objects.last() {
             Some(object) if open.get(2) == Some(&Tag::Object) => {
-                fault.at(place(None, object.id, object.name.as_deref()))
+                fault.at(object_name(None, object.id, object.name.as_deref()))
             }
             _ => fault,
         }
@@ -134,7 +134,7 @@ impl Model {
             return Ok(self.start_extension_element(within, element.name()));
         }
         match (within, element.name()) {
-            (None, "model") => self.begin(element).map(|()| Tag::Model),
+            (None, "model") => self.start_model(element).map(|()| Tag::Model),
             (None, _) => {
                 let name = format!("begins with {:?} instead of a model", Quote(element.name()));
                 Err(MeshFault::syntax(None, name))
@@ -154,7 +154,7 @@ impl Model {
         }
     }
 
-    fn begin(&mut self, element: &Element<'_>) -> Result<(), MeshFault> {
+    fn start_model(&mut self, element: &Element<'_>) -> Result<(), MeshFault> {
         let [unit, required] = element.attribute_values(["unit", "requiredextensions"])?;
         self.unit = unit.map(|unit| named_unit(&unit)).transpose()?;
         let mut namespaces = BTreeMap::new();

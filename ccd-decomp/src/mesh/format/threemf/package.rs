@@ -36,10 +36,10 @@ const BUFFER: usize = 1 << 16;
 
 impl<'a> Package<'a> {
     pub(super) fn open(bytes: &'a [u8]) -> Result<Self, MeshFault> {
-        let archive = ZipArchive::from_slice(bytes).map_err(|error| unzip(&error))?;
+        let archive = ZipArchive::from_slice(bytes).map_err(|error| zip_fault(&error))?;
         let mut entries = BTreeMap::new();
         let mut records = archive.entries();
-        while let Some(record) = records.next_entry().map_err(|error| unzip(&error))? {
+        while let Some(record) = records.next_entry().map_err(|error| zip_fault(&error))? {
             let path = String::from_utf8_lossy(record.file_path().as_ref()).into_owned();
             entries.entry(normalized_path(&path)).or_insert(Entry {
                 wayfinder: record.wayfinder(),
@@ -57,7 +57,7 @@ impl<'a> Package<'a> {
     }
 
     /// Returns the number of bytes that have been unpacked from the archive.
-    pub(super) fn unpacked(&self) -> u64 {
+    pub(super) fn unpacked_bytes(&self) -> u64 {
         self.limit - self.left
     }
 
@@ -148,7 +148,7 @@ impl<'a> Unpacking<'a> {
         }
         let found = archive
             .get_entry(entry.wayfinder)
-            .map_err(|error| unzip(&error))?;
+            .map_err(|error| zip_fault(&error))?;
         let content: Box<dyn Read + 'a> = match entry.method {
             CompressionMethod::STORE => Box::new(found.verifying_reader(found.data())),
             CompressionMethod::DEFLATE => {
@@ -190,7 +190,7 @@ pub(super) fn normalized_path(path: &str) -> String {
     path.trim_start_matches('/').to_lowercase()
 }
 
-fn unzip(error: &rawzip::Error) -> MeshFault {
+fn zip_fault(error: &rawzip::Error) -> MeshFault {
     let error = error.to_string();
     MeshFault::syntax(None, format!("its zip is not whole: {:?}", Quote(&error)))
 }

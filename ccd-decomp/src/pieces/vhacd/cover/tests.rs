@@ -1,7 +1,7 @@
 use super::*;
 use ccd_core::glam::dvec3;
 
-/// Tests random points on the edges of triangles: two points of each edge are kept, and a removed point is between
+/// Tests which of random points on the edges of a triangle are kept: two of each edge. A removed point is between
 /// them.
 #[test]
 fn only_the_ends_of_edges_are_kept() {
@@ -20,7 +20,7 @@ fn only_the_ends_of_edges_are_kept() {
             for [from, to] in [[a, b], [b, c], [c, a]] {
                 points.extend((0..8).map(|_| from + (0.1 + 0.8 * next()) * (to - from)));
             }
-            let near = on_edge(offset + 1.0);
+            let near = on_edge_distance(offset + 1.0);
             let found = remove_between(points.clone(), triangle, near);
             assert!(found.iter().all(|p| points.contains(p)));
             let lost = points.iter().filter(|p| !found.contains(p));

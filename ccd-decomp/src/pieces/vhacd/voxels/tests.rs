@@ -2,7 +2,7 @@
 
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
-use crate::tolerance::{clip_rounding, on_edge};
+use crate::tolerance::{clip_rounding, on_edge_distance};
 use crate::worst::{Tape, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -54,7 +54,10 @@ fn worst_cut() {
         let mut polygon = edge.to_vec();
         cut(tape, &mut polygon)?;
         let off = polygon.iter().map(|&x| off_line(x, edge));
-        Some(share(off.fold(0.0, greater), on_edge(largest(edge)) / 3.0))
+        Some(share(
+            off.fold(0.0, greater),
+            on_edge_distance(largest(edge)) / 3.0,
+        ))
     });
     found.is_within(40.0);
 }

@@ -70,8 +70,8 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// Returns a shape moved so that its lowest corner is in the plane z = 0, and the height of its origin above its
-/// lowest corner, which is then 0.
+/// Returns a shape moved so that its lowest corner is in the plane z = 0, and the height of the origin above it,
+/// which is 0.
 fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
     let lowest = shape
         .vertices

@@ -246,8 +246,8 @@ fn limit_turn(course: &mut RawMotion, duration: f64) {
     }
 }
 
-/// Moves A so that one of its corners meets a corner of B at some time, up to an offset. Bodies at random places
-/// rarely meet.
+/// Moves A so that a corner of A meets a corner of B at some time, up to an offset. Bodies at random places rarely
+/// meet.
 fn aim(source: &mut Source<'_>, case: &mut Case) {
     let share = f64::from(source.byte()) / 255.0;
     let time = share * case.duration;

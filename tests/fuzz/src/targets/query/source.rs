@@ -1,4 +1,4 @@
-//! Reads numbers from bytes.
+//! Reads numbers from the bytes of a fuzz input.
 
 /// A reader of numbers from bytes. Most numbers take one byte, and often return, so that edges line up and gaps
 /// vanish.
