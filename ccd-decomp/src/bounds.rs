@@ -6,7 +6,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
-/// An axis-aligned box; touching counts as meeting.
+/// An axis-aligned box, with its boundary: boxes that touch meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) lo: DVec3,
@@ -26,7 +26,7 @@ impl Bounds {
         })
     }
 
-    /// Returns the bounding box of two boxes.
+    /// Returns the smallest box that contains two boxes.
     pub(crate) fn union(self, other: Self) -> Self {
         Bounds {
             lo: self.lo.min(other.lo),
@@ -46,14 +46,14 @@ impl Bounds {
     }
 }
 
-/// Boxes, to be searched by box.
+/// A search tree over axis-aligned boxes, which finds the boxes that meet a given box.
 pub(crate) struct BoundsTree {
     bounds: Vec<Bounds>,
     bvh: Bvh,
 }
 
 impl BoundsTree {
-    /// O(n log n).
+    /// Builds the tree in O(n log n).
     pub(crate) fn new(bounds: Vec<Bounds>) -> Self {
         let boxes: Vec<Aabb> = bounds.iter().map(aabb).collect();
         let bvh = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);

@@ -1,15 +1,15 @@
 //! Disjoint sets (union-find).
 
-/// Disjoint sets: every element points to another one of its set, and the root to itself.
+/// Disjoint sets of the elements `0..n`. Every element points to another element of its set, and the root to itself.
 pub(crate) struct DisjointSets(Vec<u32>);
 
 impl DisjointSets {
-    /// Creates a set for each element.
+    /// Creates one set for each of the elements `0..count`.
     pub(crate) fn new(count: usize) -> Self {
         DisjointSets((0..count as u32).collect())
     }
 
-    /// Returns the smallest element of an element's set.
+    /// Returns the smallest element of the set that contains `k`.
     pub(crate) fn root(&mut self, mut k: u32) -> u32 {
         // Every element but the root points to a smaller one.
         while self.0[k as usize] != k {
@@ -20,7 +20,7 @@ impl DisjointSets {
         k
     }
 
-    /// Returns the number of each element's set. Sets are numbered by their smallest elements.
+    /// Returns the set number of each element. Sets are numbered in the order of their smallest elements.
     pub(crate) fn numbers(&mut self) -> Vec<u32> {
         let mut numbers = Vec::with_capacity(self.0.len());
         let mut count = 0;

@@ -13,10 +13,10 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
-/// The extension of a stored body's file.
+/// The file extension of a stored body, without the dot.
 pub const STORED_EXTENSION: &str = "ccd";
 
-/// Returns whether a path has the extension of a stored body.
+/// Returns whether a path has the file extension of a stored body.
 pub(crate) fn is_stored(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
@@ -124,7 +124,8 @@ impl Model {
         Ok(model)
     }
 
-    /// Checks that the fields, which are valid separately, are consistent.
+    /// Checks that the fields of a loaded model are consistent with each other. Each field has been checked by
+    /// itself.
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
         // A binary tree has one more leaf than inner nodes.

@@ -1,25 +1,25 @@
-//! Half-edges and edges of triangles.
+//! Half-edges of triangles, and the edges that they form.
 
 /// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next. Less than 2³¹.
 pub(crate) type HalfEdge = u32;
 
-/// The edges of triangles, in ascending order of their ends, the smaller end first.
+/// The edges of a list of triangles, in ascending order of their end vertices, the smaller end first.
 pub(crate) struct Edges {
-    /// The lower end vertices in use; empty if slots are vertex numbers.
+    /// The vertices that are the smaller end of some edge, ascending; empty if slots are vertex numbers.
     lower: Vec<u32>,
-    /// The end of the uses of each lower end.
+    /// For each smaller end, the end of its range in the list of uses.
     ends: Vec<u32>,
-    uses: Vec<Use>,
+    uses: Vec<EdgeUse>,
 }
 
-/// A use of an edge by a half-edge, packed: the upper end, the half-edge, and in the lowest bit whether it starts at
-/// the upper end.
+/// A half-edge on an edge, packed in one number: the upper end, the half-edge, and in the lowest bit whether it
+/// starts at the upper end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Use(u64);
+pub(crate) struct EdgeUse(u64);
 
-impl Use {
+impl EdgeUse {
     fn new(upper: u32, half_edge: HalfEdge, backward: bool) -> Self {
-        Use(u64::from(upper) << 32 | u64::from(half_edge) << 1 | u64::from(backward))
+        EdgeUse(u64::from(upper) << 32 | u64::from(half_edge) << 1 | u64::from(backward))
     }
 
     fn upper(self) -> u32 {
@@ -46,8 +46,8 @@ impl Use {
 }
 
 impl Edges {
-    /// Finds all edges, except from a vertex to itself. Linear in the number of triangles, if few edges meet at each
-    /// vertex.
+    /// Finds all edges, except from a vertex to itself. Takes linear time in the number of triangles, if few edges
+    /// meet at each vertex.
     pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
         let last = triangles.iter().flatten().max();
         let range = last.map_or(0, |&last| last as usize + 1);
@@ -82,12 +82,12 @@ impl Edges {
         for next in &mut ends {
             end += std::mem::replace(next, end);
         }
-        let mut uses = vec![Use(0); end as usize];
+        let mut uses = vec![EdgeUse(0); end as usize];
         for (t, &[a, b, c]) in (0..).zip(triangles) {
             for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
                 if v != w {
                     let end = &mut ends[slot(v.min(w))];
-                    uses[*end as usize] = Use::new(v.max(w), 3 * t + k, v > w);
+                    uses[*end as usize] = EdgeUse::new(v.max(w), 3 * t + k, v > w);
                     *end += 1;
                 }
             }
@@ -100,8 +100,8 @@ impl Edges {
         Edges { lower, ends, uses }
     }
 
-    /// Iterates over the edges: lower and upper end, and the uses in ascending order of half-edges.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Use])> {
+    /// Iterates over the edges: the two end vertices, and the half-edges on the edge in ascending order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[EdgeUse])> {
         let starts = std::iter::once(&0).chain(&self.ends);
         let slots = (0..).zip(starts.zip(&self.ends));
         slots.flat_map(|(slot, (&start, &end))| {
@@ -112,7 +112,8 @@ impl Edges {
         })
     }
 
-    /// Returns the twin of every half-edge, which is opposite on the same edge; `None` unless each has exactly one.
+    /// Returns the twin of every half-edge: the half-edge on the same edge in the opposite direction. Returns `None`
+    /// unless each half-edge has exactly one twin.
     pub(crate) fn twins(&self, triangles: usize) -> Option<Vec<HalfEdge>> {
         // Every half-edge is the use of one edge.
         if self.uses.len() != 3 * triangles {

@@ -1,4 +1,4 @@
-//! Convex hulls of points, by exact predicates.
+//! Convex hulls of points in three dimensions, by exact predicates.
 //!
 //! ```text
 //! points ─► exact_hull.rs ─┬─ a volume ─► polygons.rs ─┬─► Hull
@@ -9,21 +9,22 @@ pub(crate) mod exact_hull;
 mod flat;
 pub(crate) mod polygons;
 
-use crate::exact::predicates::{lexicographic, too_fine, too_large};
+use crate::exact::predicates::{first_out_of_range, lexicographic, too_fine};
 use crate::hull::exact_hull::ExactHull;
-use crate::hull::polygons::loops;
+use crate::hull::polygons::merged_polygons;
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, Loops};
 
-/// A coordinate of a point is too near to 0 for exact predicates, not finite, or too large.
+/// A hull cannot be computed: a coordinate of a point is too near to 0 for exact predicates, not finite, or too
+/// large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("point {point} has a coordinate that is out of range for exact predicates")]
 pub struct HullError {
-    /// The first such point.
+    /// The index of the first point with such a coordinate.
     pub point: u32,
 }
 
-/// Computes the convex hull of points. Points may be equal.
+/// Computes the convex hull of points. Several points may be equal.
 ///
 /// # Guarantee
 /// Exact for the stored points: every point is inside or on the hull. The corners are in the order of the points.
@@ -34,19 +35,19 @@ pub struct HullError {
 /// # Complexity
 /// O(n log n) time, and O(n) memory.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
-    if let Some(point) = too_large(points).or_else(|| too_fine(points)) {
+    if let Some(point) = first_out_of_range(points).or_else(|| too_fine(points)) {
         let point = point as u32;
         return Err(HullError { point });
     }
-    let points = each_once(points);
+    let points = distinct_points(points);
     Ok(match ExactHull::facets_of(&points) {
-        Some(triangles) => of_facets(&points, loops(&points, &triangles)),
+        Some(triangles) => hull_from_facets(&points, merged_polygons(&points, &triangles)),
         None => flat::hull(&points),
     })
 }
 
-/// Creates a hull of facets, and of those points that are corners.
-fn of_facets(points: &[DVec3], mut facets: Loops) -> Hull {
+/// Creates a hull from its facets, with those of the points that are corners.
+fn hull_from_facets(points: &[DVec3], mut facets: Loops) -> Hull {
     let mut corners: Vec<u32> = facets.corners().to_vec();
     corners.sort_unstable();
     corners.dedup();
@@ -64,7 +65,7 @@ fn of_facets(points: &[DVec3], mut facets: Loops) -> Hull {
 }
 
 /// Returns the distinct points of a list, in the order in which they first appear.
-fn each_once(points: &[DVec3]) -> Vec<DVec3> {
+fn distinct_points(points: &[DVec3]) -> Vec<DVec3> {
     let at = |k: u32| points[k as usize];
     let mut first: Vec<u32> = (0..points.len() as u32).collect();
     first.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));

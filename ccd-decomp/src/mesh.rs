@@ -28,7 +28,7 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
-/// Triangles over finite vertices. Each has the number of its face in the file.
+/// A triangle mesh with finite vertices. Each triangle has the number of its face in the file.
 ///
 /// # Guarantee
 /// The triangles cover every planar polygon of the file and every point of its degenerate faces. There is at
@@ -47,16 +47,16 @@ pub struct TriangleMesh {
     vertices: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
-    /// The first vertex at exactly the same point, by vertex.
+    /// By vertex, the first vertex with exactly the same coordinates.
     positions: Vec<u32>,
-    /// The number of faces that the file has, dropped ones included.
+    /// The number of faces in the file, including those that were dropped.
     face_count: u32,
     repairs: Repairs,
 }
 
 impl TriangleMesh {
-    /// Reads a file in the format of its extension, all parts as one mesh. [`MeshFile`] reads one part, or each of
-    /// them, and converts units.
+    /// Reads a mesh file in the format of its extension, with all its parts as one mesh. [`MeshFile`] reads one part,
+    /// or each of them, and converts units.
     ///
     /// # Errors
     /// [`MeshError`], which names the file and the element. No bytes panic.
@@ -72,7 +72,7 @@ impl TriangleMesh {
         MeshFile::from_reader(format, reader)?.into_mesh()
     }
 
-    /// Makes a mesh of vertices and triangles in memory.
+    /// Creates a mesh from vertices and triangles in memory.
     ///
     /// ```
     /// use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
@@ -112,7 +112,7 @@ impl TriangleMesh {
         ))
     }
 
-    /// Creates a mesh of valid triangles, each with its face number, and drops duplicates and collapsed ones.
+    /// Creates a mesh from valid triangles, each with its face number. Drops duplicate and collapsed triangles.
     fn from_triangles(
         vertices: Vec<DVec3>,
         (all_faces, all_ids): (Vec<[u32; 3]>, Vec<u32>),
@@ -149,23 +149,23 @@ impl TriangleMesh {
         }
     }
 
-    /// The vertices in the file's order, unreferenced ones included.
+    /// Returns the vertices in the file's order, unreferenced ones included.
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
     }
 
-    /// The triangles, as indices into the vertices.
+    /// Returns the triangles, as indices into the vertices.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// Returns the face number in the file, by triangle.
+    /// Returns the face number in the file for each triangle.
     pub fn face_ids(&self) -> &[u32] {
         &self.face_ids
     }
 
-    /// Copies the mesh, with some triangles reversed.
-    pub(crate) fn turned(&self, faces: &[u32]) -> Self {
+    /// Copies the mesh, with the given triangles reversed.
+    pub(crate) fn with_reversed_faces(&self, faces: &[u32]) -> Self {
         let mut mesh = self.clone();
         for &face in faces {
             mesh.faces[face as usize].swap(1, 2);
@@ -173,22 +173,22 @@ impl TriangleMesh {
         mesh
     }
 
-    /// Returns the faults that were repaired.
+    /// Returns the faults of the mesh that were repaired.
     pub fn repairs(&self) -> &Repairs {
         &self.repairs
     }
 
-    /// Returns the points of a triangle's corners.
+    /// Returns the corner points of a triangle.
     pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
         self.faces[face as usize].map(|v| self.vertices[v as usize])
     }
 
-    /// Returns a triangle's corners, each as the first vertex at exactly its point.
+    /// Returns a triangle's corners with equal points welded: each is the first vertex at exactly its point.
     pub(crate) fn welded_face(&self, face: u32) -> [u32; 3] {
         self.faces[face as usize].map(|v| self.positions[v as usize])
     }
 
-    /// The [welded](TriangleMesh::welded_face) corners of all triangles.
+    /// Returns the [welded](TriangleMesh::welded_face) corners of all triangles.
     pub(crate) fn welded_faces(&self) -> Vec<[u32; 3]> {
         let faces = 0..self.faces.len() as u32;
         faces.map(|face| self.welded_face(face)).collect()

@@ -1,4 +1,4 @@
-//! Parts of messages about files, whether they hold meshes or bodies.
+//! Texts that messages about files of meshes and of bodies share.
 
 use std::fmt;
 use std::path::PathBuf;

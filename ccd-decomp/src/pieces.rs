@@ -1,4 +1,4 @@
-//! Meshes cut into convex pieces: one hull, patches of the surface, or approximate hulls.
+//! Cuts meshes into convex pieces: one hull, patches of the surface, or approximate hulls.
 
 pub(crate) mod convex;
 pub(crate) mod patches;

@@ -1,4 +1,4 @@
-//! Prepares bodies from meshes.
+//! Prepares bodies for queries from meshes.
 
 mod choose;
 pub(crate) mod error;
@@ -8,7 +8,7 @@ pub(crate) mod report;
 
 use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose};
 use crate::pieces::vhacd::approximate;
 use crate::solid::bounding_solid;
@@ -23,26 +23,26 @@ use report::Why;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Detail {
-    /// Chooses the fewest pieces that are exact: one hull for a convex solid, else patches or triangles,
-    /// whichever is estimated to be faster for queries.
+    /// Chooses the fewest exact pieces: one hull for a convex solid, else patches or triangles, whichever is
+    /// estimated to be faster for queries.
     #[default]
     Auto,
-    /// Makes one piece of every triangle: exact for any mesh or soup.
+    /// Makes one piece of every triangle, which is exact for any mesh or triangle soup.
     Triangles,
     /// Makes one piece of every triangle, without volume: a closed mesh is a hollow surface.
     Surface,
-    /// Makes convex patches of the surface: exact, for meshes that bound a solid.
+    /// Makes convex patches of the surface, which are exact for meshes that bound a solid.
     Patches(Order),
-    /// Makes one piece of the solid itself: exact, for convex ones.
+    /// Makes one piece of the whole solid, which is exact for convex solids.
     Hull,
-    /// Makes approximate hulls: they cover any mesh, and exceed it by a certified bound.
+    /// Makes approximate hulls, which cover any mesh and exceed it by a certified bound.
     Vhacd {
         /// The maximum number of hulls.
         hulls: u32,
     },
 }
 
-/// Makes a body from a mesh: calls [`prepare`], then [`Model::into_prepared`].
+/// Creates a body from a mesh: calls [`prepare`], then [`Model::into_prepared`].
 ///
 /// ```
 /// use ccd_core::glam::dvec3;
@@ -79,7 +79,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
     prepare(mesh, detail)?.into_prepared()
 }
 
-/// Makes the pieces of a mesh, and a hierarchy over them: a model, which can be stored.
+/// Makes the pieces of a mesh and a hierarchy over them. The result is a model, which can be stored.
 ///
 /// # Guarantee
 /// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it bounds.
@@ -104,7 +104,7 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareErro
 }
 
 impl Detail {
-    /// Returns whether a model of this kind may contain the triangles of the mesh.
+    /// Returns whether a model of this kind may contain the mesh's triangles.
     fn may_need_triangles(self) -> bool {
         match self {
             Detail::Auto | Detail::Triangles | Detail::Surface | Detail::Hull => true,
@@ -116,7 +116,7 @@ impl Detail {
 impl Choice {
     fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
         let edges = Edges::new(&mesh.welded_faces());
-        let (topology, turned) = Topology::by_edges(mesh, &edges);
+        let (topology, turned) = Topology::from_edges(mesh, &edges);
         // A mesh with reversed shells has other half-edges.
         let edges = turned.is_none().then_some(edges);
         let mesh = turned.as_ref().unwrap_or(mesh);
@@ -125,7 +125,7 @@ impl Choice {
             Detail::Triangles | Detail::Surface => (Parts::Triangles, Why::Asked),
             Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
             Detail::Hull => {
-                let polytope = as_polytope(&bounding_solid(mesh)?)?;
+                let polytope = convex_polytope(&bounding_solid(mesh)?)?;
                 (Parts::Hull(Box::new(polytope)), Why::Asked)
             }
             Detail::Vhacd { hulls } => {

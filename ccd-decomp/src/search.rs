@@ -1,4 +1,4 @@
-//! Searches for triangles that may meet a region, or are nearest to a point.
+//! Searches a mesh for the triangles that may meet a region, or that are nearest to a point.
 //!
 //! ```text
 //! element.rs ─► oriented_box.rs ─► planes.rs ─► box_tree.rs ─┬─► fans.rs ─► TriangleBoxes
@@ -21,17 +21,17 @@ use ccd_core::order::greater;
 use fans::{Fan, split};
 use region::Region;
 
-/// Trees of boxes over triangles, to search by region. Boxes are oriented like the triangles, so that those of adjacent
-/// slivers hardly overlap. Large fans around one vertex, where all boxes overlap, have separate trees.
+/// Trees of oriented boxes over triangles, to search by region. Boxes are oriented like the triangles, so that those
+/// of adjacent slivers hardly overlap. Large fans around one vertex, where all boxes overlap, have separate trees.
 pub(crate) struct TriangleBoxes {
     single: BoxTree,
     fans: Vec<Fan>,
-    /// The boxes of the fans.
+    /// The axis-aligned boxes of the fans.
     bounds: BoundsTree,
 }
 
 impl TriangleBoxes {
-    /// Builds the trees. O(n log n).
+    /// Builds the trees in O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let (single, fans) = split(points, faces);
         TriangleBoxes {
@@ -41,8 +41,8 @@ impl TriangleBoxes {
         }
     }
 
-    /// Calls `holds` for every triangle that may meet a region, and some others, until it returns false or the work is
-    /// spent, one step for each box. Returns whether all results were true.
+    /// Calls `holds` for every triangle that may meet a region, and some others. Stops when `holds` returns false or
+    /// the work is spent, one step for each box. Returns whether all results were true.
     ///
     /// # Guarantee
     /// An omitted triangle shares no point with the region, except perhaps a common corner.
@@ -61,8 +61,8 @@ impl TriangleBoxes {
         })
     }
 
-    /// Returns an upper bound, up to rounding, of the distance from a point to any point of the triangles.
-    pub(crate) fn reach(&self, point: DVec3) -> f64 {
+    /// Returns an upper bound, up to rounding, of the largest distance from `point` to any point of the triangles.
+    pub(crate) fn farthest_distance(&self, point: DVec3) -> f64 {
         let single = self.single.bounds();
         let all = self.fans.iter().map(Fan::bounds).chain(single);
         let far = all.map(|b| (point - b.lo).abs().max((b.hi - point).abs()).length());

@@ -1,4 +1,4 @@
-//! Decides whether a mesh bounds a solid.
+//! Decides whether a mesh bounds a solid, by its edges and by pairs of nearby triangles.
 //!
 //! ```text
 //! TriangleMesh ─► topology.rs ─► manifold.rs ─┬─ star_shaped.rs ───────────┬─► bounds a solid
@@ -25,21 +25,20 @@ use shells::check_orientation;
 use star_shaped::is_star_shaped;
 use topology::Topology;
 
-/// Returns the surface of the solid that a mesh bounds, after checks of every edge and of every pair of nearby
-/// triangles.
+/// Returns the surface of the solid that a mesh bounds. Checks every edge, and every pair of nearby triangles.
 ///
 /// A mesh that is entirely inside out is reversed.
 ///
 /// # Errors
 /// [`DecomposeError`] if the mesh bounds no solid.
 pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
-    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
+    let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh))?;
     check_solid(&manifold, &Work::unbounded())?;
     Ok(manifold)
 }
 
-/// Checks what edges alone do not decide: faces intersect only in shared vertices and edges, and the solid is behind
-/// all of them.
+/// Checks that faces intersect only in shared vertices and edges, and that the solid is behind all faces. Edges alone
+/// do not decide this.
 ///
 /// # Errors
 /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) if the work does not suffice.

@@ -1,4 +1,4 @@
-//! Descriptions of bodies on a command line.
+//! Parses the descriptions of bodies on a command line.
 
 pub(crate) mod error;
 pub(crate) mod mesh_source;
@@ -33,44 +33,44 @@ use std::str::FromStr;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodySource {
-    /// `box:hx,hy,hz`, see [`Body::cuboid`].
+    /// A box around the origin, `box:hx,hy,hz`; see [`Body::cuboid`].
     Box {
-        /// Half the length of each side.
+        /// The half length of each side.
         half_extents: DVec3,
     },
-    /// `sphere:r`, see [`Body::sphere`].
+    /// A sphere around the origin, `sphere:r`; see [`Body::sphere`].
     Sphere {
-        /// Its radius.
+        /// The radius of the sphere.
         radius: f64,
     },
-    /// `capsule:r,h`, see [`Body::capsule`].
+    /// A capsule along z, `capsule:r,h`; see [`Body::capsule`].
     Capsule {
-        /// Its radius.
+        /// The radius of the capsule.
         radius: f64,
-        /// Half the length of the segment along z that it surrounds.
+        /// The half length of the segment along z that the capsule surrounds.
         half_height: f64,
     },
-    /// `cylinder:r,h` or `cylinder:r,h,excess`, see [`Body::cylinder`] and [`Round::enclosed`].
+    /// A cylinder along z, `cylinder:r,h` or `cylinder:r,h,excess`; see [`Body::cylinder`] and [`Round::enclosed`].
     Cylinder {
-        /// Its radius.
+        /// The radius of the cylinder.
         radius: f64,
-        /// Half its length along z.
+        /// The half length of the cylinder along z.
         half_height: f64,
-        /// The maximum excess of its polytope; `None` for the [usual](Round::usual_excess).
+        /// The maximum excess of the cylinder's polytope; `None` for the [usual](Round::usual_excess) one.
         excess: Option<f64>,
     },
-    /// `cone:r,h` or `cone:r,h,excess`, see [`Body::cone`] and [`Round::enclosed`].
+    /// A cone along z, `cone:r,h` or `cone:r,h,excess`; see [`Body::cone`] and [`Round::enclosed`].
     Cone {
-        /// The radius of its base.
+        /// The radius of the cone's base.
         radius: f64,
-        /// Half its length along z; the apex is up.
+        /// The half length of the cone along z; the apex is up.
         half_height: f64,
-        /// The maximum excess of its polytope; `None` for the [usual](Round::usual_excess).
+        /// The maximum excess of the cone's polytope; `None` for the [usual](Round::usual_excess) one.
         excess: Option<f64>,
     },
-    /// The path of a file that ends in `.ccd`: a [stored](crate::Model::save) body.
+    /// A [stored](crate::Model::save) body, by the path of a file that ends in `.ccd`.
     Stored(PathBuf),
-    /// A mesh file, or a part of one, with adjustments: anything else. All parts of a file are one body.
+    /// A mesh file or a part of one, with adjustments; any other text. All parts of a file are one body.
     Mesh(MeshSource),
 }
 
@@ -83,7 +83,7 @@ pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
 }
 
 impl BodySource {
-    /// Creates the body. The detail applies to meshes only: shapes are single pieces, and a stored body keeps its
+    /// Creates the body. The detail applies to meshes only. Shapes are single pieces, and a stored body keeps its
     /// pieces.
     ///
     /// # Errors
@@ -123,13 +123,13 @@ impl BodySource {
                 radius,
                 half_height,
                 excess,
-            } => Prepared::round(&Round::cylinder(radius, half_height)?, excess)?,
+            } => Prepared::from_round(&Round::cylinder(radius, half_height)?, excess)?,
             BodySource::Cone {
                 radius,
                 half_height,
                 excess,
-            } => Prepared::round(&Round::cone(radius, half_height)?, excess)?,
-            BodySource::Stored(ref path) if adjustments.need_mesh() => {
+            } => Prepared::from_round(&Round::cone(radius, half_height)?, excess)?,
+            BodySource::Stored(ref path) if adjustments.apply_to_meshes_only() => {
                 return Err(SourceError::Prepared { file: path.clone() }.into());
             }
             BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
@@ -144,11 +144,11 @@ impl BodySource {
                 );
             }
         };
-        let unit = adjustments.wanted();
+        let unit = adjustments.target_unit();
         Ok(Prepared { unit, ..prepared })
     }
 
-    /// Returns the files that the body is read from, including buffer files of a glTF.
+    /// Returns the paths of all files that the body is read from, including buffer files of a glTF.
     ///
     /// # Errors
     /// [`BodyError::Mesh`] if a glTF cannot be read.
@@ -176,7 +176,7 @@ fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError
 }
 
 impl BodySource {
-    /// Describes a file by its extension: a stored body, or a mesh.
+    /// Describes the body in a file. The extension decides whether it is a stored body or a mesh.
     pub fn of_file(path: PathBuf) -> Self {
         if is_stored(&path) {
             BodySource::Stored(path)
@@ -216,14 +216,16 @@ impl FromStr for BodySource {
                 })
             }
             Some(("cylinder", given)) => {
-                round("cylinder", given).map(|(radius, half_height, excess)| BodySource::Cylinder {
-                    radius,
-                    half_height,
-                    excess,
+                parse_round("cylinder", given).map(|(radius, half_height, excess)| {
+                    BodySource::Cylinder {
+                        radius,
+                        half_height,
+                        excess,
+                    }
                 })
             }
             Some(("cone", given)) => {
-                round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
+                parse_round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
                     radius,
                     half_height,
                     excess,
@@ -249,7 +251,7 @@ impl FromStr for BodySource {
     }
 }
 
-/// The shapes, with the number of lengths that each takes.
+/// The names of the shapes, with the number of lengths that each takes.
 const SHAPES: [(&str, usize); 5] = [
     ("box", 3),
     ("sphere", 1),
@@ -258,8 +260,8 @@ const SHAPES: [(&str, usize); 5] = [
     ("cone", 2),
 ];
 
-/// Parses a radius, half a height and an optional excess.
-fn round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
+/// Parses the radius, half height and optional excess of a cylinder or cone.
+fn parse_round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
     if given.matches(',').count() == 2 {
         let [radius, half_height, excess] = lengths(shape, given)?;
         return Ok((radius, half_height, Some(excess)));

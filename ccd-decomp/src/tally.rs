@@ -1,4 +1,4 @@
-//! Counts of elements in reports.
+//! Counts of elements in reports, with the first few elements.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -14,17 +14,17 @@ pub struct Tally<T> {
 const NAMED: usize = 8;
 
 impl<T> Tally<T> {
-    /// Returns the number of elements.
+    /// Returns the number of elements that were counted.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Returns the first elements, at most eight, in order of discovery.
+    /// Returns the first counted elements, at most eight.
     pub fn first(&self) -> &[T] {
         &self.first
     }
 
-    /// Returns whether there are no elements.
+    /// Returns whether no element was counted.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -38,7 +38,7 @@ impl<T> Tally<T> {
 }
 
 impl Tally<u32> {
-    /// Adds the elements of another tally, with `first` added to each.
+    /// Appends another tally. The number `first` is added to each of its elements.
     pub(crate) fn append(&mut self, other: &Self, first: u32) {
         let room = NAMED - self.first.len();
         let numbers = other.first.iter().map(|number| first + number);

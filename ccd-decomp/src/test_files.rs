@@ -1,11 +1,11 @@
-//! Test files: glTF and 3MF in memory.
+//! Builds glTF and 3MF files in memory for tests.
 
 #[cfg(feature = "gltf")]
 pub(crate) use gltf::Gltf;
 #[cfg(feature = "3mf")]
 pub(crate) use threemf::{Entry, model, object, package, zip};
 
-/// Temporary files for one test, removed at its end.
+/// A folder of temporary files for one test, removed at the test's end.
 pub(crate) struct Folder(pub(crate) std::path::PathBuf);
 
 impl Folder {
@@ -34,14 +34,14 @@ mod gltf {
     use base64::engine::general_purpose::STANDARD;
     use serde_json::{Value, json};
 
-    /// A glTF under construction. Its fields are those of the JSON.
+    /// A glTF under construction, with the JSON's fields.
     pub(crate) struct Gltf {
         pub(crate) json: Value,
         pub(crate) binary: Vec<u8>,
     }
 
     impl Gltf {
-        /// One mesh with the given primitives, in one node without a name.
+        /// Creates a glTF with one mesh of the given primitives, in one node without a name.
         pub(crate) fn new() -> Self {
             let json = json!({
                 "asset": {"version": "2.0"},
@@ -56,7 +56,7 @@ mod gltf {
             Gltf { json, binary }
         }
 
-        /// A triangle with a corner at the origin, in one node.
+        /// Creates a glTF with a triangle that has a corner at the origin, in one node.
         pub(crate) fn triangle() -> Self {
             let mut gltf = Gltf::new();
             let position = gltf.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
@@ -80,7 +80,7 @@ mod gltf {
             list.expect("a list").push(value);
         }
 
-        /// Adds bytes as a view of the buffer.
+        /// Appends bytes to the buffer as a view, and returns the view's index.
         pub(crate) fn view(&mut self, bytes: &[u8]) -> usize {
             while !self.binary.len().is_multiple_of(4) {
                 self.binary.push(0);
@@ -109,7 +109,7 @@ mod gltf {
             self.push("accessors", about)
         }
 
-        /// The binary form.
+        /// Returns the file in the binary form, GLB.
         pub(crate) fn glb(&self) -> Vec<u8> {
             let mut json = self.json.clone();
             if json["buffers"] == json!([]) {
@@ -129,14 +129,14 @@ mod gltf {
             bytes
         }
 
-        /// The text form, with the buffer at a URI.
+        /// Returns the file in the text form, with the buffer at a URI.
         pub(crate) fn text_at(&self, uri: &str) -> Vec<u8> {
             let mut json = self.json.clone();
             json["buffers"] = json!([{"byteLength": self.binary.len(), "uri": uri}]);
             json.to_string().into_bytes()
         }
 
-        /// The text form, with an embedded buffer.
+        /// Returns the file in the text form, with an embedded buffer.
         pub(crate) fn text(&self) -> Vec<u8> {
             let data = STANDARD.encode(&self.binary);
             self.text_at(&format!("data:application/octet-stream;base64,{data}"))
@@ -149,7 +149,7 @@ mod threemf {
     use rawzip::{CompressionMethod, ZipArchiveWriter};
     use std::io::Write;
 
-    /// A file of a zip.
+    /// An uncompressed file in a zip archive, by its path and content.
     pub(crate) struct Entry<'a> {
         pub(crate) path: &'a str,
         pub(crate) content: &'a [u8],
@@ -185,7 +185,7 @@ mod threemf {
         bytes
     }
 
-    /// A package of models; the first one is the root model.
+    /// Returns a 3MF package of some models. The first one is the root model.
     pub(crate) fn package(models: &[(&str, &str)]) -> Vec<u8> {
         let relationships = format!(
             r#"<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/Metadata/thumbnail.png" Id="rel0" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/><Relationship Target="/{}" Id="rel1" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#,
@@ -204,7 +204,7 @@ mod threemf {
         zip(&entries)
     }
 
-    /// A model of some objects and items, with attributes.
+    /// Returns a 3MF model of some objects and build items, with XML attributes.
     pub(crate) fn model(attributes: &str, objects: &str, items: &str) -> String {
         format!(
             r#"<?xml version="1.0" encoding="UTF-8"?>
@@ -216,7 +216,7 @@ mod threemf {
         )
     }
 
-    /// An object that is a mesh.
+    /// Returns a 3MF object that is a mesh, with XML attributes.
     pub(crate) fn object(attributes: &str, points: &[[f64; 3]], faces: &[[u32; 3]]) -> String {
         let vertex = |[x, y, z]: &[f64; 3]| format!(r#"<vertex x="{x}" y="{y}" z="{z}"/>"#);
         let triangle =

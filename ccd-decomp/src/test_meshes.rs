@@ -1,10 +1,10 @@
-//! Small closed meshes for tests, on whole numbers.
+//! Small closed meshes for tests, with whole coordinates.
 
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::{DVec3, dvec3};
 use std::collections::HashMap;
 
-/// The faces of a cube, outward: the bits of a corner's number are its coordinates, x the lowest.
+/// The faces of a cube, oriented outward. The bits of a corner's number are its coordinates, x the lowest.
 pub(crate) const CUBE: [[u32; 3]; 12] = [
     [0, 4, 6],
     [0, 6, 2],
@@ -20,7 +20,7 @@ pub(crate) const CUBE: [[u32; 3]; 12] = [
     [4, 7, 6],
 ];
 
-/// The surface of a union of unit cubes, given by their lowest corners: two triangles for every square.
+/// Returns the surface of a union of unit cubes, given by their lowest corners. Every square is two triangles.
 pub(crate) fn cubes(cells: &[[i32; 3]]) -> TriangleMesh {
     let filled = |c: [i32; 3]| cells.contains(&c);
     let (mut numbers, mut vertices, mut faces) = (HashMap::new(), Vec::new(), Vec::new());
@@ -54,7 +54,7 @@ pub(crate) fn cubes(cells: &[[i32; 3]]) -> TriangleMesh {
     mesh(vertices, &faces)
 }
 
-/// All cells of a block.
+/// Returns the lowest corners of all unit cubes of a block.
 pub(crate) fn block([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
     let columns = (0..x).flat_map(move |i| (0..y).map(move |j| (i, j)));
     columns
@@ -62,7 +62,7 @@ pub(crate) fn block([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
         .collect()
 }
 
-/// A tetrahedron, its faces outward.
+/// Returns a tetrahedron, oriented outward.
 pub(crate) fn tetrahedron() -> TriangleMesh {
     mesh(
         vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
@@ -70,29 +70,30 @@ pub(crate) fn tetrahedron() -> TriangleMesh {
     )
 }
 
-/// Several meshes as one.
-pub(crate) fn joined(parts: &[&TriangleMesh]) -> TriangleMesh {
+/// Merges several meshes into one.
+pub(crate) fn merged_meshes(parts: &[&TriangleMesh]) -> TriangleMesh {
     TriangleMesh::merge(parts.iter().copied()).unwrap()
 }
 
-/// A mesh scaled, then moved; a negative scale turns it inside out.
+/// Scales a mesh, then moves it. A negative scale turns it inside out.
 pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> TriangleMesh {
     let vertices = part.vertices().iter().map(|&p| scale * p + offset);
     mesh(vertices.collect(), part.faces())
 }
 
-/// A mesh with every face reversed.
-pub(crate) fn turned(part: &TriangleMesh) -> TriangleMesh {
+/// Reverses every face of a mesh.
+pub(crate) fn reversed_faces(part: &TriangleMesh) -> TriangleMesh {
     let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     mesh(part.vertices().to_vec(), &faces)
 }
 
-/// A mesh of vertices and faces.
+/// Creates a mesh from vertices and faces.
 pub(crate) fn mesh(vertices: Vec<DVec3>, faces: &[[u32; 3]]) -> TriangleMesh {
     TriangleMesh::new(vertices, faces).unwrap()
 }
 
-/// Two cones over a star: a rim of corners at radius 1 and another one, with apices above and below.
+/// Returns two cones over a star, with apices above and below. The corners of the star are alternately at radius 1
+/// and at radius `inner`.
 pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
     let corner = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);
@@ -108,13 +109,13 @@ pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
     mesh(vertices, &(0..corners).flat_map(side).collect::<Vec<_>>())
 }
 
-/// A polygon along z, each cap the fan about its first corner.
+/// Returns a prism along z over a polygon. Each cap is the fan about its first corner.
 pub(crate) fn prism(outline: &[DVec3]) -> TriangleMesh {
     let fan = (1..outline.len() as u32 - 1).map(|k| [0, k, k + 1]);
     capped(outline, &fan.collect::<Vec<_>>())
 }
 
-/// A polygon along z, whose caps are of some triangles between its corners.
+/// Returns a prism along z over a polygon, whose caps consist of given triangles.
 fn capped(outline: &[DVec3], caps: &[[u32; 3]]) -> TriangleMesh {
     let n = outline.len() as u32;
     let mut vertices = outline.to_vec();
@@ -130,7 +131,7 @@ fn capped(outline: &[DVec3], caps: &[[u32; 3]]) -> TriangleMesh {
     mesh(vertices, &faces)
 }
 
-/// Upright teeth of some heights on a bar from z = 0 to 1, whose caps fit it: a fan for the bar, and two
+/// Returns upright teeth of given heights on a bar from z = 0 to 1. Its caps fit it: a fan for the bar, and two
 /// triangles for every tooth.
 pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     let count = heights.len() as u32;
@@ -147,8 +148,8 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     capped(&outline, &caps)
 }
 
-/// The outline of teeth that lean away from the first corner, from which all are visible: the fans of the caps are
-/// exact.
+/// Returns the outline of teeth that lean away from the first corner. All corners are visible from it, so that the
+/// fans of the caps are exact.
 pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {
         let share = f64::from(k) / f64::from(2 * count - 1);
@@ -162,9 +163,9 @@ pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
         .collect()
 }
 
-/// A convex prism of a number of corners under a narrower, longer one: large caps on a solid that is not
+/// Returns a convex prism with a number of corners under a narrower, longer one: large caps on a solid that is not
 /// star-shaped.
-pub(crate) fn notched(corners: u32) -> TriangleMesh {
+pub(crate) fn prism_under_prism(corners: u32) -> TriangleMesh {
     let ring = |radius: f64, z: f64| {
         (0..corners).map(move |k| {
             let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);

@@ -5,23 +5,23 @@ mod rounding;
 
 pub(crate) use rounding::*;
 
-/// The largest number of pieces that are agglomerated; more are split at medians.
+/// The largest number of pieces in a cluster for agglomeration. Larger sets are split at medians.
 ///
 /// Unit: pieces. Larger: better trees by a few percent, but pieces with one common centre take time
 /// that grows with it.
-pub(crate) const AGGLOMERATED_PIECES: usize = 256;
+pub(crate) const MAX_CLUSTER_PIECES: usize = 256;
 
 /// The number of initial passes of agglomeration in which only adjacent nodes are compared.
 ///
 /// Unit: passes. Fewer: slower, hardly better trees.
 pub(crate) const SEARCH_DEPTH: usize = 2;
 
-/// The search distance for neighbours in later passes.
+/// The search distance along the curve for the best neighbour in later passes of agglomeration.
 ///
 /// Unit: places. Larger: better trees by less than a percent, but slower to build.
 pub(crate) const SEARCH_DISTANCE: usize = 6;
 
-/// The share of the nodes, largest first, that are candidates for reinsertion.
+/// The fraction of the nodes, largest first, that are candidates for reinsertion.
 ///
 /// Unit: one. Larger: better trees by a percent for every doubling, but slower to build.
 pub(crate) const REINSERTED_SHARE: f32 = 0.02;
@@ -39,16 +39,16 @@ pub(crate) const RAY_TRIES: usize = 16;
 /// 292, 258.
 pub(crate) const PATCH_POLYGONS: usize = 48;
 
-/// The most corners of a patch of several polygons; a larger polygon is a separate patch.
+/// The maximum number of corners of a patch of several polygons. A larger polygon is a separate patch.
 ///
 /// Unit: corners. A polygon is tested with all facets of a patch, and so is every triangle near it: the time of
 /// growing increases with their square. Twice as many as 48 polygons of a sphere have.
 pub(crate) const PATCH_CORNERS: usize = 256;
 
-/// The least share of a node's pieces in each child of a hull tree; otherwise the split is at the median.
+/// The least fraction of a node's pieces in each child of a hull tree. If a split gives less, it is at the median.
 ///
 /// Unit: one. At 1/8 a tree of n pieces is at most `log n / log (8/7)` deep: 104 for a million.
-pub(crate) const LEAST_SHARE: f64 = 1.0 / 8.0;
+pub(crate) const MIN_CHILD_SHARE: f64 = 1.0 / 8.0;
 
 /// The maximum number of iterations for the eigenvectors of a 3 × 3 matrix.
 ///
@@ -63,109 +63,110 @@ pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
     if hulls <= 32 { 64 } else { 96 }
 }
 
-/// The smallest useful resolution, in voxels.
-pub(crate) const LEAST_RESOLUTION: u32 = 8;
+/// The smallest useful number of voxels along the longest side.
+pub(crate) const MIN_RESOLUTION: u32 = 8;
 
-/// The maximum number of triangle–voxel pairs to examine: a third of a second of work.
-pub(crate) const VOXELS_TESTED: usize = 1 << 21;
+/// The maximum number of pairs of a triangle and a voxel to examine: a third of a second of work.
+pub(crate) const MAX_VOXEL_TESTS: usize = 1 << 21;
 
 /// The minimum size of a voxel, in units of the rounding of cuts.
-pub(crate) const COARSE_VOXELS: f64 = 1024.0;
+pub(crate) const MIN_VOXEL_SIZE: f64 = 1024.0;
 
-/// V-HACD's concavity: the excess volume, in shares of the whole hull, above which a part is split. So small that
-/// nearly convex meshes also use all requested hulls.
+/// V-HACD's concavity: the fraction of excess volume above which a part is split. It is so small that nearly convex
+/// meshes also use all requested hulls.
 pub(crate) const CONCAVITY: f64 = 1e-6;
 
-/// V-HACD's weight of balanced cuts. Measured on a bunny with 128 hulls: they stick out by a quarter less than at the
-/// library's own 0.05; no difference for a knot and a ring.
+/// V-HACD's weight of balanced cuts. Measured on a bunny with 128 hulls, the excess is a quarter less than at the
+/// library's own 0.05; there is no difference for a knot and a ring.
 pub(crate) const BALANCE: f64 = 0.5;
 
-/// The number of parts to request from the library per hull; the best pairs are merged. Measured: one makes 32 hulls of
-/// a knot stick out by two thirds more, four hardly less.
+/// The number of parts to request from the library for each hull; the best pairs are then merged. Measured on a knot
+/// with 32 hulls, one part for each hull increases the excess by two thirds, and four hardly reduce it.
 pub(crate) const PARTS_PER_HULL: u32 = 2;
 
-/// The maximum number of parts to request: the time of merging grows with their cube.
-pub(crate) const MOST_PARTS: u32 = 512;
+/// The maximum number of parts to request from V-HACD. The time of merging grows with their cube.
+pub(crate) const MAX_PARTS: u32 = 512;
 
-/// The number of points of a part used to estimate the cost of merging.
+/// The number of points of a part from which the cost of merging is estimated.
 ///
 /// Unit: points. More: hardly better choices, and more time.
-pub(crate) const PRICED_POINTS: u32 = 96;
+pub(crate) const COST_SAMPLE_POINTS: u32 = 96;
 
 /// The maximum accepted excess of hulls, in units of half the mesh's diagonal.
-pub(crate) const TOO_COARSE: f64 = 0.5;
+pub(crate) const MAX_RELATIVE_EXCESS: f64 = 0.5;
 
-/// The work budget for the bound on the excess of hulls.
+/// The work budget of the search for a bound on the excess of hulls.
 ///
 /// Unit: boxes and triangles examined in searches, of 10 to 50 ns: half a second's work.
 pub(crate) const EXCESS_WORK: u64 = 3 << 23;
 
-/// The maximum number of waiting boxes in that search.
+/// The maximum number of waiting boxes in the search for a bound on the excess of hulls.
 ///
 /// Unit: boxes, of about 130 bytes each. Most meshes spend the work on fewer. On a mesh of two triangles a box takes
 /// only a few steps: millions of them took hundreds of megabytes.
 pub(crate) const EXCESS_BOXES: usize = 1 << 19;
 
-/// The ratio of the excess bound to the largest distance found at which the search ends …
+/// The ratio of the excess bound to the largest distance found at which the search for the bound ends.
 pub(crate) const EXCESS_RATIO: f64 = 1.01;
 
-/// … and the difference at which it ends, in units of half the mesh's diagonal; either suffices.
+/// The difference between the excess bound and the largest distance found at which the search ends, in units of half
+/// the mesh's diagonal. Either this or the ratio suffices.
 pub(crate) const EXCESS_FLOOR: f64 = 1e-4;
 
-/// The maximum number of triangles near a box that bound the excess within it.
-pub(crate) const TRIANGLES_UNDER: usize = 64;
+/// The maximum number of triangles near a box from which the excess within the box is bounded.
+pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
 
-/// The time of queries with one kind of pieces.
+/// The measured time of queries with one kind of pieces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PieceCost {
-    /// The median time against a body of many triangles, for any number of pieces. Unit: µs.
+    /// The median time against a body of many triangles, for any number of pieces, in µs.
     pub(crate) usual: f64,
-    /// The time per piece of a plane that rests flat on another. Unit: µs.
+    /// The time per piece of a plane that rests flat on another, in µs.
     pub(crate) resting: f64,
 }
 
-/// The time of queries with triangles.
+/// The measured time of queries with triangles as pieces.
 ///
 /// Measured on a perforated plate (coarse and fine), an L-prism, a comb and a gear of 460 to 7,452
 /// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
 /// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
-pub(crate) const TRIANGLES: PieceCost = PieceCost {
+pub(crate) const TRIANGLE_COST: PieceCost = PieceCost {
     usual: 23.0,
     resting: 5.0,
 };
 
-/// The time of queries with patches.
+/// The measured time of queries with patches as pieces.
 ///
 /// A query takes 2.4 times as long with patches, the median of random pairs of parts of real robots
 /// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
 /// laid flat.
-pub(crate) const PATCHES: PieceCost = PieceCost {
+pub(crate) const PATCH_COST: PieceCost = PieceCost {
     usual: 55.0,
     resting: 6.0,
 };
 
-/// The assumed share of queries in which bodies rest flat on each other, so that all pieces of a plane are examined. A
-/// guess: at this value patches are chosen from about three hundred triangles in one plane on.
-pub(crate) const FLAT_SHARE: f64 = 1.0 / 50.0;
+/// The assumed fraction of queries in which bodies rest flat on each other, so that all pieces of a plane are
+/// examined. It is a guess: with it, patches are chosen from about three hundred triangles in one plane on.
+pub(crate) const RESTING_QUERY_SHARE: f64 = 1.0 / 50.0;
 
-/// Number of length bins per doubling of the length. Edges in one bin count as equally long, so that rounding does not
-/// separate the edges of a grid.
-pub(crate) const LENGTHS: f64 = 16.0;
+/// The number of length bins per doubling of the length. Edges in one bin count as equally long, so that rounding
+/// does not separate the edges of a grid.
+pub(crate) const LENGTH_BINS: f64 = 16.0;
 
-/// Number of direction bins per unit of each coordinate of a unit vector.
-pub(crate) const DIRECTIONS: f64 = 64.0;
+/// The number of direction bins per unit of each coordinate of a unit vector.
+pub(crate) const DIRECTION_BINS: f64 = 64.0;
 
 /// The maximum number of points for the incremental hull without a conflict graph.
 ///
 /// Unit: points. More: the time grows with their square. Fewer: the graph takes more time than it saves.
 pub(crate) const FEW_POINTS: usize = 32;
 
-/// The minimum number of pieces to build the two sides of a hull tree node in parallel.
+/// The minimum number of pieces for which the two sides of a hull tree node are built in parallel.
 ///
 /// Unit: pieces. Fewer: tasks cost more than they gain. More: a core idles at the end.
-pub(crate) const SIDE_BY_SIDE: usize = 256;
+pub(crate) const PARALLEL_PIECES: usize = 256;
 
-/// The maximum number of centres that determine the split axis of a hull tree node.
+/// The maximum number of piece centres from which the split axis of a hull tree node is computed.
 ///
 /// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the
 /// tree's own.
@@ -179,43 +180,45 @@ pub(crate) const FAN_TRIANGLES: u32 = 32;
 /// The number of axis-aligned boxes that may meet the box of a shape before oriented boxes are tested.
 ///
 /// Unit: boxes. A smaller value is slower for triangles that are not slivers.
-pub(crate) const BOXES_MET: usize = 32;
+pub(crate) const BOXES_BEFORE_ORIENTED: usize = 32;
 
-/// The maximum number of reported pairs of intersecting faces.
+/// The maximum number of pairs of intersecting faces in a report.
 ///
 /// Unit: pairs. The fan of a non-convex polygon may have as many as the square of its corners.
-pub(crate) const CROSSINGS: usize = 1000;
+pub(crate) const MAX_CROSSINGS: usize = 1000;
 
 /// The work budget of `Detail::Auto` for testing and making patches.
 ///
 /// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
 pub(crate) const AUTO_WORK: u64 = 1 << 24;
 
-/// The cost of an expanded vertex, in units of a corner, which is about 25 bytes.
+/// The cost of an expanded vertex, in units of a face corner, which takes about 25 bytes.
 pub(crate) const VERTEX_COST: u64 = 4;
 
-/// The limit on what a file may expand to by repeated references: a constant …
+/// The constant part of the limit on what a file may expand to by repeated references, in face corners.
 ///
 /// Unit: the cost of a corner, and of an object. More: a hostile file of a kilobyte takes more memory. Fewer: small
 /// files with many instances are refused.
-pub(crate) const REPEATED: u64 = 1 << 20;
+pub(crate) const EXPANSION_BASE: u64 = 1 << 20;
 
-/// … plus this for each byte of the file (an assembly of 1,000 screws of 1,000 triangles takes about 50) …
-pub(crate) const REPEATED_PER_BYTE: u64 = 1 << 8;
+/// The part of the limit on what a file may expand to that is proportional to its size, per byte. An assembly of
+/// 1,000 screws of 1,000 triangles takes about 50.
+pub(crate) const EXPANSION_PER_BYTE: u64 = 1 << 8;
 
-/// … and at most this: about ten million triangles, which take up to 3 GB to prepare.
-pub(crate) const REPEATED_AT_MOST: u64 = 1 << 25;
+/// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
+/// prepare.
+pub(crate) const EXPANSION_MAX: u64 = 1 << 25;
 
-/// The limit on the unpacked bytes of a compressed file: a constant …
+/// The constant part of the limit on the unpacked size of a compressed file, in bytes.
 ///
 /// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
 #[cfg(feature = "3mf")]
-pub(crate) const UNPACKED: u64 = 1 << 24;
+pub(crate) const UNPACKED_BASE: u64 = 1 << 24;
 
-/// … plus this many times the size of the file. Models of slicers and CAD programs unpack to five to thirty times the
-/// size.
+/// The part of the limit on the unpacked size that is proportional to the file's size. Models of slicers and CAD
+/// programs unpack to five to thirty times the size.
 #[cfg(feature = "3mf")]
-pub(crate) const UNPACKED_RATIO: u64 = 128;
+pub(crate) const UNPACKED_PER_BYTE: u64 = 128;
 
 #[cfg(test)]
 mod tests;

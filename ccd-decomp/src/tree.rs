@@ -1,4 +1,4 @@
-//! Trees over convex pieces: hierarchies of boxes, and hull trees.
+//! Builds trees over convex pieces: hierarchies of boxes, and hull trees.
 
 pub(crate) mod hierarchy;
 pub(crate) mod hull_tree;

@@ -1,20 +1,20 @@
-//! Work budgets, counted in predicates.
+//! Work budgets, counted in exact predicates.
 
 use std::cell::Cell;
 
-/// A budget of remaining steps, each about the cost of an exact predicate.
+/// A budget of remaining steps. A step costs about as much as an exact predicate.
 #[derive(Debug)]
 pub(crate) struct Work {
     left: Cell<u64>,
 }
 
 impl Work {
-    /// A budget without a limit.
+    /// Creates a budget without a limit.
     pub(crate) fn unbounded() -> Self {
         Work::with_steps(u64::MAX)
     }
 
-    /// A budget of a number of steps.
+    /// Creates a budget of `steps` steps.
     pub(crate) fn with_steps(steps: u64) -> Self {
         Work {
             left: Cell::new(steps),
@@ -28,12 +28,12 @@ impl Work {
         rest.is_some_and(|rest| rest > 0)
     }
 
-    /// Returns the number of steps spent from an unlimited budget.
+    /// Returns the number of steps spent from a budget without a limit.
     pub(crate) fn taken(&self) -> u64 {
         u64::MAX - self.left.get()
     }
 
-    /// Checks that some steps are left.
+    /// Returns an error if no steps are left.
     ///
     /// # Errors
     /// [`OutOfWork`] if none are left.
@@ -45,6 +45,6 @@ impl Work {
     }
 }
 
-/// The budget is spent.
+/// The error for a work budget that is spent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct OutOfWork;

@@ -162,7 +162,7 @@ impl Form {
     ///
     /// # Errors
     /// [`ShapeError::Open`] unless they are closed.
-    pub(crate) fn as_solid(self) -> Result<Self, ShapeError> {
+    pub(crate) fn into_solid(self) -> Result<Self, ShapeError> {
         match open_edge(&self.vertices, &self.triangles) {
             Some([from, to]) => Err(ShapeError::Open { from, to }),
             None => Ok(Form {

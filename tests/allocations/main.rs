@@ -1,4 +1,4 @@
-//! A warmed-up solver answers the same queries again without allocations.
+//! Tests that a warmed-up solver answers the same queries again without allocations.
 //!
 //! This is a program of its own: the allocator that counts is that of the whole program.
 
@@ -14,12 +14,12 @@ static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 const QUERIES: u64 = 3_000;
 
-/// Answers all queries, and returns the number of those with bodies in contact at the start.
+/// Answers all queries, and returns the number of queries whose bodies are in contact at the start.
 fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
     for number in 0..QUERIES {
         let query = mixed.query(number);
-        let [a, b] = [0, 1].map(|k| mixed.moving(&query, k));
+        let [a, b] = [0, 1].map(|k| mixed.moving_body(&query, k));
         solver.set_settings(query.config);
         let answer = solver.first_contact(a, b, 1.0).expect("a well-posed query");
         if let Outcome::Touching { .. } | Outcome::Overlapping { .. } = answer.outcome {
@@ -33,11 +33,11 @@ fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
 #[test]
 fn queries_do_not_allocate_once_the_solver_is_warm() {
     let mixed = Mixed::new();
-    assert_warm(&mixed, Direct::default());
-    assert_warm(&mixed, Gjk);
+    assert_no_allocations_when_warm(&mixed, Direct::default());
+    assert_no_allocations_when_warm(&mixed, Gjk);
 }
 
-fn assert_warm<O: DistanceOracle>(mixed: &Mixed, oracle: O) {
+fn assert_no_allocations_when_warm<O: DistanceOracle>(mixed: &Mixed, oracle: O) {
     let mut solver = Solver::with_oracle(oracle);
     let cold = Region::new(HEAP);
     let at_start = answer_all(mixed, &mut solver);

@@ -1,4 +1,4 @@
-//! Invalid numbers are a typed error that names the quantity and its range; nothing panics.
+//! Tests that invalid numbers give a typed error that names the quantity and its range, and that nothing panics.
 //!
 //! The tests of `ccd-core` have the other variants of `InputError`, except `TooManyPieces`: it needs a billion points.
 
@@ -8,7 +8,7 @@ use ccd_core::{Body, InputError, Motion, Moving, Pieces, Pose, Settings};
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// Invalid times and lengths, with their text in messages.
+/// Invalid times and lengths, each with its text in messages.
 const OUT_OF_RANGE: [(f64, &str); 5] = [
     (-1.0, "-1"),
     (-1e-300, "-1e-300"),
@@ -98,7 +98,8 @@ fn faces_have_as_many_numbers() {
     assert_eq!(unnumbered, Err(InputError::FaceIds { faces: 1, ids: 0 }));
 }
 
-/// Boxes with a negative side would be inside out, and capsules would have another height.
+/// Tests that invalid lengths of shapes are rejected by name. Boxes with a negative side would be inside out, and
+/// capsules would have another height.
 #[test]
 fn shapes_name_the_bad_length() {
     type Shape = fn(f64) -> Result<Body, InputError>;

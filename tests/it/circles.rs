@@ -1,4 +1,4 @@
-//! Files of a crate import each other in one direction: there is no circle of imports.
+//! Tests that no files of a crate import each other in a circle.
 //!
 //! A file may use its own ancestors. All other imports count, also those inside of macros. Tests do not count.
 
@@ -7,10 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use syn::visit::{self, Visit};
 
-/// The path of a module within its crate; the root is empty.
+/// The path of a module within its crate. The crate's root is empty.
 type Module = Vec<String>;
 
-/// The imports of each module of a crate.
+/// The set of modules that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
 const CRATES: [&str; 11] = [
@@ -33,7 +33,7 @@ fn no_files_import_each_other_in_a_circle() {
     let mut files = 0;
     for name in CRATES {
         let root = workspace.join(name).join("src/lib.rs");
-        let texts = texts(&root);
+        let texts = parsed_modules(&root);
         files += texts.len();
         let circles = circles(&imports(&texts));
         assert!(circles.is_empty(), "{name}: {circles:#?}");
@@ -41,7 +41,7 @@ fn no_files_import_each_other_in_a_circle() {
     assert!(files > 500, "{files}");
 }
 
-/// The check sees imports by `use`, by a path in an expression and in a macro, and across folders.
+/// Tests that the check sees imports by `use`, by a path in an expression and in a macro, and across folders.
 #[test]
 fn a_circle_is_found() {
     let found = |end: &str, below: &str| {
@@ -66,8 +66,8 @@ fn a_circle_is_found() {
     }
 }
 
-/// Reads the file of a crate's root and those of all its modules, except tests.
-fn texts(root: &Path) -> BTreeMap<Module, syn::File> {
+/// Parses the file of a crate's root and the files of all its modules, except tests.
+fn parsed_modules(root: &Path) -> BTreeMap<Module, syn::File> {
     let mut texts = BTreeMap::new();
     let mut waiting = vec![(Module::new(), root.to_owned(), root.with_file_name(""))];
     while let Some((module, path, folder)) = waiting.pop() {
@@ -104,7 +104,7 @@ fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
         let used = paths
             .0
             .iter()
-            .filter_map(|path| resolved(texts, module, path));
+            .filter_map(|path| module_of_path(texts, module, path));
         // A module is at home in those that it is a part of.
         let used = used.filter(|used| !module.starts_with(used));
         (module.clone(), used.collect())
@@ -112,8 +112,8 @@ fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
     imports.collect()
 }
 
-/// Returns the module that a path leads into; `None` if it leads out of the crate.
-fn resolved(
+/// Returns the module of the crate that a path leads into; `None` if it leads out of the crate.
+fn module_of_path(
     texts: &BTreeMap<Module, syn::File>,
     module: &[String],
     path: &[String],
@@ -137,21 +137,21 @@ fn resolved(
     Some(at)
 }
 
-/// All paths of a file that may lead to another one.
+/// The collected paths of a file that may lead to another module.
 #[derive(Default)]
 struct Paths(Vec<Module>);
 
 impl Paths {
-    fn of_tree(&mut self, tree: &syn::UseTree, above: &[String]) {
+    fn add_use_tree(&mut self, tree: &syn::UseTree, above: &[String]) {
         let below = |ident: &syn::Ident| [above, &[ident.to_string()]].concat();
         match tree {
-            syn::UseTree::Path(path) => self.of_tree(&path.tree, &below(&path.ident)),
+            syn::UseTree::Path(path) => self.add_use_tree(&path.tree, &below(&path.ident)),
             syn::UseTree::Name(name) => self.0.push(below(&name.ident)),
             syn::UseTree::Rename(name) => self.0.push(below(&name.ident)),
             syn::UseTree::Glob(_) => self.0.push(above.to_vec()),
             syn::UseTree::Group(group) => {
                 for tree in &group.items {
-                    self.of_tree(tree, above);
+                    self.add_use_tree(tree, above);
                 }
             }
         }
@@ -166,7 +166,7 @@ impl<'f> Visit<'f> for Paths {
     }
 
     fn visit_item_use(&mut self, item: &'f syn::ItemUse) {
-        self.of_tree(&item.tree, &[]);
+        self.add_use_tree(&item.tree, &[]);
     }
 
     fn visit_path(&mut self, path: &'f syn::Path) {
@@ -178,7 +178,8 @@ impl<'f> Visit<'f> for Paths {
         visit::visit_path(self, path);
     }
 
-    /// What a macro takes is no syntax tree: its paths are found as text.
+    /// Collects the paths in a macro call. They are found as text, because the arguments of a macro are no syntax
+    /// tree.
     fn visit_macro(&mut self, called: &'f syn::Macro) {
         let text = called.tokens.to_string().replace(' ', "");
         let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
@@ -191,8 +192,8 @@ impl<'f> Visit<'f> for Paths {
     }
 }
 
-/// Returns the modules that are left once those that use no other one are taken out, again and again: circles, and
-/// what uses them.
+/// Returns the modules in circles, and the modules that use these. Removes modules that use no other one until none
+/// is left.
 fn circles(imports: &Imports) -> Imports {
     let mut left = imports.clone();
     loop {

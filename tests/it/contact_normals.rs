@@ -1,4 +1,4 @@
-//! The normal of a contact is in the normal cones of both surfaces, even if the bodies have no gap.
+//! Tests that the normal of a contact is in the normal cones of both surfaces, even if the bodies have no gap.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Outcome, Pose, Separation, Settings};
@@ -11,15 +11,15 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// The allowed angle from the cone due to rounding: coordinates near 1, on faces of 0.3 and more.
-const FLUSH: f64 = 1e-12;
+/// The allowed angle from the normal cone due to rounding, in radians, for coordinates near 1 and faces of 0.3 and
+/// more.
+const ANGLE_ROUNDING: f64 = 1e-12;
 
-/// The error of the direction between two points, multiplied by their distance. It is left in directions of longer
-/// ways.
-const BETWEEN: f64 = 4e-15;
+/// The rounding error of the direction between two points, multiplied by their distance.
+const DIRECTION_ROUNDING: f64 = 4e-15;
 
-/// The distance above which the direction between two points may be the normal.
-const WAY: f64 = 1e-8;
+/// The distance of witnesses above which the direction between them may be the normal.
+const NORMAL_DISTANCE: f64 = 1e-8;
 
 const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
 
@@ -28,7 +28,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     let rng = &mut Pcg64::seed_from_u64(45);
     let (mut checked, mut blurred) = ([0; 3], 0);
     for round in 0..runner(150).config().cases {
-        let touch = Touch::draw(rng);
+        let touch = FeatureContact::draw(rng);
         for bodies in touch.query.all_bodies() {
             let settings = touch.config();
             let problem = touch.query.problem(&bodies, &settings);
@@ -37,7 +37,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
             for pair in &pairs {
                 if let Some(way) = touch.check(&pair.separation) {
                     checked[touch.size_of_support] += 1;
-                    blurred += usize::from(way < WAY);
+                    blurred += usize::from(way < NORMAL_DISTANCE);
                 }
             }
             touch.check_answer(Backend::DEFAULT.solve(&problem).outcome);
@@ -49,27 +49,27 @@ fn normals_are_in_the_cones_of_both_surfaces() {
     );
 }
 
-/// Every backend finds the normal of the surfaces, whatever axis its claim has.
+/// Tests that every backend finds the normal of the surfaces, whatever axis its claim has.
 #[test]
 fn answers_of_all_backends_have_a_common_normal() {
     let rng = &mut Pcg64::seed_from_u64(46);
     for _ in 0..runner(25).config().cases {
-        let touch = Touch::draw(rng);
+        let touch = FeatureContact::draw(rng);
         for_each_setup(&touch.query, &touch.config(), |_, _, answer| {
             touch.check_answer(answer.outcome);
         });
     }
 }
 
-/// Two bodies with a gap along a direction that is in the normal cones of a feature of each.
-struct Touch {
+/// Two bodies with a gap along a direction that is in the normal cones of a feature of each body.
+struct FeatureContact {
     query: Query,
     gap: f64,
     /// The dimension of the larger feature: 0 for vertices, 1 for edges, 2 for faces.
     size_of_support: usize,
 }
 
-impl Touch {
+impl FeatureContact {
     fn draw(rng: &mut Pcg64) -> Self {
         let shape_b = shape(rng);
         let same = rng.random_bool(0.4);
@@ -82,7 +82,7 @@ impl Touch {
             Pose::new(random_direction(rng), rotation(rng)).unwrap()
         };
         // A's support touches B's from the other side; its edge is parallel to B's, or arbitrary.
-        let aligned = b.basis() * a.basis().conjugate();
+        let aligned = b.rotation_to_frame() * a.rotation_to_frame().conjugate();
         let facing = DQuat::from_axis_angle(b.along, TAU / 2.0) * aligned;
         let twist = match rng.random_range(0..3) {
             0 => rng.random_range(0.0..TAU),
@@ -90,12 +90,12 @@ impl Touch {
         };
         let turn = (DQuat::from_axis_angle(b.normal, twist) * facing).normalize();
         let place = b.point + gap * b.normal - turn * a.point;
-        let start = frame_of(&frame, turn, place);
+        let start = pose_in_frame(&frame, turn, place);
         let still = |shape, pose| Actor {
             shape,
             motion: Motion::still(pose),
         };
-        Touch {
+        FeatureContact {
             query: Query::new(still(shape_a, start), still(shape_b, frame)),
             gap,
             size_of_support: a.size.max(b.size),
@@ -135,13 +135,13 @@ impl Touch {
         if way > self.gap + 1e-13 {
             return None;
         }
-        let allowed = if way < WAY {
-            FLUSH
+        let allowed = if way < NORMAL_DISTANCE {
+            ANGLE_ROUNDING
         } else {
-            FLUSH + BETWEEN / way
+            ANGLE_ROUNDING + DIRECTION_ROUNDING / way
         };
-        let off_a = off_cone(&self.query.a, witness_a, normal);
-        let off_b = off_cone(&self.query.b, witness_b, -normal);
+        let off_a = angle_from_normal_cone(&self.query.a, witness_a, normal);
+        let off_b = angle_from_normal_cone(&self.query.b, witness_b, -normal);
         assert!(
             off_a <= allowed && off_b <= allowed,
             "{off_a:e} {off_b:e} at {:e}: {separation:?}\n{:?}\n{:?}",
@@ -155,7 +155,7 @@ impl Touch {
 
 /// Returns the sine of the largest angle by which a direction leaves the normal cone of a surface at a point; at most 0
 /// within the cone.
-fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
+fn angle_from_normal_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;
     let pose = actor.motion.start();
     let placed = |p: DVec3| pose.transform_point(p);
@@ -183,11 +183,11 @@ fn off_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
     largest(&mut ends.collect::<Vec<_>>().into_iter())
 }
 
-/// A point of a shape that is extreme along a direction.
+/// A feature of a shape that is extreme along a direction, with a point on it.
 struct Support {
     normal: DVec3,
     point: DVec3,
-    /// A direction perpendicular to the normal, along an edge if there is one.
+    /// A direction perpendicular to the normal, along an edge of the feature if there is one.
     along: DVec3,
     size: usize,
 }
@@ -243,8 +243,8 @@ impl Support {
         }
     }
 
-    /// Returns the rotation of x and z to the edge and the normal.
-    fn basis(&self) -> DQuat {
+    /// Returns the rotation that takes x to the edge and z to the normal.
+    fn rotation_to_frame(&self) -> DQuat {
         let aside = self.normal.cross(self.along);
         DQuat::from_mat3(&ccd_core::glam::DMat3::from_cols(
             self.along,
@@ -254,7 +254,7 @@ impl Support {
     }
 }
 
-/// Returns a box, a cube, a skewed box, or a non-convex shape.
+/// Returns a random box, cube, skewed box, or non-convex shape.
 fn shape(rng: &mut Pcg64) -> Shape {
     let mut half = || rng.random_range(0.3..1.0);
     let half = DVec3::new(half(), half(), half());
@@ -275,7 +275,7 @@ fn shape(rng: &mut Pcg64) -> Shape {
     }
 }
 
-fn frame_of(frame: &Pose, turn: DQuat, place: DVec3) -> Pose {
+fn pose_in_frame(frame: &Pose, turn: DQuat, place: DVec3) -> Pose {
     let rotation = (frame.rotation() * turn).normalize();
     Pose::new(frame.transform_point(place), rotation).unwrap()
 }

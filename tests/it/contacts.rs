@@ -1,4 +1,4 @@
-//! All features in contact at the time of an answer.
+//! Tests the list of all features in contact at the time of an answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -6,7 +6,7 @@ use ccd_core::{Feature, FeaturePair, Outcome, Settings};
 use ccd_tests::analytic::scenes_named;
 use ccd_tests::backends::Backend;
 use ccd_tests::case::Case;
-use ccd_tests::checks::Law;
+use ccd_tests::checks::CheckResult;
 use ccd_tests::distances::distance_to_mesh_feature;
 use ccd_tests::models::Kind;
 use ccd_tests::query::{Actor, Bodies, Query};
@@ -14,8 +14,8 @@ use ccd_tests::strategies::{cases, check_cases, remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the time and distance of the contact, if any.
-fn touch(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
+/// Returns the time and the distance of the first contact, if there is one.
+fn first_contact(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
     match Backend::DEFAULT.solve(problem).outcome {
         Outcome::Contact { time, contact } => Some((time, contact.separation.upper)),
         Outcome::Touching { contact } => Some((0.0, contact.separation.upper)),
@@ -23,20 +23,20 @@ fn touch(problem: &ccd_core::Query<'_>) -> Option<(f64, f64)> {
     }
 }
 
-/// Returns the contacts of a scene, for every kind of pieces.
+/// Returns the contacts of a scene by name, for every kind of pieces.
 fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     let scenes = scenes_named(name);
     let query = &scenes[0].query;
     let bodies = query.all_bodies();
     let of_kind = |bodies: &Bodies| {
         let problem = query.problem(bodies, &Settings::DEFAULT);
-        let (time, _) = touch(&problem).expect("a hit");
+        let (time, _) = first_contact(&problem).expect("a hit");
         (bodies.kinds, problem.contacts_at(time).expect("contacts"))
     };
     bodies.iter().map(of_kind).collect()
 }
 
-/// Every upright edge of the peg, which passes through the plate, meets both rims of one wall of the hole.
+/// Tests a peg that passes through a plate: each of its upright edges meets both rims of one wall of the hole.
 #[test]
 fn t12_a_peg_touches_four_walls_at_once() {
     for (kinds, pairs) in contacts_of("T12 ") {
@@ -68,7 +68,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
     }
 }
 
-/// Four corners of every tooth of each comb meet the other comb's base.
+/// Tests two combs: four corners of every tooth of each comb meet the other comb's base.
 #[test]
 fn t19_all_tips_of_two_combs_touch() {
     for (kinds, pairs) in contacts_of("T19 combs of 4") {
@@ -95,7 +95,7 @@ fn t1_a_cube_rests_on_its_corners() {
     }
 }
 
-/// Two plates of 512 triangles cover each other, and their vertices coincide.
+/// Tests two plates of 512 triangles that cover each other and whose vertices coincide.
 #[test]
 fn plates_meet_vertex_by_vertex() {
     for (kinds, pairs) in contacts_of("plates") {
@@ -111,18 +111,19 @@ fn plates_meet_vertex_by_vertex() {
     }
 }
 
-/// The touching features are among the contacts for all kinds of pieces, and each contact is as described.
+/// Tests that the touching features are among the contacts for all kinds of pieces, and that each contact is as
+/// described.
 #[test]
 fn contacts_of_random_cases_hold() {
     let (reported, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
-    let law = |case: &Case| -> Law {
+    let law = |case: &Case| -> CheckResult {
         let query = case.query();
         let mut at = None;
         let mut exact: Option<BTreeSet<Names>> = None;
         for bodies in query.all_bodies() {
             let settings = case.config();
             let problem = query.problem(&bodies, &settings);
-            let Some((time, upper)) = at.map_or_else(|| touch(&problem), Some) else {
+            let Some((time, upper)) = at.map_or_else(|| first_contact(&problem), Some) else {
                 continue;
             };
             at.get_or_insert((time, upper));
@@ -141,7 +142,7 @@ fn contacts_of_random_cases_hold() {
             };
             let count = if *exact == names { &same } else { &coarser };
             count.set(count.get() + 1);
-            if !matches(&query, &names, exact) {
+            if !same_feature_names(&query, &names, exact) {
                 return Err(format!("{:?}: {exact:?}, {names:?}", bodies.kinds));
             }
         }
@@ -158,9 +159,9 @@ fn contacts_of_random_cases_hold() {
 
 type Names = [Feature; 2];
 
-/// Returns true if names are those of the mesh; a corner or an edge without a number in a patch may have the name of an
-/// adjacent face.
-fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
+/// Returns true if the names of the contacts are those of the mesh. A corner or an edge without a number in a patch
+/// may have the name of an adjacent face.
+fn same_feature_names(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {
         (0..2).all(|k| {
@@ -182,13 +183,13 @@ fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> b
             .all(|it| names.iter().any(|name| fits(name, it)))
 }
 
-/// Checks every pair against the mesh, and the nearest against the reported contact.
+/// Checks every listed pair against the mesh, and the nearest pair against the reported contact.
 fn check_pairs(
     query: &Query,
     pairs: &[FeaturePair],
     [time, upper, apart]: [f64; 3],
     kinds: [Kind; 2],
-) -> Law {
+) -> CheckResult {
     let rounding = query.rounding();
     let nearest = pairs
         .first()
@@ -217,7 +218,8 @@ fn check_pairs(
     Ok(())
 }
 
-/// Returns the distance of a point from a feature of the mesh at a time; infinity for none of the mesh.
+/// Returns the distance from a point to a feature of the mesh at a time; infinity if the mesh does not have the
+/// feature.
 fn distance_from_feature(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let to_world = |p| pose.transform_point(p);

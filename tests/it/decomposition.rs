@@ -1,4 +1,4 @@
-//! Convex patches are exactly within the solid and exactly on its surface, or there is a typed error.
+//! Tests that convex patches lie exactly within the solid and exactly on its surface, or that there is a typed error.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::{DecomposeError, Decomposition, Order, decompose};
@@ -14,11 +14,11 @@ use std::cell::Cell;
 
 const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
 
-fn decomposed(shape: &Shape, order: Order) -> Result<Decomposition, DecomposeError> {
+fn decompose_shape(shape: &Shape, order: Order) -> Result<Decomposition, DecomposeError> {
     decompose(&shape.mesh.for_decomposition(), order)
 }
 
-fn claims(decomposition: &Decomposition) -> Vec<Claim<'_>> {
+fn claimed_patches(decomposition: &Decomposition) -> Vec<Claim<'_>> {
     decomposition
         .patches
         .iter()
@@ -29,10 +29,10 @@ fn claims(decomposition: &Decomposition) -> Vec<Claim<'_>> {
         .collect()
 }
 
-/// Checks every law of a decomposition. Returns the number of points checked.
+/// Checks all properties of a decomposition. Returns the number of points checked.
 fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<usize, String> {
     let solid = Solid::new(mesh);
-    let claims = claims(decomposition);
+    let claims = claimed_patches(decomposition);
     check_cover(mesh, &claims)?;
     let mut points = 0;
     for (seed, claim) in (0..).zip(&claims) {
@@ -42,17 +42,18 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Checks a model without faults in every order: with the given effort in the default order, quickly in the others.
+/// Checks the decomposition of a model in every order: with the given effort in the default order, quickly in the
+/// others.
 fn check_model(model: &Model, effort: Effort) {
-    check_in(Order::Cresting, model, effort);
+    check_order(Order::Cresting, model, effort);
     for order in [Order::BreadthFirst, Order::DepthFirst] {
-        check_in(order, model, Effort::QUICK);
+        check_order(order, model, Effort::QUICK);
     }
 }
 
-fn check_in(order: Order, model: &Model, effort: Effort) {
+fn check_order(order: Order, model: &Model, effort: Effort) {
     let name = &model.name;
-    decomposed(&model.shape, order)
+    decompose_shape(&model.shape, order)
         .map_err(|error| error.to_string())
         .and_then(|decomposition| check(&model.shape.mesh, &decomposition, effort))
         .unwrap_or_else(|why| panic!("{name}, {order:?}: {why}"));
@@ -68,7 +69,7 @@ fn patches_of_solids() {
 #[test]
 fn patches_of_solids_in_general_position() {
     for model in solids() {
-        check_in(Order::Cresting, &model.turned(), Effort::THOROUGH);
+        check_order(Order::Cresting, &model.turned(), Effort::THOROUGH);
     }
 }
 
@@ -85,7 +86,7 @@ fn patches_of_thousands_of_faces() {
     }
 }
 
-/// Many features of solids on a coarse grid are coplanar, collinear, or folded over.
+/// Tests the patches of random solids on a coarse grid, where many features are coplanar, collinear, or folded over.
 #[test]
 fn patches_of_random_solids() {
     // Solids as they are; and some whose cavity may reach through their surface.
@@ -117,7 +118,7 @@ fn patches_of_random_solids() {
         }
         // Faces that rounding has reduced to a segment or a point are dropped.
         shape.mesh.faces = shape.mesh.for_decomposition().faces().to_vec();
-        match decomposed(&shape, order) {
+        match decompose_shape(&shape, order) {
             Ok(it) => {
                 whole.set(whole.get() + 1);
                 let law = check(&shape.mesh, &it, Effort::THOROUGH);
@@ -148,7 +149,9 @@ fn coplanar_triangles_go_together() {
             continue;
         }
         for order in ORDERS {
-            let patches = decomposed(&model.shape, order).expect(&model.name).patches;
+            let patches = decompose_shape(&model.shape, order)
+                .expect(&model.name)
+                .patches;
             let (name, count) = (&model.name, patches.len());
             assert!(4 * count < faces, "{name}, {order:?}: {count} of {faces}");
         }
@@ -160,7 +163,9 @@ fn a_convex_solid_is_one_patch() {
     for model in convex_solids() {
         check_model(&model, Effort::QUICK);
         for order in ORDERS {
-            let patches = decomposed(&model.shape, order).expect(&model.name).patches;
+            let patches = decompose_shape(&model.shape, order)
+                .expect(&model.name)
+                .patches;
             assert_eq!(patches.len(), 1, "{}", model.name);
         }
     }
@@ -170,11 +175,16 @@ fn a_convex_solid_is_one_patch() {
 fn the_same_mesh_gives_the_same_patches() {
     for model in solids() {
         for order in ORDERS {
-            let once = decomposed(&model.shape, order).expect(&model.name);
-            let again = decomposed(&model.shape, order).expect(&model.name);
-            assert_eq!(faces(&once), faces(&again), "{}", model.name);
+            let once = decompose_shape(&model.shape, order).expect(&model.name);
+            let again = decompose_shape(&model.shape, order).expect(&model.name);
+            assert_eq!(
+                faces_by_patch(&once),
+                faces_by_patch(&again),
+                "{}",
+                model.name
+            );
             let same = |(x, y): (&Claim<'_>, &Claim<'_>)| x.polytope == y.polytope;
-            let polytopes = (claims(&once), claims(&again));
+            let polytopes = (claimed_patches(&once), claimed_patches(&again));
             assert!(
                 polytopes.0.iter().zip(&polytopes.1).all(same),
                 "{}",
@@ -190,10 +200,15 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
         let flipped = Shape::closed(model.shape.mesh.clone().flipped());
         for order in ORDERS {
             let (here, there) = (
-                decomposed(&model.shape, order).expect(&model.name),
-                decomposed(&flipped, order).expect(&model.name),
+                decompose_shape(&model.shape, order).expect(&model.name),
+                decompose_shape(&flipped, order).expect(&model.name),
             );
-            assert_eq!(sorted(&here), sorted(&there), "{}, {order:?}", model.name);
+            assert_eq!(
+                sorted_faces(&here),
+                sorted_faces(&there),
+                "{}, {order:?}",
+                model.name
+            );
             if order != Order::Cresting {
                 continue;
             }
@@ -203,15 +218,18 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
     }
 }
 
-fn faces(decomposition: &Decomposition) -> Vec<&[u32]> {
-    claims(decomposition)
+fn faces_by_patch(decomposition: &Decomposition) -> Vec<&[u32]> {
+    claimed_patches(decomposition)
         .iter()
         .map(|claim| claim.faces)
         .collect()
 }
 
-fn sorted(decomposition: &Decomposition) -> Vec<Vec<u32>> {
-    let mut all: Vec<Vec<u32>> = faces(decomposition).iter().map(|f| f.to_vec()).collect();
+fn sorted_faces(decomposition: &Decomposition) -> Vec<Vec<u32>> {
+    let mut all: Vec<Vec<u32>> = faces_by_patch(decomposition)
+        .iter()
+        .map(|f| f.to_vec())
+        .collect();
     all.iter_mut().for_each(|faces| faces.sort_unstable());
     all.sort_unstable();
     all

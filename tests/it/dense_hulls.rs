@@ -1,4 +1,5 @@
-//! Convex solids with many corners: one piece, its triangles, and one piece against triangles give the same answer.
+//! Tests convex solids with many corners. One piece, its triangles, and one piece against triangles give the same
+//! answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
@@ -26,13 +27,13 @@ fn answer(a: &Body, b: &Body, velocity: DVec3, spin: DVec3) -> Answer {
             .first_contact(&problem, &mut Gjk)
             .unwrap(),
     ];
-    let [one, other] = [0, 1].map(|k| time(&answers[k]));
+    let [one, other] = [0, 1].map(|k| contact_time(&answers[k]));
     assert!((one - other).abs() <= 1e-3);
     let [answer, _] = answers;
     answer
 }
 
-fn time(answer: &Answer) -> f64 {
+fn contact_time(answer: &Answer) -> f64 {
     match answer.outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Free { .. } => 1.0,
@@ -63,7 +64,7 @@ fn a_dense_solid_answers_like_its_triangles() {
             let [found, twin] = [&one, &triangles].map(|a| answer(a, other, velocity, spin));
             // Both are early by less than the tolerance over the closing speed.
             assert!(
-                (time(&found) - time(&twin)).abs() <= 2e-3,
+                (contact_time(&found) - contact_time(&twin)).abs() <= 2e-3,
                 "{found:?} {twin:?}"
             );
             if let Outcome::Contact { contact, .. } = found.outcome {
@@ -77,7 +78,7 @@ fn a_dense_solid_answers_like_its_triangles() {
     assert!(contacts >= 9, "{contacts}");
 }
 
-/// A piece near a mesh is measured against few of the mesh's triangles.
+/// Tests that a convex piece near a mesh is measured against few of the mesh's triangles.
 #[test]
 fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;

@@ -1,4 +1,4 @@
-//! The same query gives the same bits with a fresh schedule and with a used one.
+//! Tests that the same query gives the same bits with a fresh schedule and with a used one.
 
 use ccd_core::schedule::{BestFirst, Naive};
 use ccd_core::{DistanceOracle, OrElse, Schedule};
@@ -30,12 +30,12 @@ fn every_setup_repeats_itself() {
     });
 }
 
-/// Compares every oracle, reused with its schedule from query to query, with fresh ones.
+/// Compares every oracle, reused with its schedule from query to query, with a fresh oracle and schedule.
 macro_rules! used_as_fresh {
     ($($test:ident: $schedule:ident, $oracle:ty;)*) => {$(
         #[test]
         fn $test() {
-            used_as_fresh::<$oracle, $schedule<$oracle>>();
+            check_reused_as_fresh::<$oracle, $schedule<$oracle>>();
         }
     )*};
 }
@@ -49,9 +49,9 @@ used_as_fresh! {
     used_naive_direct: Naive, Direct;
 }
 
-fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
+fn check_reused_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
     let (mut schedule, mut oracle) = (S::default(), O::default());
-    for case in sample(100) {
+    for case in sample_cases(100) {
         let query = case.query();
         // Patches have facets, over which marching keeps its position from call to call.
         let shapes = [&query.a.shape, &query.b.shape];
@@ -73,7 +73,7 @@ fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
     }
 }
 
-fn sample(count: u32) -> Vec<Case> {
+fn sample_cases(count: u32) -> Vec<Case> {
     let mut runner = runner(count);
     let strategy = cases();
     (0..count)

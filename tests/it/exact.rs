@@ -1,4 +1,4 @@
-//! Tests of the exact point-in-solid test, which is the reference for decompositions.
+//! Tests the exact point-in-solid test, which is the reference for decompositions.
 
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
@@ -11,11 +11,11 @@ use proptest::prelude::*;
 use std::cell::Cell;
 use std::cmp::Ordering;
 
-fn at(p: DVec3) -> Blend {
+fn exact_point(p: DVec3) -> Blend {
     Blend::mean([p])
 }
 
-/// Returns the mesh's vertices as one polytope, whose hull extends far beyond a non-convex mesh.
+/// Returns the mesh's vertices as one polytope. Its hull extends far beyond a non-convex mesh.
 fn hull(mesh: &Mesh) -> Polytope {
     Polytope {
         points: mesh.vertices.clone(),
@@ -31,7 +31,7 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
         for k in 0..mesh.faces.len() {
             let [a, b, c] = mesh.triangle(k);
             let some = [
-                at(a),
+                exact_point(a),
                 Blend::mean([a, b]),
                 Blend::mean([a, b, c]),
                 Blend::new([(1, a), (63, b)]),
@@ -44,7 +44,7 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
     }
 }
 
-/// A difference in the last bit separates inside from outside.
+/// Tests that points a last bit off the surface are located inside or outside.
 #[test]
 fn points_a_rounding_off_the_surface_are_not_on_it() {
     let mesh = cuboid(DVec3::ONE).mesh;
@@ -52,7 +52,7 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     for axis in DVec3::AXES {
         // In the middle of a face, on its diagonal, and off it.
         for offset in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
-            let p = |x: f64| at(offset - axis * offset.dot(axis) + x * axis);
+            let p = |x: f64| exact_point(offset - axis * offset.dot(axis) + x * axis);
             assert_eq!(solid.locate(&p(1.0)), Location::Surface);
             assert_eq!(solid.locate(&p(1.0_f64.next_down())), Location::Inside(1));
             assert_eq!(solid.locate(&p(1.0_f64.next_up())), Location::Outside);
@@ -60,7 +60,7 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     }
 }
 
-/// The mean of three numbers is not exact in binary.
+/// Tests that the mean of three points, which is not exact in binary, is located exactly.
 #[test]
 fn thirds_are_exact() {
     let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
@@ -77,14 +77,14 @@ fn triangles_without_an_area_hold_their_segment() {
     let [a, b] = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)];
     let flat = [a, b, 0.5 * b];
     assert!(triangle_holds(flat, &Blend::new([(1, a), (2, b)])));
-    assert!(!triangle_holds(flat, &at(1.25 * b)));
+    assert!(!triangle_holds(flat, &exact_point(1.25 * b)));
     assert!(!triangle_holds(
         flat,
-        &at((0.25 * b).with_x(0.25_f64.next_up()))
+        &exact_point((0.25 * b).with_x(0.25_f64.next_up()))
     ));
 }
 
-/// The points are on the same grid as the mesh, so that vertical rays pass through edges and vertices.
+/// Tests points on the same grid as the mesh, whose vertical rays pass through edges and vertices.
 #[test]
 fn rays_through_edges_and_vertices_count_once() {
     let mesh = l_prism().mesh;
@@ -106,7 +106,7 @@ fn rays_through_edges_and_vertices_count_once() {
                 // Where the bars meet, one bar's side is in the other.
                 let flat = lesser(greater(bars[0], bars[1]), within(-0.5, z, 0.5));
                 let expected = [Location::Outside, Location::Surface, Location::Inside(1)][flat];
-                let p = at(DVec3::new(x, y, z));
+                let p = exact_point(DVec3::new(x, y, z));
                 assert_eq!(solid.locate(&p), expected, "{p:?}");
             }
         }
@@ -129,14 +129,15 @@ fn cavities_are_outside_and_windings_add_up() {
         (&flipped, 0.7, Location::Inside(-1)),
     ] {
         assert_eq!(
-            Solid::new(mesh).locate(&at(DVec3::splat(p))),
+            Solid::new(mesh).locate(&exact_point(DVec3::splat(p))),
             location,
             "{p}"
         );
     }
 }
 
-/// Winding numbers from solid angles in floating point differ only next to the surface.
+/// Compares locations with winding numbers from solid angles in floating point, which differ only next to the
+/// surface.
 #[test]
 fn solid_angles_give_the_same_locations() {
     let mut all_outside = 0;
@@ -151,7 +152,7 @@ fn solid_angles_give_the_same_locations() {
         };
         for p in samples(&hull(mesh), effort, 1) {
             let near = p.rounded();
-            if (0..mesh.faces.len()).any(|k| nearby(near, mesh.triangle(k))) {
+            if (0..mesh.faces.len()).any(|k| is_within_rounding(near, mesh.triangle(k))) {
                 continue;
             }
             let by_angle = contains(mesh, &mesh.vertices, near);
@@ -176,11 +177,11 @@ fn solid_angles_give_the_same_locations() {
 }
 
 /// Returns true if a point is so near to a triangle that rounding might move it to the other side.
-fn nearby(p: DVec3, triangle: [DVec3; 3]) -> bool {
+fn is_within_rounding(p: DVec3, triangle: [DVec3; 3]) -> bool {
     point_triangle(p, triangle).distance(p) <= 1e-9
 }
 
-/// Rounded points of a slanted face are off the face: some inside, some outside.
+/// Tests that rounded points of a slanted face are off the face, some inside and some outside.
 #[test]
 fn rounded_points_of_a_face_are_located_by_its_plane() {
     let inputs = (direction(), 1..64u32, 1..64u32);
@@ -196,7 +197,7 @@ fn rounded_points_of_a_face_are_located_by_its_plane() {
                 faces: vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]],
             };
             let on = Blend::new([(u, a), (v, b), (32, c)]);
-            let rounded = at(on.rounded());
+            let rounded = exact_point(on.rounded());
             let (expected, count) = match side_of([a, b, c], &rounded) {
                 Ordering::Greater => (Location::Outside, &outside),
                 Ordering::Equal => return Ok(()),

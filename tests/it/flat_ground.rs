@@ -1,5 +1,5 @@
-//! Bodies that slide on triangulated flat ground have no contacts with its inner edges, only with bodies that stand on
-//! it.
+//! Tests that bodies that slide on triangulated flat ground have no contacts with its inner edges, only with bodies
+//! on it.
 
 use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -13,13 +13,13 @@ use rand_pcg::Pcg64;
 use rigid_ccd::Solver;
 use std::f64::consts::PI;
 
-/// Half of the ground's length and width.
+/// Half of the ground's length and width, in units of length.
 const HALF: f64 = 8.0;
 
-/// The allowed earliness of a contact: the search ignores contacts up to the least tolerance.
-const EARLY: f64 = 1e-9;
+/// The time by which a contact may be early, because the search ignores contacts up to the least tolerance.
+const ALLOWED_EARLINESS: f64 = 1e-9;
 
-fn leave() -> Settings {
+fn leave_settings() -> Settings {
     Settings {
         start: StartPolicy::Leave,
         ..Settings::DEFAULT
@@ -59,7 +59,7 @@ fn cut_sheet(rng: &mut Pcg64, cuts: usize) -> Mesh {
     Mesh { vertices, faces }
 }
 
-/// Closes a sheet with walls, and a bottom one unit below.
+/// Returns the closed solid of a sheet with walls, and a bottom one unit below.
 fn slab(top: Mesh) -> Mesh {
     let count = top.vertices.len() as u32;
     let Mesh {
@@ -81,7 +81,7 @@ fn slab(top: Mesh) -> Mesh {
     Mesh { vertices, faces }
 }
 
-fn ground(rng: &mut Pcg64) -> Shape {
+fn random_ground(rng: &mut Pcg64) -> Shape {
     let cuts = rng.random_range(0..4);
     let sheet = cut_sheet(rng, cuts);
     if rng.random() {
@@ -92,7 +92,7 @@ fn ground(rng: &mut Pcg64) -> Shape {
 }
 
 /// Returns a random solid around the origin whose lowest point is at height 0.
-fn solid(rng: &mut Pcg64) -> Shape {
+fn random_solid(rng: &mut Pcg64) -> Shape {
     let half = || dvec3(0.3, 0.4, 0.5);
     let shape = match rng.random_range(0..5) {
         0 => cuboid(half()),
@@ -112,7 +112,7 @@ fn solid(rng: &mut Pcg64) -> Shape {
 }
 
 /// Returns a pose for the whole scene: the identity, or a random one.
-fn frame(rng: &mut Pcg64) -> Pose {
+fn random_frame(rng: &mut Pcg64) -> Pose {
     let mut unit = || rng.random_range(-1.0..1.0);
     let any = DQuat::from_xyzw(unit(), unit(), unit(), unit()).normalize();
     let at = 3.0 * dvec3(unit(), unit(), unit());
@@ -123,17 +123,17 @@ fn frame(rng: &mut Pcg64) -> Pose {
     }
 }
 
-fn drawn(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
+fn for_random_cases(cases: u32, law: impl Fn(&mut Pcg64, u64)) {
     for seed in seeds(cases) {
         law(&mut Pcg64::seed_from_u64(seed), seed);
     }
 }
 
-/// A body that slides and rotates on cut ground is as free as on a single face.
+/// Tests that a body that slides and rotates on cut ground is as free as on a single face.
 #[test]
 fn bodies_that_slide_on_cut_ground_are_free() {
-    drawn(24, |rng, seed| {
-        let ground = ground(rng);
+    for_random_cases(24, |rng, seed| {
+        let ground = random_ground(rng);
         let angle = rng.random_range(-PI..PI);
         let velocity = rng.random_range(0.5..5.0) * DVec3::new(angle.cos(), angle.sin(), 0.0);
         let turning = if rng.random() {
@@ -147,12 +147,12 @@ fn bodies_that_slide_on_cut_ground_are_free() {
             0.0,
         );
         let query = Query::new(
-            Actor::moving(solid(rng), at, velocity, turning),
+            Actor::moving(random_solid(rng), at, velocity, turning),
             Actor::still(ground, DVec3::ZERO),
         );
-        let query = query.seen_from(&frame(rng));
+        let query = query.seen_from(&random_frame(rng));
         for query in [query.swapped(), query] {
-            for_each_setup(&query, &leave(), |_, setup, answer| {
+            for_each_setup(&query, &leave_settings(), |_, setup, answer| {
                 let free = matches!(answer.outcome, Outcome::Free { .. });
                 assert!(free, "seed {seed}\n{setup:?}\n{answer:?}\n{query:?}");
             });
@@ -160,10 +160,10 @@ fn bodies_that_slide_on_cut_ground_are_free() {
     });
 }
 
-/// A body hits a block on the ground, however low, at the right time.
+/// Tests that a body hits a block on the ground, however low, at the right time.
 #[test]
 fn a_block_on_cut_ground_is_hit_at_the_right_time() {
-    drawn(16, |rng, seed| {
+    for_random_cases(16, |rng, seed| {
         let height = [1.0, 1e-3, 1e-6][rng.random_range(0..3)];
         let at = dvec3(rng.random_range(-6.0..-4.0), 0.0, 0.0);
         let block = cuboid(dvec3(0.5, 7.0, 0.5 * height));
@@ -183,9 +183,9 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
             duration: 2.0,
         };
         let truth = (2.5 - 0.3 - at.x) / speed;
-        let query = query.seen_from(&frame(rng));
+        let query = query.seen_from(&random_frame(rng));
         for query in [query.swapped(), query] {
-            for_each_setup(&query, &leave(), |_, setup, answer| {
+            for_each_setup(&query, &leave_settings(), |_, setup, answer| {
                 let time = match answer.outcome {
                     Outcome::Contact { time, .. } => time,
                     // Pieces so near to each other that an oracle's axis does not separate them.
@@ -196,19 +196,19 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
                     }) => safe_until,
                     other => panic!("seed {seed}\n{setup:?}\n{other:?}"),
                 };
-                let on_time = truth - EARLY <= time && time <= truth + 1e-14;
+                let on_time = truth - ALLOWED_EARLINESS <= time && time <= truth + 1e-14;
                 assert!(on_time, "seed {seed}\n{setup:?}\n{answer:?}\nnot {truth}");
             });
         }
     });
 }
 
-/// The ground has a thousand triangles, of which few are visited.
+/// Tests ground of a thousand triangles, of which few are visited.
 #[test]
 fn ground_of_a_thousand_triangles_is_as_one() {
-    drawn(4, |rng, seed| {
+    for_random_cases(4, |rng, seed| {
         let ground = Shape::open(cut_sheet(rng, 22)).body(Kind::Triangles);
-        for mover in [solid(rng), solid(rng), solid(rng)] {
+        for mover in [random_solid(rng), random_solid(rng), random_solid(rng)] {
             let mover = mover.body(Kind::Triangles);
             let velocity = dvec3(
                 rng.random_range(-6.0..6.0),
@@ -221,7 +221,7 @@ fn ground_of_a_thousand_triangles_is_as_one() {
                 rng.random_range(-1.0..1.0) * DVec3::Z,
             );
             let motion = motion.expect("a motion");
-            let mut solver = Solver::new().with_settings(leave());
+            let mut solver = Solver::new().with_settings(leave_settings());
             let answer = solver
                 .first_contact((&mover, motion), (&ground, Motion::STILL), 1.0)
                 .expect("a query");
@@ -231,10 +231,10 @@ fn ground_of_a_thousand_triangles_is_as_one() {
     });
 }
 
-/// A ball rolls over the cuts, up to the wall.
+/// Tests a ball that rolls over the cuts, up to the wall.
 #[test]
 fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
-    drawn(16, |rng, seed| {
+    for_random_cases(16, |rng, seed| {
         let wall = cuboid(dvec3(0.5, 7.0, 1.0)).placed(DQuat::IDENTITY, dvec3(3.0, 0.0, 1.0));
         let sheet = Shape::open(cut_sheet(rng, 6));
         let [open, walled] =
@@ -252,7 +252,7 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
             2.0 * speed * DVec3::Y,
         );
         let rolling = rolling.expect("a motion");
-        let mut solver = Solver::new().with_settings(leave());
+        let mut solver = Solver::new().with_settings(leave_settings());
         let mut outcome = |ground, duration| {
             let answer = solver.first_contact((&ball, rolling), (ground, Motion::STILL), duration);
             answer.expect("a query").outcome
@@ -264,14 +264,15 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
         );
         let truth = (2.0 - at.x) / speed;
         match outcome(&walled, 2.0) {
-            Outcome::Contact { time, .. } if (truth - EARLY..=truth + 1e-14).contains(&time) => {}
+            Outcome::Contact { time, .. }
+                if (truth - ALLOWED_EARLINESS..=truth + 1e-14).contains(&time) => {}
             other => panic!("seed {seed}\n{other:?}\nnot {truth}"),
         }
     });
 }
 
-/// Open surfaces have no inner side: two that meet edge to edge, or in the same plane, are in contact at the right
-/// time.
+/// Tests open surfaces, which have no inner side: two that meet edge to edge, or in the same plane, are in contact at
+/// the right time.
 #[test]
 fn sheets_within_one_plane_meet() {
     let sheet = |from: f64, to: f64| {
@@ -295,9 +296,11 @@ fn sheets_within_one_plane_meet() {
         duration: 3.0,
     };
     for query in [query.swapped(), query] {
-        for_each_setup(&query, &leave(), |_, setup, answer| match answer.outcome {
-            Outcome::Contact { time, .. } if time <= 2.0 => {}
-            other => panic!("{setup:?}\n{other:?}"),
+        for_each_setup(&query, &leave_settings(), |_, setup, answer| {
+            match answer.outcome {
+                Outcome::Contact { time, .. } if time <= 2.0 => {}
+                other => panic!("{setup:?}\n{other:?}"),
+            }
         });
     }
 }

@@ -1,4 +1,5 @@
-//! A fold with the least or the greatest of two numbers loses none, whatever the compiler does with it.
+//! Tests that a fold with the least or the greatest of two numbers loses no element, whatever the compiler does with
+//! it.
 //!
 //! Some compilers lose the last elements of a fold with `f64::min`: those that are left over when the
 //! loop is cut into vectors and its length is known and small. These are two affected loops: one over
@@ -8,29 +9,29 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::hint::black_box;
 
-/// Each element of arrays of up to 16 elements is once the one to find.
+/// Tests arrays of up to 16 elements, in which each element is once the least or the greatest.
 #[test]
 fn no_element_is_lost() {
     macro_rules! at_lengths {
         ($($n:literal)*) => {
-            [$(lost_of::<$n>(lost_in_a_row::<$n>), lost_of::<$n>(lost_among_edges::<$n>)),*].concat()
+            [$(lost_positions::<$n>(lost_in_a_row::<$n>), lost_positions::<$n>(lost_among_edges::<$n>)),*].concat()
         };
     }
     let lost = at_lengths![1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16];
     assert!(lost.is_empty(), "lost, as (length, position): {lost:?}");
 }
 
-/// Returns the lengths and positions of elements that were not found.
-fn lost_of<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
+/// Returns the array lengths and positions for which the fold lost the element.
+fn lost_positions<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
     (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
 }
 
 fn lost_in_a_row<const N: usize>(at: usize) -> bool {
     let (mut low, mut high) = ([2.0; N], [1.0; N]);
     (low[at], high[at]) = (1.0, 2.0);
-    let least = in_a_row(&black_box(low), f64::INFINITY, lesser);
-    let most = in_a_row(&black_box(high), f64::NEG_INFINITY, greater);
-    least != roots(1.0) || most != roots(2.0)
+    let least = fold_in_a_row(&black_box(low), f64::INFINITY, lesser);
+    let most = fold_in_a_row(&black_box(high), f64::NEG_INFINITY, greater);
+    least != long_computation(1.0) || most != long_computation(2.0)
 }
 
 fn lost_among_edges<const N: usize>(at: usize) -> bool {
@@ -38,8 +39,8 @@ fn lost_among_edges<const N: usize>(at: usize) -> bool {
     let (mut low, mut high) = ([edge(2.0); N], [edge(1.0); N]);
     (low[at], high[at]) = (edge(1.0), edge(2.0));
     let points = [DVec3::ZERO; 2];
-    let least = among_edges(black_box(points), &black_box(low), f64::INFINITY, lesser);
-    let most = among_edges(
+    let least = fold_among_edges(black_box(points), &black_box(low), f64::INFINITY, lesser);
+    let most = fold_among_edges(
         black_box(points),
         &black_box(high),
         f64::NEG_INFINITY,
@@ -49,25 +50,25 @@ fn lost_among_edges<const N: usize>(at: usize) -> bool {
 }
 
 #[inline(never)]
-fn in_a_row<const N: usize>(
+fn fold_in_a_row<const N: usize>(
     numbers: &[f64; N],
     start: f64,
     better: impl Fn(f64, f64) -> f64,
 ) -> f64 {
     numbers
         .iter()
-        .fold(start, |best, &x| better(best, roots(x)))
+        .fold(start, |best, &x| better(best, long_computation(x)))
 }
 
-/// Computes a value with code too long for the loop around it to be unrolled.
+/// Computes a value with so much code that the compiler does not unroll the loop around it.
 #[inline(always)]
-fn roots(x: f64) -> f64 {
+fn long_computation(x: f64) -> f64 {
     let root = |x: f64| x.sqrt().sqrt().sqrt().sqrt();
     root(root(root(root(x))))
 }
 
 #[inline(never)]
-fn among_edges<const N: usize>(
+fn fold_among_edges<const N: usize>(
     points: [DVec3; 2],
     edges: &[[DVec3; 2]; N],
     start: f64,

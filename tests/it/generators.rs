@@ -1,4 +1,4 @@
-//! Random cases cover every kind of outcome.
+//! Tests that random cases cover every kind of outcome.
 
 use ccd_tests::case::Case;
 use ccd_tests::checks::Judge;
@@ -8,20 +8,20 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn cases_hit_and_miss() {
-    let shares = Shares::count(&cases());
+    let shares = OutcomeCounts::count(&cases());
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
     assert!(shares.undecided <= 2, "{shares:?}");
 }
 
 #[test]
 fn convex_cases_hit_and_miss() {
-    let shares = Shares::count(&convex_cases());
+    let shares = OutcomeCounts::count(&convex_cases());
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
 #[test]
 fn crowded_cases_overlap() {
-    let shares = Shares::count(&crowded_cases());
+    let shares = OutcomeCounts::count(&crowded_cases());
     assert!(
         shares.starts >= 50 && shares.nested >= 2 && shares.hits >= 20,
         "{shares:?}"
@@ -30,13 +30,13 @@ fn crowded_cases_overlap() {
 
 #[test]
 fn remote_cases_hit_and_miss() {
-    let shares = Shares::count(&remote_cases());
+    let shares = OutcomeCounts::count(&remote_cases());
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
-/// The numbers of outcomes in 200 cases.
+/// The numbers of outcomes of each kind in 200 cases.
 #[derive(Debug, Default)]
-struct Shares {
+struct OutcomeCounts {
     hits: u32,
     misses: u32,
     starts: u32,
@@ -45,9 +45,9 @@ struct Shares {
     undecided: u32,
 }
 
-impl Shares {
-    fn count(strategy: &impl Strategy<Value = Case>) -> Shares {
-        let mut shares = Shares::default();
+impl OutcomeCounts {
+    fn count(strategy: &impl Strategy<Value = Case>) -> OutcomeCounts {
+        let mut shares = OutcomeCounts::default();
         let mut runner = runner(1);
         for _ in 0..200 {
             let case = strategy.new_tree(&mut runner).expect("a case").current();

@@ -1,11 +1,11 @@
-//! An oracle that breaks its contract makes the engine slow or unresolved, but never late or wrong.
+//! Tests that an oracle that breaks its contract makes the engine slow or unresolved, but never late or wrong.
 
 use ccd_core::Unresolved;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Limit, Outcome, Settings};
 use ccd_tests::backends::{Backend, Oracle, Order};
 use ccd_tests::case::Case;
-use ccd_tests::checks::{Judge, Law};
+use ccd_tests::checks::{CheckResult, Judge};
 use ccd_tests::liars::{Liar, Lie};
 use ccd_tests::models::cuboid;
 use ccd_tests::query::{Actor, Query};
@@ -13,24 +13,24 @@ use ccd_tests::strategies::{cases, check_cases, crowded_cases};
 use proptest::strategy::Strategy;
 use std::cell::Cell;
 
-/// A budget that is enough for an honest oracle; a liar may exhaust it.
+/// A work budget that is enough for an honest oracle. An oracle that lies may exhaust it.
 const BUDGET: u64 = 20_000;
 
 #[test]
 fn lies_about_moving_bodies_never_make_an_answer_late() {
-    every_lie_keeps_the_law(cases());
+    check_cases_with_every_lie(cases());
 }
 
 #[test]
 fn lies_about_overlapping_bodies_never_set_them_free() {
-    every_lie_keeps_the_law(crowded_cases());
+    check_cases_with_every_lie(crowded_cases());
 }
 
-/// Checks that some queries are answered in spite of the liar, and others are not.
-fn every_lie_keeps_the_law(cases: impl Strategy<Value = Case>) {
+/// Tests cases with every kind of lie: some queries are answered in spite of it, and others are not.
+fn check_cases_with_every_lie(cases: impl Strategy<Value = Case>) {
     let (answered, unresolved) = (Cell::new(0), Cell::new(0));
     check_cases(100, cases, |case| {
-        every_lie(case, |answer| {
+        check_every_lie(case, |answer| {
             let count = match answer.outcome {
                 Outcome::Unresolved(_) => &unresolved,
                 _ => &answered,
@@ -44,7 +44,7 @@ fn every_lie_keeps_the_law(cases: impl Strategy<Value = Case>) {
     );
 }
 
-fn every_lie(case: &Case, count: impl Fn(&Answer)) -> Law {
+fn check_every_lie(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
     let query = case.query();
     let config = Settings {
         budget: BUDGET,

@@ -1,4 +1,4 @@
-//! Every query ends: an exhausted budget leaves it unresolved, up to a certified time.
+//! Tests that every query ends: an exhausted budget leaves it unresolved, up to a certified time.
 
 use ccd_core::Unresolved;
 use ccd_core::schedule::BestFirst;
@@ -76,7 +76,7 @@ fn the_certified_time_grows_with_the_budget() {
     assert!(grown.get() > 40, "grew {} times", grown.get());
 }
 
-/// An oracle that answers some calls, then stops the query, and still answers.
+/// An oracle that answers some calls, then stops the query, and answers further calls.
 struct Stopping {
     calls: u32,
     stop: Arc<AtomicBool>,

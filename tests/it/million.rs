@@ -1,4 +1,4 @@
-//! More than a million pairs of pieces at once, and tens of millions of which few may be visited.
+//! Tests more than a million pairs of pieces at once, and tens of millions of pairs of which few may be visited.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Outcome, Settings};
@@ -7,7 +7,8 @@ use ccd_tests::backends::{Backend, Oracle, Order};
 use ccd_tests::models::{PITCH, parallel_plate};
 use ccd_tests::query::{Actor, Query};
 
-/// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another; they touch at half time.
+/// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another plate. They touch at half of
+/// the duration.
 fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
     let query = Query::new(
@@ -49,10 +50,10 @@ fn sixty_million_pairs_touching_at_once() {
     }
 }
 
-/// T19: the queue holds thousands of pairs of teeth.
+/// Tests T19, two combs: the queue holds thousands of pairs of teeth.
 #[test]
 fn combs_of_many_teeth() {
-    let teeth = if slow() { 512 } else { 96 };
+    let teeth = if is_slow_run() { 512 } else { 96 };
     let scene = combs(teeth);
     let Expect::Hit { earliest, latest } = &scene.expect else {
         panic!("combs meet");
@@ -68,10 +69,11 @@ fn combs_of_many_teeth() {
     );
 }
 
-/// T18: a fine thread stays near its nut everywhere and at all times: a million pairs are in the queue at once.
+/// Tests T18, a fine thread that stays near its nut everywhere and at all times. A million pairs are in the queue at
+/// once.
 #[test]
 fn a_fine_screw() {
-    let scene = screw_in_nut("T18 fine screw", PITCH, if slow() { 4 } else { 2 });
+    let scene = screw_in_nut("T18 fine screw", PITCH, if is_slow_run() { 4 } else { 2 });
     let bodies = scene.query.triangles();
     let config = Settings {
         budget: u64::MAX,
@@ -79,9 +81,12 @@ fn a_fine_screw() {
     };
     let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &config));
     assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
-    assert!(!slow() || answer.stats.peak_front > 1_000_000, "{answer:?}");
+    assert!(
+        !is_slow_run() || answer.stats.peak_front > 1_000_000,
+        "{answer:?}"
+    );
 }
 
-fn slow() -> bool {
+fn is_slow_run() -> bool {
     std::env::var_os("CCD_TEST_SLOW").is_some()
 }

@@ -1,4 +1,4 @@
-//! The models have the properties that tests rely on, such as closed surfaces and convex parts.
+//! Tests that the models have the properties that other tests rely on, such as closed surfaces and convex parts.
 
 use ccd_core::glam::DVec3;
 use ccd_tests::models::{Shape, convex_solids, gear, l_block, l_prism, solids};
@@ -53,7 +53,7 @@ fn parts_have_their_points_below_their_facets() {
     }
 }
 
-/// The Euler characteristic of a solid with one shell is 2 minus two for each hole.
+/// Tests the Euler characteristic of gears: for a solid with one shell, it is 2 minus two for each hole.
 #[test]
 fn gears_have_a_bore_and_holes() {
     let mesh = gear(5).mesh;

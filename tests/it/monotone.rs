@@ -1,4 +1,4 @@
-//! A smaller tolerance gives a later contact, or none.
+//! Tests that a smaller tolerance gives a later contact, or none.
 
 use ccd_core::{Answer, Outcome, Settings};
 use ccd_tests::backends::default_answer;
@@ -30,7 +30,7 @@ fn a_smaller_tolerance_is_never_earlier() {
     assert!(later.get() > 400, "{later:?}");
 }
 
-/// Returns the time of a reported contact, or infinity for a free answer.
+/// Returns the time of the reported contact, or infinity for bodies that stay free.
 fn contact_time(answer: &Answer) -> Result<f64, String> {
     match answer.outcome {
         Outcome::Contact { time, .. } => Ok(time),

@@ -1,4 +1,4 @@
-//! Motions are as specified, about any centre, and the referee has the same ones.
+//! Tests that the engine and the referee move bodies as specified, about any centre.
 //!
 //! The tests of `ccd-core` have motions through two poses, and of several turns.
 

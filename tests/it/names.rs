@@ -1,4 +1,4 @@
-//! Contacts of patches have the feature numbers of the mesh.
+//! Tests that contacts of patches have the feature numbers of the mesh.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Outcome, Settings};
@@ -10,9 +10,9 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-/// A witness lies on the named feature, which is the least feature of the mesh that contains it: a vertex rather than
-/// an edge, an edge rather than a face. For an edge between facets of several faces, a patch names a face with it. On a
-/// virtual facet, inside the surface, no feature of the mesh is named.
+/// Tests that a witness lies on the named feature, the least feature of the mesh that contains it: a vertex rather
+/// than an edge, an edge rather than a face. For an edge between facets of several faces, a patch names a face with
+/// it. On a virtual facet, inside the surface, no feature of the mesh is named.
 #[test]
 fn contacts_of_patches_name_the_mesh() {
     let counts: [Cell<u32>; 3] = Default::default();
@@ -34,8 +34,8 @@ fn contacts_of_patches_name_the_mesh() {
                 (&query.a, it.witness_a, contact.feature_a),
                 (&query.b, it.witness_b, contact.feature_b),
             ] {
-                let holding = holding(actor, time, witness, query.rounding());
-                let name = name(feature, &holding).ok_or_else(|| {
+                let holding = features_at(actor, time, witness, query.rounding());
+                let name = classify_name(feature, &holding).ok_or_else(|| {
                     format!("{feature} at {witness} at {time}, where there are {holding:?}")
                 })?;
                 let count = &counts[name as usize];
@@ -51,31 +51,31 @@ fn contacts_of_patches_name_the_mesh() {
     );
 }
 
-/// The relation of a name to the features that contain a witness.
+/// The relation of a feature name to the mesh features that contain a witness.
 #[derive(Clone, Copy)]
-enum Name {
-    /// The name is that of the least feature.
+enum NameKind {
+    /// The name is that of the least feature: a vertex rather than an edge, an edge rather than a face.
     Least,
     /// The name is that of a face adjacent to the least feature, an edge.
     Larger,
-    /// The name is not one of the mesh, because no feature of the mesh is there.
+    /// The name is none of the mesh, because no feature of the mesh contains the witness.
     None,
 }
 
-/// Returns `None` for a wrong name.
-fn name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<Name> {
+/// Returns how a feature relates to the features that contain the witness; `None` for a wrong name.
+fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NameKind> {
     match (feature, holding.first()) {
-        (Feature::Piece(_), None) => Some(Name::None),
-        (named, Some(&least)) if named == least => Some(Name::Least),
+        (Feature::Piece(_), None) => Some(NameKind::None),
+        (named, Some(&least)) if named == least => Some(NameKind::Least),
         (Feature::Face(_), Some(Feature::Edge(..))) => {
-            holding.contains(&feature).then_some(Name::Larger)
+            holding.contains(&feature).then_some(NameKind::Larger)
         }
         _ => None,
     }
 }
 
 /// Returns all features of the mesh that contain a point at a time; vertices come first, then edges.
-fn holding(actor: &Actor, time: f64, point: DVec3, rounding: f64) -> BTreeSet<Feature> {
+fn features_at(actor: &Actor, time: f64, point: DVec3, rounding: f64) -> BTreeSet<Feature> {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);
     let is_on = |nearest: DVec3| nearest.distance(point) <= rounding;

@@ -1,4 +1,4 @@
-//! Near misses cost little more than wide ones.
+//! Tests that near misses cost little more than wide misses.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -9,8 +9,8 @@ use rigid_ccd::Solver;
 use rigid_ccd::trajectory::{Chain, Curve, Joint, Spline, Steady, Trajectory, Turns};
 use std::f64::consts::PI;
 
-/// T6: a rod rotates past a wall that its corners just do not reach. All of a gap is left to advance by when a corner
-/// is nearest; what the other corners do then must not matter.
+/// Tests T6, a rod that rotates past a wall that its corners just do not reach. When a corner is nearest, the whole
+/// gap is left to advance by; what the other corners do then must not matter.
 #[test]
 fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     let (thin, long) = (0.05, 2.0f64);
@@ -34,9 +34,9 @@ fn a_rod_that_turns_past_a_wall_takes_few_steps() {
     }
 }
 
-/// A ball passes a box: straight along a face, on curves that come down to it, and as the hand of an arm. A straight
-/// way and a parabola take as many steps at any gap. Other curves are cut into stretches that strays fit into: near the
-/// face these are short, and each is a multiple of the one before.
+/// Tests a ball that passes a box: straight along a face, on curves that come down to it, and as the hand of an arm.
+/// A straight path and a parabola take as many steps at any gap. Other curves are cut into segments with an allowed
+/// deviation. Near the face these are short, and each is a multiple of the one before.
 #[test]
 fn a_ball_past_a_box_takes_few_steps() {
     let at = |z: f64| Pose::at([0.0, 0.0, z]).unwrap();
@@ -65,7 +65,8 @@ fn a_ball_past_a_box_takes_few_steps() {
     }
 }
 
-/// Answers all questions about a ball that passes a box at a gap, or touches it; returns the largest number of visits.
+/// Answers all questions about a ball that passes a box at a gap, or touches it. Returns the largest number of
+/// visited pairs.
 fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     let radius = 0.25;
     let (ball, cube) = (
@@ -74,7 +75,7 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     );
     let a = (&ball, trajectory);
     let below =
-        Motion::still(Pose::at([0.0, 0.0, lowest(trajectory) - radius - gap - 1.0]).unwrap());
+        Motion::still(Pose::at([0.0, 0.0, least_height(trajectory) - radius - gap - 1.0]).unwrap());
     let b = (&cube, &below);
     let tolerance = if gap > 0.0 { 0.25 * gap } else { 1e-9 };
     let config = Settings {
@@ -108,8 +109,8 @@ fn most_visits(trajectory: &dyn Trajectory, gap: f64) -> u64 {
     visits.into_iter().max().unwrap()
 }
 
-/// Returns the least height of a trajectory that comes down once.
-fn lowest(trajectory: &dyn Trajectory) -> f64 {
+/// Returns the least height of a trajectory that has a single low point.
+fn least_height(trajectory: &dyn Trajectory) -> f64 {
     let height = |time: f64| trajectory.pose(time).unwrap().translation().z;
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..100 {

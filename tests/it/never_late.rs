@@ -1,8 +1,8 @@
-//! Random cases against the independent referee: never late, never false, tight.
+//! Compares answers to random cases with the independent referee: they are never late, never false, and tight.
 
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::case::Case;
-use ccd_tests::checks::{Judge, Law};
+use ccd_tests::checks::{CheckResult, Judge};
 use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, remote_cases};
 
 #[test]
@@ -18,25 +18,25 @@ fn triangles_of_any_shape() {
 
 #[test]
 fn every_setup_of_any_shape() {
-    check_cases(200, cases(), every_setup);
+    check_cases(200, cases(), check_every_setup);
 }
 
 #[test]
 fn every_setup_of_convex_shapes() {
-    check_cases(150, convex_cases(), every_setup);
+    check_cases(150, convex_cases(), check_every_setup);
 }
 
 #[test]
 fn every_setup_near_and_overlapping() {
-    check_cases(150, crowded_cases(), every_setup);
+    check_cases(150, crowded_cases(), check_every_setup);
 }
 
 #[test]
 fn every_setup_far_away_tiny_and_huge() {
-    check_cases(150, remote_cases(), every_setup);
+    check_cases(150, remote_cases(), check_every_setup);
 }
 
-fn every_setup(case: &Case) -> Law {
+fn check_every_setup(case: &Case) -> CheckResult {
     let query = case.query();
     let judge = Judge::new(&query, &case.config());
     let mut law = Ok(());

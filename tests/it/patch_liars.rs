@@ -1,4 +1,4 @@
-//! The laws of patches detect wrong patches: each kind of fault is found by the law that it breaks.
+//! Tests that the checks of patches detect wrong patches: each kind of fault is found by the check for it.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -7,7 +7,7 @@ use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
 use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
 
-/// Returns the cube as a single, correct patch.
+/// Returns a cube, and its surface as a single, correct patch.
 fn cube() -> (Mesh, Polytope) {
     let shape = cuboid(DVec3::ONE);
     let vertex_ids = (0..8).collect();
@@ -20,7 +20,7 @@ fn cube() -> (Mesh, Polytope) {
 
 const ALL: [u32; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
-fn refused(lie: impl Fn(&mut Polytope), why: &str) {
+fn assert_refused(lie: impl Fn(&mut Polytope), why: &str) {
     let (mesh, mut polytope) = cube();
     lie(&mut polytope);
     let claim = Claim {
@@ -49,28 +49,28 @@ fn an_honest_patch_keeps_every_law() {
 
 #[test]
 fn lies_about_a_polytope_are_found() {
-    refused(
+    assert_refused(
         |it| it.points[3].x = it.points[3].x.next_up(),
         "is not vertex 3",
     );
-    refused(|it| it.vertex_ids.swap(1, 2), "is not vertex");
-    refused(|it| it.radius = 0.1, "a radius");
-    refused(|it| it.facets.truncate(5), "open at");
-    refused(|it| it.facets[2].corners.reverse(), "in front of");
-    refused(|it| it.facets[2].corners.swap(1, 2), "is not convex");
-    refused(|it| it.facets[2].corners[0] = 7, "is in front of");
-    refused(|it| it.faces[4].id = 5, "is not face 5");
-    refused(|it| it.faces[4].corners.swap(0, 1), "is not face 4");
-    refused(|it| it.faces.push(it.faces[0]), "but named are");
-    refused(|it| it.faces[3].id = 12, "no face 12");
+    assert_refused(|it| it.vertex_ids.swap(1, 2), "is not vertex");
+    assert_refused(|it| it.radius = 0.1, "a radius");
+    assert_refused(|it| it.facets.truncate(5), "open at");
+    assert_refused(|it| it.facets[2].corners.reverse(), "in front of");
+    assert_refused(|it| it.facets[2].corners.swap(1, 2), "is not convex");
+    assert_refused(|it| it.facets[2].corners[0] = 7, "is in front of");
+    assert_refused(|it| it.faces[4].id = 5, "is not face 5");
+    assert_refused(|it| it.faces[4].corners.swap(0, 1), "is not face 4");
+    assert_refused(|it| it.faces.push(it.faces[0]), "but named are");
+    assert_refused(|it| it.faces[3].id = 12, "no face 12");
     let hide = |it: &mut Polytope| {
         it.facets[0].origin = Origin::Virtual;
         it.faces.drain(..2);
     };
-    refused(hide, "but named are");
-    refused(|it| it.facets[0].origin = Origin::Face(1), "is not face 1");
-    refused(|it| it.faces.truncate(11), "is on no face");
-    refused(|it| it.facets.clear(), "too few");
+    assert_refused(hide, "but named are");
+    assert_refused(|it| it.facets[0].origin = Origin::Face(1), "is not face 1");
+    assert_refused(|it| it.faces.truncate(11), "is on no face");
+    assert_refused(|it| it.facets.clear(), "too few");
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn an_invalid_cover_is_found() {
 }
 
 /// Returns two faces as one patch: the hull of their corners.
-fn pair(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
+fn pair_as_patch(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     let mut vertex_ids: Vec<u32> = faces.iter().flat_map(|&f| mesh.faces[f as usize]).collect();
     vertex_ids.sort_unstable();
     vertex_ids.dedup();
@@ -106,13 +106,14 @@ fn pair(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     }
 }
 
-/// Returns the number of face pairs whose hull is found to leave the solid, and checks it against the exact predicate.
-fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
+/// Returns the number of pairs of faces whose hull is found to leave the solid, and compares each with the exact
+/// predicate.
+fn count_leaving_hulls(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     let solid = Solid::new(mesh);
     let mut found = 0;
     let count = mesh.faces.len() as u32;
     for faces in (0..count).flat_map(|f| (f + 1..count).map(move |g| [f, g])) {
-        let polytope = pair(mesh, faces);
+        let polytope = pair_as_patch(mesh, faces);
         let claim = Claim {
             faces: &faces,
             polytope: &polytope,
@@ -126,11 +127,11 @@ fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     found
 }
 
-/// The L is the union of two boxes, and a hull that leaves it passes over the inner corner at (1, 1).
+/// Tests the L, a union of two boxes. A hull that leaves it passes over the inner corner at (1, 1).
 #[test]
 fn a_hull_across_the_inner_corner_of_an_l_is_found() {
     let mesh = l_prism().mesh;
-    let found = leaving(&mesh, |faces| {
+    let found = count_leaving_hulls(&mesh, |faces| {
         let corners = faces.map(|f| mesh.triangle(f as usize));
         let all = || corners.iter().flatten();
         let in_bar = |wide: fn(&DVec3) -> f64| all().all(|p| wide(p) <= 1.0);
@@ -148,7 +149,7 @@ fn a_hull_across_the_inner_corner_of_an_l_is_found() {
 #[test]
 fn a_hull_across_the_hole_of_a_torus_is_found() {
     let mesh = torus(1.0, 0.25, 8, 5).mesh;
-    let found = leaving(&mesh, |faces| {
+    let found = count_leaving_hulls(&mesh, |faces| {
         let [f, g] = faces.map(|f| {
             let corners = mesh.triangle(f as usize);
             (corners[0] + corners[1] + corners[2]) / 3.0
@@ -159,7 +160,7 @@ fn a_hull_across_the_hole_of_a_torus_is_found() {
     assert!(found > 500, "{found}");
 }
 
-/// The smallest excess is found: a facet lies below the bottom of a dent by a rounding error.
+/// Tests that the smallest excess is found: a facet lies below the bottom of a dent by a rounding error.
 #[test]
 fn a_hull_a_rounding_out_of_the_solid_is_found() {
     let mut mesh = cuboid(DVec3::ONE).mesh;

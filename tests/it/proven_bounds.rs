@@ -1,11 +1,11 @@
-//! Every bound that an answer along a trajectory proves, compared with sampled distances, including at knots, for all
-//! questions, kinds of trajectory and tolerances.
+//! Compares every bound that an answer along a trajectory proves with sampled distances, including those at knots,
+//! for all questions, kinds of trajectory and tolerances.
 
 use ccd_core::Moving;
 use ccd_core::Unresolved;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Contact, Motion, Outcome, Pose, Settings, Trajectory};
-use ccd_tests::checks::Law;
+use ccd_tests::checks::CheckResult;
 use ccd_tests::courses::{self, KINDS};
 use ccd_tests::law;
 use ccd_tests::solids::Solid;
@@ -16,13 +16,13 @@ use rigid_ccd::Solver;
 use rigid_ccd::trajectory::Poses;
 use std::io::Write;
 
-/// The distance within which the bodies move.
+/// The distance from the origin within which the bodies move.
 const REACH: f64 = 2.0;
 
-/// The rounding error of distances and poses in this test: coordinates are below 32.
+/// The rounding error of distances and poses in this test, for coordinates below 32.
 const ROUNDING: f64 = 2e-14;
 
-/// Two solids on trajectories from time 0 to 1.
+/// Two solids on trajectories over the times 0 to 1.
 struct Scene {
     kinds: [usize; 2],
     solids: [Solid; 2],
@@ -54,7 +54,7 @@ impl Scene {
         a.distance(&b)
     }
 
-    /// Samples the distance at even times, at and beside all knots, and more finely around the least distance.
+    /// Samples the distance at even times, at and next to all knots, and more finely around the least distance.
     fn samples(&self) -> Samples {
         const EVEN: u32 = 48;
         let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
@@ -99,7 +99,7 @@ fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>
     }
 }
 
-/// Distances at sampled times.
+/// Pairs of a sampled time and the distance then.
 struct Samples(Vec<(f64, f64)>);
 
 impl Samples {
@@ -110,8 +110,13 @@ impl Samples {
             .fold(f64::INFINITY, lesser)
     }
 
-    /// Checks a lower bound of the distance at all chosen times.
-    fn at_least(&self, bound: f64, chosen: impl Fn(f64) -> bool, what: &str) -> Law {
+    /// Checks a lower bound of the distance at all chosen sample times.
+    fn check_lower_bound(
+        &self,
+        bound: f64,
+        chosen: impl Fn(f64) -> bool,
+        what: &str,
+    ) -> CheckResult {
         let chosen = self.0.iter().filter(|sample| chosen(sample.0));
         for &(time, distance) in chosen {
             law!(
@@ -123,7 +128,7 @@ impl Samples {
     }
 }
 
-/// The numbers of answers of each kind.
+/// The number of answers of each kind.
 #[derive(Debug, Default)]
 struct Tally {
     free: u64,
@@ -131,7 +136,7 @@ struct Tally {
     start: u64,
     measured: u64,
     unresolved: u64,
-    /// The number of scenes that are free for one question, and a contact within the tolerance for another.
+    /// The number of scenes that are free for one question, and in contact within the tolerance for another.
     grazes: u64,
 }
 
@@ -168,8 +173,8 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Checks the distance and the bounds of a contact at a time.
-    fn contact(&self, time: f64, contact: &Contact, tolerance: f64) -> Law {
+    /// Checks the distance at a reported contact, and the contact's bounds.
+    fn check_contact(&self, time: f64, contact: &Contact, tolerance: f64) -> CheckResult {
         let distance = self.scene.distance(time);
         let (lower, upper) = (contact.separation.lower, contact.separation.upper);
         let reach = self.config.margin + tolerance;
@@ -181,12 +186,13 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks the proven gap of free bodies: a true lower bound, at least half the tolerance beyond the margin.
-    fn free(&self, proven_gap: f64) -> Law {
+    /// Checks the proven gap of free bodies. It is a true lower bound, at least half the tolerance beyond the margin.
+    fn check_free(&self, proven_gap: f64) -> CheckResult {
         let Settings {
             margin, tolerance, ..
         } = self.config;
-        self.samples.at_least(proven_gap, |_| true, "free")?;
+        self.samples
+            .check_lower_bound(proven_gap, |_| true, "free")?;
         law!(
             proven_gap >= margin + 0.5 * tolerance - ROUNDING,
             "only {proven_gap:e} is proven"
@@ -194,13 +200,13 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    /// Checks that there is no contact before a time.
-    fn safe(&self, until: f64) -> Law {
+    /// Checks that the bodies are not in contact before a time.
+    fn check_safe(&self, until: f64) -> CheckResult {
         let margin = self.config.margin;
-        (self.samples).at_least(margin, |time| time < until, "before a contact")
+        (self.samples).check_lower_bound(margin, |time| time < until, "before a contact")
     }
 
-    fn overlapping(&self) -> Law {
+    fn check_overlapping(&self) -> CheckResult {
         let distance = self.scene.distance(0.0);
         law!(
             distance <= ROUNDING,
@@ -209,67 +215,73 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    fn first(&self, outcome: &Outcome, tolerance: f64, tally: &mut Tally) -> Law {
+    fn check_first(&self, outcome: &Outcome, tolerance: f64, tally: &mut Tally) -> CheckResult {
         match *outcome {
             Outcome::Contact { time, contact } => {
                 tally.contact += 1;
-                self.safe(time)?;
-                self.contact(time, &contact, tolerance)
+                self.check_safe(time)?;
+                self.check_contact(time, &contact, tolerance)
             }
             Outcome::Free { proven_gap } => {
                 tally.free += 1;
-                self.free(proven_gap)
+                self.check_free(proven_gap)
             }
             Outcome::Touching { contact } => {
                 tally.start += 1;
-                self.contact(0.0, &contact, tolerance)
+                self.check_contact(0.0, &contact, tolerance)
             }
             Outcome::Overlapping { .. } => {
                 tally.start += 1;
-                self.overlapping()
+                self.check_overlapping()
             }
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 tally.unresolved += 1;
-                self.safe(safe_until)
+                self.check_safe(safe_until)
             }
             other => Err(format!("no outcome of a first contact: {other:?}")),
         }
     }
 
-    fn any(&self, any: &Outcome, tolerance: f64, first: &Outcome, tally: &mut Tally) -> Law {
+    fn check_any(
+        &self,
+        any: &Outcome,
+        tolerance: f64,
+        first: &Outcome,
+        tally: &mut Tally,
+    ) -> CheckResult {
         let is_free = matches!(any, Outcome::Free { .. });
         let decided = !matches!(any, Outcome::Unresolved(_));
         if decided && !matches!(first, Outcome::Unresolved(_)) {
             tally.grazes += u64::from(is_free != matches!(first, Outcome::Free { .. }));
         }
         match *any {
-            Outcome::Contact { time, contact } => self.contact(time, &contact, tolerance),
-            Outcome::Free { proven_gap } => self.free(proven_gap),
-            Outcome::Overlapping { .. } => self.overlapping(),
-            Outcome::Unresolved(Unresolved { safe_until, .. }) => self.safe(safe_until),
+            Outcome::Contact { time, contact } => self.check_contact(time, &contact, tolerance),
+            Outcome::Free { proven_gap } => self.check_free(proven_gap),
+            Outcome::Overlapping { .. } => self.check_overlapping(),
+            Outcome::Unresolved(Unresolved { safe_until, .. }) => self.check_safe(safe_until),
             other => Err(format!("no outcome of any contact: {other:?}")),
         }
     }
 
-    fn interval(&self, interval: &Outcome, tolerance: f64, first: &Outcome) -> Law {
+    fn check_interval(&self, interval: &Outcome, tolerance: f64, first: &Outcome) -> CheckResult {
         match *interval {
             Outcome::Free { proven_gap } => {
                 let agrees =
                     matches!(first, Outcome::Free { proven_gap: other } if *other == proven_gap);
                 law!(agrees, "{interval:?} and {first:?}");
-                self.free(proven_gap)
+                self.check_free(proven_gap)
             }
             Outcome::Interval { first, last } => {
-                self.safe(first.time)?;
+                self.check_safe(first.time)?;
                 let margin = self.config.margin;
-                (self.samples).at_least(
+                (self.samples).check_lower_bound(
                     margin,
                     |time| time > last.time,
                     "after the last contact",
                 )?;
                 for touch in [first, last] {
                     if let Some(contact) = touch.contact() {
-                        self.contact(touch.time, &contact, tolerance)?;
+                        self.check_contact(touch.time, &contact, tolerance)?;
                     }
                 }
                 Ok(())
@@ -279,17 +291,21 @@ impl<'s> Case<'s> {
                 safe_from,
                 ..
             }) => {
-                self.safe(safe_until)?;
+                self.check_safe(safe_until)?;
                 let margin = self.config.margin;
-                (self.samples).at_least(margin, |time| time > safe_from, "after an interval")
+                (self.samples).check_lower_bound(
+                    margin,
+                    |time| time > safe_from,
+                    "after an interval",
+                )
             }
             other => Err(format!("no outcome of an interval: {other:?}")),
         }
     }
 
-    fn closest(&self, closest: &Outcome, tally: &mut Tally) -> Law {
+    fn check_closest(&self, closest: &Outcome, tally: &mut Tally) -> CheckResult {
         self.samples
-            .at_least(closest.lower(), |_| true, "closest")?;
+            .check_lower_bound(closest.lower(), |_| true, "closest")?;
         if let Outcome::Measured {
             at: Some((time, contact)),
             ..
@@ -306,17 +322,17 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    fn check(&self, solver: &mut Solver, tally: &mut Tally) -> Law {
+    fn check(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
         solver.set_settings(self.config.clone());
         let [a, b] = self.scene.moving();
         let first = solver.first_contact(a, b, 1.0).expect("in range");
-        self.first(&first.outcome, first.tolerance, tally)?;
+        self.check_first(&first.outcome, first.tolerance, tally)?;
         let any = solver.any_contact(a, b, 1.0).expect("in range");
-        self.any(&any.outcome, any.tolerance, &first.outcome, tally)?;
+        self.check_any(&any.outcome, any.tolerance, &first.outcome, tally)?;
         let interval = solver.contact_interval(a, b, 1.0).expect("in range");
-        self.interval(&interval.outcome, interval.tolerance, &first.outcome)?;
+        self.check_interval(&interval.outcome, interval.tolerance, &first.outcome)?;
         let closest = solver.closest_approach(a, b, 1.0).expect("in range");
-        self.closest(&closest.outcome, tally)?;
+        self.check_closest(&closest.outcome, tally)?;
         if self
             .scene
             .kinds
@@ -329,19 +345,19 @@ impl<'s> Case<'s> {
         }
     }
 
-    /// Checks the same for motions, which have no trajectory.
-    fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> Law {
+    /// Checks the answers for motions, which are not trajectories, by the same rules.
+    fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
         let motion = |k: usize| -> Motion {
             let way = self.scene.ways[k].stretch(0.0, 1.0);
             way.expect("a motion").motion
         };
         let [a, b] = [0, 1].map(|k| (&self.scene.bodies[k], motion(k)));
         let first = solver.first_contact(a, b, 1.0).expect("in range");
-        self.first(&first.outcome, first.tolerance, tally)?;
+        self.check_first(&first.outcome, first.tolerance, tally)?;
         let any = solver.any_contact(a, b, 1.0).expect("in range");
-        self.any(&any.outcome, any.tolerance, &first.outcome, tally)?;
+        self.check_any(&any.outcome, any.tolerance, &first.outcome, tally)?;
         let closest = solver.closest_approach(a, b, 1.0).expect("in range");
-        self.closest(&closest.outcome, tally)
+        self.check_closest(&closest.outcome, tally)
     }
 }
 
@@ -391,7 +407,7 @@ fn no_bound_is_above_a_sampled_distance() {
     assert!(grazes < many && unresolved < count / 50, "{tally:?}");
 }
 
-/// A ball approaches a box at a knot to within the tolerance.
+/// Tests a ball that approaches a box to within the tolerance at a knot.
 #[test]
 fn an_approach_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     let (ball, wall) = (

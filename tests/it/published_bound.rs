@@ -1,4 +1,5 @@
-//! The paper's bound uses only the current pose: it is late for rotating arms, and the sound bound is not.
+//! Tests the paper's bound, which uses only the current pose: it is late for rotating arms, and the sound bound is
+//! not.
 
 use ccd_core::Bound;
 use ccd_core::glam::{DQuat, DVec3};
@@ -12,7 +13,7 @@ use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// Returns the schedules that divide a distance by a bound, with the given bound.
+/// Returns the two schedules that divide a distance by a bound on the rate, with the given bound.
 fn schedules(bound: Bound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
@@ -21,8 +22,8 @@ fn answers(problem: &ccd_core::Query<'_>, bound: Bound) -> [Answer; 2] {
     schedules(bound).map(|mut schedule| schedule.first_contact(problem, &mut Gjk).unwrap())
 }
 
-/// Returns the delay of an answer after the contact, infinite if it misses the contact.
-fn lateness(answer: &Answer, contact: f64) -> f64 {
+/// Returns how long after the true contact an answer is; infinity if it misses the contact.
+fn delay_after_contact(answer: &Answer, contact: f64) -> f64 {
     match answer.outcome {
         Outcome::Contact { time, .. } => time - contact,
         Outcome::Free { .. } => f64::INFINITY,
@@ -50,16 +51,16 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
     let bodies = bodies(&scenes[0].query);
     let problem = scenes[0].query.problem(&bodies, &Settings::DEFAULT);
     for answer in answers(&problem, Bound::Published) {
-        assert!(lateness(&answer, latest) > 0.1, "{answer:?}");
+        assert!(delay_after_contact(&answer, latest) > 0.1, "{answer:?}");
     }
     for answer in answers(&problem, Bound::Sound) {
-        let late = lateness(&answer, latest);
+        let late = delay_after_contact(&answer, latest);
         assert!((-1e-3..=1e-12).contains(&late), "{late}: {answer:?}");
     }
 }
 
-/// Returns a query of a rod of 1 : 20 in any pose, at some distance, that flies at another one and rotates.
-fn rods(rng: &mut Pcg64) -> Query {
+/// Returns a query of two rods of 1 : 20 in random orientations. One of them flies at the other and rotates.
+fn random_rods(rng: &mut Pcg64) -> Query {
     let mut vector = |size: f64| {
         let mut coordinate = || rng.random_range(-size..size);
         DVec3::new(coordinate(), coordinate(), coordinate())
@@ -84,7 +85,7 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
     let mut rng = Pcg64::new(9, 0);
     let (mut hits, mut late) = (0, [0; 2]);
     for _ in 0..300 {
-        let query = rods(&mut rng);
+        let query = random_rods(&mut rng);
         let Finding::Hit { hi, .. } = Referee::new(&query).finding() else {
             continue;
         };
@@ -92,10 +93,13 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
         let bodies = bodies(&query);
         let problem = query.problem(&bodies, &Settings::DEFAULT);
         for answer in answers(&problem, Bound::Sound) {
-            assert!(lateness(&answer, hi) <= 1e-9, "{answer:?}: {query:?}");
+            assert!(
+                delay_after_contact(&answer, hi) <= 1e-9,
+                "{answer:?}: {query:?}"
+            );
         }
         for (late, answer) in late.iter_mut().zip(answers(&problem, Bound::Published)) {
-            *late += usize::from(lateness(&answer, hi) > 1e-4);
+            *late += usize::from(delay_after_contact(&answer, hi) > 1e-4);
         }
     }
     assert!(

@@ -1,33 +1,33 @@
-//! Random cases with every question, compared with the independent referee and with each other.
+//! Compares the answers to every question about random cases with the independent referee and with each other.
 
 use ccd_core::Outcome;
 use ccd_tests::backends::default_answer;
 use ccd_tests::case::Case;
-use ccd_tests::checks::{Judge, Law};
+use ccd_tests::checks::{CheckResult, Judge};
 use ccd_tests::questions::{for_each_answers, for_each_answers_along};
 use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, remote_cases};
 
 #[test]
 fn every_question_of_any_shape() {
-    check_cases(80, cases(), every_question);
+    check_cases(80, cases(), check_every_question);
 }
 
 #[test]
 fn every_question_of_convex_shapes() {
-    check_cases(80, convex_cases(), every_question);
+    check_cases(80, convex_cases(), check_every_question);
 }
 
 #[test]
 fn every_question_near_and_overlapping() {
-    check_cases(80, crowded_cases(), every_question);
+    check_cases(80, crowded_cases(), check_every_question);
 }
 
 #[test]
 fn every_question_far_away_tiny_and_huge() {
-    check_cases(80, remote_cases(), every_question);
+    check_cases(80, remote_cases(), check_every_question);
 }
 
-fn every_question(case: &Case) -> Law {
+fn check_every_question(case: &Case) -> CheckResult {
     let (query, config) = (case.query(), case.config());
     let judge = Judge::new(&query, &config);
     let first = default_answer(&query, &config);
@@ -37,7 +37,7 @@ fn every_question(case: &Case) -> Law {
             law = (judge.check_any(&answers.any, bodies))
                 .and_then(|()| judge.check_closest(&answers.closest, bodies))
                 .and_then(|()| judge.check_clearance(answers.cleared.0, &answers.cleared.1, bodies))
-                .and_then(|()| agree(&first.outcome, &answers.closest.outcome))
+                .and_then(|()| check_agreement(&first.outcome, &answers.closest.outcome))
                 .map_err(|why| format!("{why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }
     });
@@ -55,8 +55,8 @@ fn every_question(case: &Case) -> Law {
     law
 }
 
-/// Checks that the bounds of the least distance do not contradict a first contact.
-fn agree(first: &Outcome, closest: &Outcome) -> Law {
+/// Checks that the bounds of the least distance do not contradict the first contact.
+fn check_agreement(first: &Outcome, closest: &Outcome) -> CheckResult {
     let upper = closest.upper();
     match first {
         Outcome::Free { proven_gap } if upper < *proven_gap => {

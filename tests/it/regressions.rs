@@ -1,4 +1,4 @@
-//! The corpus: cases that once failed, or are known to fail easily.
+//! Tests the corpus of cases that once failed, or are known to fail easily.
 
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;

@@ -1,4 +1,4 @@
-//! Contacts have the same names for every kind of pieces.
+//! Tests that contacts have the same feature names for every kind of pieces.
 
 use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
@@ -7,7 +7,7 @@ use ccd_decomp::{Detail, Order, Prepared, TriangleMesh, body_from_mesh};
 use ccd_tests::models::{Mesh, divided_cube, l_block};
 
 /// Returns a mesh in which no two faces share a vertex, as in an STL file.
-fn torn(mesh: &Mesh) -> Mesh {
+fn without_shared_vertices(mesh: &Mesh) -> Mesh {
     let corners = mesh.faces.iter().flatten();
     Mesh {
         vertices: corners.map(|&v| mesh.vertices[v as usize]).collect(),
@@ -17,7 +17,7 @@ fn torn(mesh: &Mesh) -> Mesh {
     }
 }
 
-/// A mesh in triangles and in patches.
+/// A body made of triangles, and the same body made of patches.
 struct Body {
     mesh: Mesh,
     made: [Prepared; 2],
@@ -35,7 +35,7 @@ impl Body {
         self.mesh.vertices.iter().map(|p| p.z)
     }
 
-    /// Returns a pose slightly above another body, shifted, and rotated about the upright axis.
+    /// Returns a pose on top of another body, at a small gap, shifted, and rotated about the upright axis.
     fn resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
         let top = other.heights().fold(f64::NEG_INFINITY, greater);
         let bottom = self.heights().fold(f64::INFINITY, lesser);
@@ -44,8 +44,8 @@ impl Body {
     }
 }
 
-/// Returns the names of the features in contact, in order.
-fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
+/// Returns the pairs of feature names in contact, sorted.
+fn contact_names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     let still = |made, pose| Moving::from((made, Motion::still(pose)));
     let (a, b) = (still(&a.body, pose), still(&b.body, Pose::IDENTITY));
     let problem = ccd_core::Query::new(a, b, 1.0, &Settings::DEFAULT).expect("good input");
@@ -55,20 +55,23 @@ fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     names
 }
 
-/// The meshes have vertices on edges and within sides, which are no corners of a patch, and vertices at equal
+/// Tests meshes with vertices on edges and within sides, which are no corners of a patch, and with vertices at equal
 /// positions.
 #[test]
 fn triangles_and_patches_have_the_same_names() {
     let shapes = [divided_cube(1), divided_cube(3), l_block(2)];
-    let meshes = shapes.iter().flat_map(|s| [s.mesh.clone(), torn(&s.mesh)]);
+    let meshes = shapes
+        .iter()
+        .flat_map(|s| [s.mesh.clone(), without_shared_vertices(&s.mesh)]);
     let all: Vec<Body> = meshes.map(Body::new).collect();
     let mut found = 0;
     for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
         for (x, y, turn) in [(0.13, 0.07, 0.0), (0.2, 0.1, 0.25), (0.4, -0.3, 2.0)] {
             let pose = a.resting_on(b, DVec2::new(x, y), turn);
-            let [of_triangles, of_patches] = [0, 1].map(|k| names([&a.made[k], &b.made[k]], pose));
+            let [of_triangles, of_patches] =
+                [0, 1].map(|k| contact_names([&a.made[k], &b.made[k]], pose));
             assert_eq!(of_triangles, of_patches);
-            assert_eq!(of_triangles, names([&a.made[0], &b.made[1]], pose));
+            assert_eq!(of_triangles, contact_names([&a.made[0], &b.made[1]], pose));
             found += of_triangles.len();
         }
     }

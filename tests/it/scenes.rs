@@ -1,17 +1,17 @@
-//! Every scene with a closed-form answer, for every setup and tolerance, and with the bodies swapped.
+//! Tests every scene with a closed-form answer, for every setup and tolerance, and with the bodies swapped.
 
 use ccd_core::order::lesser;
 use ccd_core::{Answer, Outcome, Settings};
 use ccd_tests::analytic::{Expect, Scene, scenes_named};
 use ccd_tests::backends::for_each_setup;
-use ccd_tests::checks::{Judge, Law, check_contact};
+use ccd_tests::checks::{CheckResult, Judge, check_contact};
 use ccd_tests::query::Bodies;
 use ccd_tests::questions::{AnswersAlong, for_each_answers_along};
 use ccd_tests::referee::Finding;
 use ccd_tests::tolerance::CLOSED_FORM;
 use std::fmt::Debug;
 
-/// Defines one test per group of scenes, by the beginning of their names.
+/// Defines one test for each group of scenes. A group is the scenes whose names have a common beginning.
 macro_rules! groups {
     ($($test:ident: $prefix:literal,)*) => {$(
         #[test]
@@ -62,7 +62,7 @@ fn check_group(prefix: &str) {
             check_finding(scene, &judge);
         }
         for tolerance in [1e-3, 1e-9] {
-            judge = judge.with_tolerance(tolerance * size(scene));
+            judge = judge.with_tolerance(tolerance * tolerance_scale(scene));
             check_setups(&judge, scene, &scene.expect);
             check_all_along(&judge, scene, &scene.expect);
         }
@@ -73,17 +73,17 @@ fn check_group(prefix: &str) {
         };
         // The effect of the order depends neither on the tolerance nor on the form of the motions.
         let judge = Judge::new(&swapped.query, &Settings::DEFAULT);
-        let judge = judge.with_tolerance(1e-3 * size(scene));
+        let judge = judge.with_tolerance(1e-3 * tolerance_scale(scene));
         check_setups(&judge, &swapped, &scene.expect);
     }
 }
 
-/// Returns the size to which tolerances are proportional, at most 1.
-fn size(scene: &Scene) -> f64 {
+/// Returns the size of a scene to which tolerances are proportional, at most 1.
+fn tolerance_scale(scene: &Scene) -> f64 {
     lesser(1.0, scene.query.a.reach(0.0))
 }
 
-/// Checks the referee, which judges all answers, against the closed form.
+/// Checks the referee's finding against the scene's closed form.
 fn check_finding(
     Scene {
         name,
@@ -147,7 +147,7 @@ fn check_answer(
     scene: &Scene,
     expect: &Expect,
     (bodies, answer): (&Bodies, &Answer),
-) -> Law {
+) -> CheckResult {
     let meshed = !scene.query.a.shape.mesh.faces.is_empty();
     if meshed {
         judge.check(answer, bodies)?;
@@ -184,13 +184,13 @@ fn check_answer(
     Ok(())
 }
 
-/// Checks answers for the same motions given as user-defined trajectories.
+/// Checks the answers for the same motions, given as user-defined trajectories.
 fn check_along(
     judge: &Judge<'_>,
     scene: &Scene,
     expect: &Expect,
     (bodies, answers): (&Bodies, &AnswersAlong),
-) -> Law {
+) -> CheckResult {
     check_answer(judge, scene, expect, (bodies, &answers.first))?;
     let AnswersAlong {
         any,

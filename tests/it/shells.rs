@@ -1,4 +1,4 @@
-//! Shells next to and within each other, with random orientations: tests of inside and outside.
+//! Tests whether points are inside, for shells next to and within each other, with random orientations.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
@@ -17,8 +17,9 @@ const DETAILS: [Detail; 3] = [
     Detail::Auto,
 ];
 
-/// Returns a random closed shell around the origin that fits into a ball of radius 1 and contains one of radius 0.4.
-fn shell(rng: &mut Pcg64) -> Shape {
+/// Returns a random closed shell around the origin that fits into a ball of radius 1 and contains a ball of radius
+/// 0.4.
+fn random_shell(rng: &mut Pcg64) -> Shape {
     match rng.random_range(0..3) {
         0 => icosphere(1.0, rng.random_range(0..2)),
         1 => boulder(1, 0.3, rng.random()),
@@ -26,14 +27,14 @@ fn shell(rng: &mut Pcg64) -> Shape {
     }
 }
 
-/// Returns shells with the number of shells around each.
-fn nests(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
+/// Returns nested shells, each with the number of shells around it.
+fn nested_shells(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
     let mut shells = Vec::new();
     for k in 0..rng.random_range(1..4) {
         let at = DVec3::new(3.0 * f64::from(k), rng.random(), rng.random());
         let mut size = rng.random_range(0.8..1.2);
         for depth in 0..rng.random_range(1..5) {
-            shells.push((shell(rng).scaled(size).moved(at).mesh, depth));
+            shells.push((random_shell(rng).scaled(size).moved(at).mesh, depth));
             size *= rng.random_range(0.25..0.35);
         }
     }
@@ -80,13 +81,13 @@ fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
         .outcome
 }
 
-/// A point is inside if an odd number of shells contain it, checked exactly and shell by shell.
+/// Tests that a body is inside if an odd number of shells contain it, checked exactly and shell by shell.
 #[test]
 fn a_body_inside_overlaps_for_any_winding_of_shells() {
     let mut rng = Pcg64::seed_from_u64(1);
     let mut counts = [0; 2];
     for case in 0..40 {
-        let shells = nests(&mut rng);
+        let shells = nested_shells(&mut rng);
         let mesh = with_random_windings(&shells, &mut rng);
         let solids: Vec<Solid<'_>> = shells.iter().map(|(mesh, _)| Solid::new(mesh)).collect();
         for detail in DETAILS {
@@ -115,13 +116,14 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
     assert!(counts[0] > 200 && counts[1] > 200, "{counts:?}");
 }
 
-/// A triangle that rests on a face is released only on the outer side; a thick body on the inner side overlaps.
+/// Tests a triangle that rests on a face: it is released only on the outer side. A thick body on the inner side
+/// overlaps.
 #[test]
 fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut rng = Pcg64::seed_from_u64(2);
     let mut released = 0;
     for case in 0..60 {
-        let shells = nests(&mut rng);
+        let shells = nested_shells(&mut rng);
         let mesh = with_random_windings(&shells, &mut rng);
         let outer = body(&mesh, DETAILS[case % 3]);
         for _ in 0..5 {
@@ -183,7 +185,7 @@ fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
     body(&mesh, detail)
 }
 
-/// Every corner of equal bodies is on the other body's surface.
+/// Tests equal bodies at one pose: every corner is on the other body's surface.
 #[test]
 fn equal_bodies_overlap() {
     for shape in [
@@ -202,7 +204,7 @@ fn equal_bodies_overlap() {
     }
 }
 
-/// One tooth of many is far from every other piece of its body, so that no sampling may miss it.
+/// Tests that a single tooth of many inside a body is found, though it is far from every other piece of that body.
 #[test]
 fn one_part_of_many_that_is_inside_is_found() {
     let outer = cuboid(DVec3::ONE);

@@ -1,4 +1,4 @@
-//! A contact at the start is reported, or ignored as long as the bodies do not approach.
+//! Tests contacts at the start, which are reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::rounding::RESTING;
@@ -17,14 +17,14 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-fn leave(tolerance: f64) -> Settings {
+fn leave_settings(tolerance: f64) -> Settings {
     Settings {
         start: StartPolicy::Leave,
-        ..report(tolerance)
+        ..report_settings(tolerance)
     }
 }
 
-fn report(tolerance: f64) -> Settings {
+fn report_settings(tolerance: f64) -> Settings {
     Settings {
         tolerance,
         ..Settings::DEFAULT
@@ -32,7 +32,7 @@ fn report(tolerance: f64) -> Settings {
 }
 
 /// Calls `check` with the outcome of every setup, for the query and for the query with the bodies swapped.
-fn outcomes(query: &Query, config: &Settings, check: impl Fn(Outcome) -> bool) {
+fn check_outcomes(query: &Query, config: &Settings, check: impl Fn(Outcome) -> bool) {
     for query in [query.clone(), query.swapped()] {
         for_each_setup(&query, config, |_, setup, answer| {
             assert!(check(answer.outcome), "{config:?}\n{setup:?}\n{answer:?}");
@@ -48,48 +48,68 @@ fn is_touching(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Touching { .. })
 }
 
-/// T10: a slide within the tolerance. Along the diagonal on which the slab's two triangles meet, no triangle passes
-/// onto another.
+/// Tests T10, a slide within the tolerance along the diagonal on which the slab's two triangles meet. No triangle
+/// passes onto another.
 #[test]
 fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
         let query = sliding(gap, DVec3::new(1.0, 1.0, 0.0)).query;
-        outcomes(&query, &report(1e-3), is_touching);
-        outcomes(&query, &leave(1e-3), is_free);
+        check_outcomes(&query, &report_settings(1e-3), is_touching);
+        check_outcomes(&query, &leave_settings(1e-3), is_free);
     }
-    outcomes(&sliding(1e-6, -DVec3::X).query, &report(1e-8), is_free);
-    outcomes(&sliding(1e-6, -DVec3::X).query, &leave(1e-8), is_free);
+    check_outcomes(
+        &sliding(1e-6, -DVec3::X).query,
+        &report_settings(1e-8),
+        is_free,
+    );
+    check_outcomes(
+        &sliding(1e-6, -DVec3::X).query,
+        &leave_settings(1e-8),
+        is_free,
+    );
 }
 
-/// T10: a slide onto another piece. The edge of the next triangle is flat ground as well.
+/// Tests T10, a slide onto another piece. The edge of the next triangle is flat ground as well.
 #[test]
 fn sliding_onto_another_piece_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
-        outcomes(&sliding(gap, -DVec3::X).query, &leave(1e-3), is_free);
+        check_outcomes(
+            &sliding(gap, -DVec3::X).query,
+            &leave_settings(1e-3),
+            is_free,
+        );
     }
 }
 
-/// T11: bodies that touch, and then part.
+/// Tests T11, bodies that touch at the start and then separate.
 #[test]
 fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
-        outcomes(&sliding(gap, DVec3::Z).query, &leave(1e-3), is_free);
-        outcomes(
-            &sliding(gap, DVec3::new(2.0, 0.0, 1.0)).query,
-            &leave(1e-3),
+        check_outcomes(
+            &sliding(gap, DVec3::Z).query,
+            &leave_settings(1e-3),
             is_free,
         );
-        outcomes(&sliding(gap, DVec3::Z).query, &report(1e-3), is_touching);
+        check_outcomes(
+            &sliding(gap, DVec3::new(2.0, 0.0, 1.0)).query,
+            &leave_settings(1e-3),
+            is_free,
+        );
+        check_outcomes(
+            &sliding(gap, DVec3::Z).query,
+            &report_settings(1e-3),
+            is_touching,
+        );
     }
 }
 
-/// T11: bodies that touch, and then approach.
+/// Tests T11, bodies that touch at the start and then approach.
 #[test]
 fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
         let query = sliding(gap, -DVec3::Z).query;
-        outcomes(&query, &report(1e-3), is_touching);
-        outcomes(&query, &leave(1e-3), |outcome| match outcome {
+        check_outcomes(&query, &report_settings(1e-3), is_touching);
+        check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
             // An approach at speed 1 is visible once the distance has decreased by more than rounding.
             Outcome::Contact { time, .. } => {
                 (0.0..=gap + RESTING * query.rounding()).contains(&time)
@@ -99,7 +119,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
     }
 }
 
-/// A plane separates coplanar triangles on either side, but solids only on the outside.
+/// Tests that a plane separates coplanar triangles on either side, but solids only on the outside.
 #[test]
 fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     let cube = || cuboid(DVec3::splat(0.5));
@@ -112,22 +132,22 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
         };
         for velocity in [-side, -side + 0.5 * DVec3::new(side.y, side.z, side.x)] {
             let query = dive(0.5 * velocity);
-            outcomes(&query, &leave(1e-3), |outcome| match outcome {
+            check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
                 Outcome::Contact { time, .. } => time <= 1e-11,
                 _ => false,
             });
         }
         // Away from each other, they are free.
-        outcomes(&dive(0.5 * side), &leave(1e-3), is_free);
+        check_outcomes(&dive(0.5 * side), &leave_settings(1e-3), is_free);
     }
 }
 
-/// The allowance of a resting contact is used up in a few steps, not in one for each bit.
+/// Tests that the allowance of a resting contact is used up in a few steps, not in one step for each bit.
 #[test]
 fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
         let query = sliding(0.0, -approach * DVec3::Z).query;
-        for_each_setup(&query, &leave(1e-3), |_, setup, answer| {
+        for_each_setup(&query, &leave_settings(1e-3), |_, setup, answer| {
             let Outcome::Contact { time, .. } = answer.outcome else {
                 panic!("{approach:e} {setup:?}\n{answer:?}");
             };
@@ -139,15 +159,15 @@ fn a_very_slow_approach_takes_few_steps() {
     }
 }
 
-/// A box is within the margin of a floor eighty times its size. Across so small a gap, the direction of the nearest
-/// points is not exact enough to separate sliding from approaching; the features' normals are.
+/// Tests a box within the margin of a floor eighty times its size. Across so small a gap, the direction of the
+/// nearest points is not exact enough to separate sliding from approaching; the features' normals are.
 #[test]
 fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     let floor = cuboid(DVec3::new(8.0, 8.0, 0.5)).moved(-0.5 * DVec3::Z);
     let half = DVec3::new(0.11, 0.06, 0.05);
     let config = |margin: f64| Settings {
         margin,
-        ..leave(4e-8)
+        ..leave_settings(4e-8)
     };
     for margin in [3.4e-3, 0.1] {
         for share in [1.0, 0.5, 1e-3, 0.0] {
@@ -173,7 +193,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
             });
             let query = at(across - 0.01 * DVec3::Z);
             let allowed = 2.0 * RESTING * query.rounding() / 0.01;
-            outcomes(&query, &config(margin), |outcome| match outcome {
+            check_outcomes(&query, &config(margin), |outcome| match outcome {
                 Outcome::Contact { time, .. } => time <= allowed,
                 _ => false,
             });
@@ -181,7 +201,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     }
 }
 
-/// A backend's claim about a pair at the start must not release the pair without proof.
+/// Tests that a backend's claim about a pair at the start does not release the pair without proof.
 #[test]
 fn a_liar_cannot_release_a_pair() {
     let spike = Shape::open(Mesh {
@@ -205,7 +225,7 @@ fn a_liar_cannot_release_a_pair() {
         Actor::straight(spike, DVec3::ZERO, -DVec3::Z),
     );
     let bodies = query.triangles();
-    let settings = leave(1e-3);
+    let settings = leave_settings(1e-3);
     let problem = query.problem(&bodies, &settings);
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
         let answer = BestFirst::default()
@@ -215,7 +235,7 @@ fn a_liar_cannot_release_a_pair() {
     }
 }
 
-/// An oracle that returns the right points with a wrong axis.
+/// An oracle that returns the right nearest points with a wrong axis.
 struct AxisLiar(DVec3, ClosedForm);
 
 impl DistanceOracle for AxisLiar {
@@ -243,7 +263,7 @@ fn a_released_contact_may_come_back() {
         Actor::straight(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
         Actor::still(Shape::union([slab, post]), DVec3::ZERO),
     );
-    outcomes(&query, &leave(1e-3), |outcome| match outcome {
+    check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
         Outcome::Contact { time, .. } => (0.4995..=0.5).contains(&time),
         _ => false,
     });
@@ -292,8 +312,8 @@ fn without_contact_at_the_start_both_policies_agree() {
     );
 }
 
-/// Two triangles start in contact, up to rounding, and approach. The accuracy of their distance depends on the last
-/// digits of their positions.
+/// Tests two triangles that start in contact, up to rounding, and approach. The accuracy of their distance depends on
+/// the last digits of their positions.
 #[test]
 fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
     let triangle = |corners: [DVec3; 3]| {
@@ -345,7 +365,7 @@ fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
             0.018210892309690595,
         );
         let of_a = Motion::new(start, velocity, spin).unwrap();
-        let settings = leave(1e-3);
+        let settings = leave_settings(1e-3);
         let problem = ccd_core::Query::new((&a, of_a), (&b, of_b), 1.0, &settings).unwrap();
         let answer = BestFirst::default()
             .first_contact(&problem, &mut ClosedForm::default())

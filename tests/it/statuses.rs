@@ -1,4 +1,4 @@
-//! Touching, overlapping and inside: the state at the start decides.
+//! Tests the state at the start that is reported: touching, overlapping, or one body inside the other.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
@@ -14,19 +14,18 @@ fn query(a: Shape, b: Shape, at: DVec3) -> Query {
     )
 }
 
-fn outcomes(query: &Query, check: impl Fn(Outcome) -> bool) {
-    outcomes_by_kind(query, |_, outcome| check(outcome));
+fn check_outcomes(query: &Query, check: impl Fn(Outcome) -> bool) {
+    check_outcomes_by_kind(query, |_, outcome| check(outcome));
 }
 
-fn outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
+fn check_outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
     for_each_setup(query, &Settings::DEFAULT, |_, setup, answer| {
         assert!(check(setup.kinds, answer.outcome), "{setup:?}\n{answer:?}");
     });
 }
 
-/// Returns true if a body is reported inside the other. If pieces may fill the inside, they may
-/// also be reported as overlapping.
-fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
+/// Returns true if a body is reported inside the other. If pieces may fill the inside, overlapping is also right.
+fn is_nested_as(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
     match outcome {
         Outcome::Overlapping {
             overlap: Overlap::Pieces(_),
@@ -37,11 +36,11 @@ fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -
     }
 }
 
-fn b_in_a(kinds: [Kind; 2], outcome: Outcome) -> bool {
-    nested(kinds, outcome, |o| matches!(o, Overlap::BInsideA(_)))
+fn is_b_in_a(kinds: [Kind; 2], outcome: Outcome) -> bool {
+    is_nested_as(kinds, outcome, |o| matches!(o, Overlap::BInsideA(_)))
 }
 
-fn overlaps(outcome: Outcome) -> bool {
+fn is_overlap(outcome: Outcome) -> bool {
     matches!(
         outcome,
         Outcome::Overlapping {
@@ -64,7 +63,7 @@ fn touching_faces_edges_and_corners_are_reported() {
         DVec3::new(1.0, 1.0, 0.0),
         DVec3::ONE,
     ] {
-        outcomes(&query(cube(0.5), cube(0.5), at * (1.0 + 1e-6)), touching);
+        check_outcomes(&query(cube(0.5), cube(0.5), at * (1.0 + 1e-6)), touching);
     }
 }
 
@@ -75,16 +74,16 @@ fn surfaces_that_cross_overlap() {
         DVec3::new(0.5, 0.4, 0.3),
         DVec3::splat(0.99),
     ] {
-        outcomes(&query(cube(0.5), cube(0.5), at), overlaps);
-        outcomes(&query(cube(0.5), icosphere(1.0, 1), at), overlaps);
+        check_outcomes(&query(cube(0.5), cube(0.5), at), is_overlap);
+        check_outcomes(&query(cube(0.5), icosphere(1.0, 1), at), is_overlap);
     }
 }
 
-fn overlaps_in_any_way(outcome: Outcome) -> bool {
+fn is_any_overlap(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Overlapping { .. })
 }
 
-/// No triangle crosses another one: all contacts are flush.
+/// Tests flush solids: no triangle crosses another one.
 #[test]
 fn flush_solids_overlap() {
     let inscribed = octahedron(0.5);
@@ -95,16 +94,16 @@ fn flush_solids_overlap() {
         (cube(0.25), 0.25 * DVec3::ONE),
         (inscribed, DVec3::ZERO),
     ] {
-        outcomes(&query(cube(0.5), b, at), overlaps_in_any_way);
+        check_outcomes(&query(cube(0.5), b, at), is_any_overlap);
     }
 }
 
-/// The claim of the oracle is used for polytopes with more edge pairs than are tried as axes: all pairs would take a
-/// thousand times as long.
+/// Tests that the oracle's claim is used for polytopes with more edge pairs than are tried as axes. All pairs would
+/// take a thousand times as long.
 #[test]
 fn polytopes_of_many_facets_overlap() {
     let ball = || icosphere(1.0, 3);
-    outcomes(&query(ball(), ball(), 0.5 * DVec3::X), overlaps);
+    check_outcomes(&query(ball(), ball(), 0.5 * DVec3::X), is_overlap);
 }
 
 /// Returns an octahedron around the origin.
@@ -126,7 +125,7 @@ fn octahedron(radius: f64) -> Shape {
     })
 }
 
-/// Needles cross at their middles, where an oracle's common point is accurate to 1e-12 at best.
+/// Tests needles that cross at their middles, where an oracle's common point is accurate to 1e-12 at best.
 #[test]
 fn needles_that_cross_overlap() {
     let needle = |thickness: f64| {
@@ -153,12 +152,12 @@ fn needles_that_cross_overlap() {
                 ..Settings::DEFAULT
             };
             let answer = default_answer(&query, &config);
-            assert!(overlaps(answer.outcome), "{thickness} {k} {answer:?}");
+            assert!(is_overlap(answer.outcome), "{thickness} {k} {answer:?}");
         }
     }
 }
 
-/// Bodies far smaller than the tolerance are examined once, not repeatedly.
+/// Tests that bodies far smaller than the tolerance are examined once, not repeatedly.
 #[test]
 fn bodies_far_smaller_than_the_tolerance_are_answered() {
     for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
@@ -193,14 +192,14 @@ fn a_solid_inside_a_solid_overlaps() {
         || Shape::closed(cube(2.0).mesh),
     );
     let query_of = |a, b| query(a, b, 0.3 * DVec3::ONE);
-    outcomes_by_kind(&query_of(big(), small()), |kinds, outcome| {
-        nested(kinds, outcome, |overlap| match overlap {
+    check_outcomes_by_kind(&query_of(big(), small()), |kinds, outcome| {
+        is_nested_as(kinds, outcome, |overlap| match overlap {
             Overlap::BInsideA(p) => p.abs().max_element() < 2.0,
             _ => false,
         })
     });
-    outcomes_by_kind(&query_of(small(), big()), |kinds, outcome| {
-        nested(kinds, outcome, |overlap| match overlap {
+    check_outcomes_by_kind(&query_of(small(), big()), |kinds, outcome| {
+        is_nested_as(kinds, outcome, |overlap| match overlap {
             Overlap::AInsideB(p) => p.abs().max_element() <= 0.5,
             _ => false,
         })
@@ -211,8 +210,8 @@ fn a_solid_inside_a_solid_overlaps() {
 fn a_surface_inside_a_solid_overlaps_but_not_inside_a_surface() {
     let (small, big) = (Shape::open(cube(0.5).mesh), cube(2.0).mesh);
     let in_solid = query(Shape::closed(big.clone()), small.clone(), DVec3::ZERO);
-    outcomes_by_kind(&in_solid, b_in_a);
-    outcomes(&query(Shape::open(big), small, DVec3::ZERO), |o| {
+    check_outcomes_by_kind(&in_solid, is_b_in_a);
+    check_outcomes(&query(Shape::open(big), small, DVec3::ZERO), |o| {
         matches!(o, Outcome::Free { .. })
     });
 }
@@ -222,18 +221,18 @@ fn the_hole_of_a_torus_is_outside() {
     let ring = torus(1.0, 0.25, 16, 8);
     let ball = |r| Shape::closed(icosphere(r, 1).mesh);
     let free = |o| matches!(o, Outcome::Free { .. });
-    outcomes(&query(ring.clone(), ball(0.3), DVec3::ZERO), free);
-    outcomes_by_kind(&query(ring, ball(0.1), DVec3::X), b_in_a);
+    check_outcomes(&query(ring.clone(), ball(0.3), DVec3::ZERO), free);
+    check_outcomes_by_kind(&query(ring, ball(0.1), DVec3::X), is_b_in_a);
 }
 
 #[test]
 fn the_second_of_two_shells_is_found_inside() {
     let two = both(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
     let big = Shape::closed(cube(1.0).mesh);
-    outcomes_by_kind(&query(big, two, DVec3::ZERO), b_in_a);
+    check_outcomes_by_kind(&query(big, two, DVec3::ZERO), is_b_in_a);
 }
 
-/// The patches of a rough surface do not fill the middle of its solid.
+/// Tests a body in the middle of a solid whose patches do not fill it, because its surface is rough.
 #[test]
 fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
     let found = Cell::new(0);
@@ -242,12 +241,12 @@ fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
         let inside_out = Shape::closed(rough.mesh.clone().flipped());
         for big in [rough, inside_out] {
             let query = query(big, icosphere(0.05, 0), DVec3::ZERO);
-            outcomes_by_kind(&query, |kinds, outcome| {
-                let by_winding = b_in_a([Kind::Triangles; 2], outcome);
+            check_outcomes_by_kind(&query, |kinds, outcome| {
+                let by_winding = is_b_in_a([Kind::Triangles; 2], outcome);
                 if by_winding && kinds == [Kind::Patches; 2] {
                     found.set(found.get() + 1);
                 }
-                b_in_a(kinds, outcome)
+                is_b_in_a(kinds, outcome)
             });
         }
     }
@@ -264,7 +263,7 @@ fn a_cavity_is_outside() {
         hollow(&boulder(2, 0.2, 7), &boulder(1, 0.2, 8).scaled(0.7)),
     ] {
         for inner in [icosphere(0.1, 1), boulder(1, 0.5, 9).scaled(0.2)] {
-            outcomes(&query(outer.clone(), inner.clone(), DVec3::ZERO), free);
+            check_outcomes(&query(outer.clone(), inner.clone(), DVec3::ZERO), free);
         }
     }
     let wall = query(
@@ -272,7 +271,7 @@ fn a_cavity_is_outside() {
         icosphere(0.1, 1),
         0.75 * DVec3::Y,
     );
-    outcomes_by_kind(&wall, b_in_a);
+    check_outcomes_by_kind(&wall, is_b_in_a);
 }
 
 #[test]
@@ -286,13 +285,13 @@ fn nothing_moves() {
             ),
         )
     };
-    outcomes(&at(3.0), |o| matches!(o, Outcome::Free { .. }));
-    outcomes(&at(0.9), overlaps);
+    check_outcomes(&at(3.0), |o| matches!(o, Outcome::Free { .. }));
+    check_outcomes(&at(0.9), is_overlap);
 }
 
 #[test]
 fn no_time_passes() {
     let mut query = query(cube(0.5), cube(0.5), 3.0 * DVec3::X);
     query.duration = 0.0;
-    outcomes(&query, |o| matches!(o, Outcome::Free { .. }));
+    check_outcomes(&query, |o| matches!(o, Outcome::Free { .. }));
 }

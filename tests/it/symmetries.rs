@@ -1,4 +1,4 @@
-//! The order of the bodies, the frame of reference and the direction of time do not affect the answer.
+//! Tests that the order of the bodies, the frame of reference and the direction of time do not affect the answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Outcome, Pose};
@@ -43,7 +43,8 @@ fn both_may_be_seen_from_any_frame() {
     }
 }
 
-/// The reverse of a free motion is free, or rarely a contact if the bodies passed each other within the tolerance.
+/// Tests that the reverse of a free motion is free. It may rarely be a contact if the bodies passed each other within
+/// the tolerance.
 #[test]
 fn a_free_motion_in_reverse_is_free() {
     let (free, grazing) = (Cell::new(0), Cell::new(0));

@@ -1,9 +1,9 @@
-//! Unit vectors come only from `ccd_core::vector`. Those of glam are not of unit length if squares underflow, and a
-//! distance along them is not proven.
+//! Tests that unit vectors come only from `ccd_core::vector`. Those of glam are not of unit length if squares
+//! underflow, and a distance along them is not proven.
 
 use std::path::{Path, PathBuf};
 
-/// The files that may normalise, each with the reason why the result is no axis.
+/// The files that may normalise vectors otherwise, each with the reason why the result is no axis of a proof.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("ccd-core/src/motion/pose.rs", "a quaternion, scaled first"),
     ("ccd-core/src/motion/interop.rs", "a quaternion of nalgebra"),
@@ -19,7 +19,7 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
         "ccd-distance-vmarch",
         "ccd-decomp",
     ] {
-        collect(&root.join(member).join("src"), &mut files);
+        collect_sources(&root.join(member).join("src"), &mut files);
     }
     assert!(files.len() > 100, "{}", files.len());
     let mut allowed = 0;
@@ -46,8 +46,8 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
     );
 }
 
-/// All source files in a folder, except tests.
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+/// Collects all source files in a folder, except tests.
+fn collect_sources(folder: &Path, files: &mut Vec<PathBuf>) {
     const TESTS: [&str; 2] = ["tests", "tests.rs"];
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -55,7 +55,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
             continue;
         }
         if path.is_dir() {
-            collect(&path, files);
+            collect_sources(&path, files);
         } else {
             files.extend((path.extension() == Some("rs".as_ref())).then_some(path));
         }

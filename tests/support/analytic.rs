@@ -1,4 +1,4 @@
-//! Scenes with a first contact in closed form, and near misses with a least distance in closed form.
+//! Scenes with a known outcome: a first contact or a least distance in closed form.
 
 mod linear;
 mod rounded;
@@ -10,41 +10,40 @@ pub use twisted::screw_in_nut;
 
 use crate::query::{Actor, Query};
 
-/// A scene with its known outcome.
+/// A query with its known outcome.
 pub struct Scene {
-    /// The name of the scene.
+    /// The name of the scene, which begins with the number of its group.
     pub name: String,
     /// The bodies and their motions.
     pub query: Query,
-    /// The known outcome.
+    /// The outcome in closed form.
     pub expect: Expect,
 }
 
 /// The known outcome of a scene.
 pub enum Expect {
-    /// The bodies touch.
+    /// The bodies touch, at a known time or within known bounds.
     Hit {
-        /// A lower bound of the time, as a function of the distance: the first time at which the distance falls to the
-        /// argument.
+        /// The first time at which the distance falls to the argument. It bounds the time of contact from below.
         earliest: Distance,
-        /// An upper bound of the time.
+        /// An upper bound of the time of contact.
         latest: f64,
     },
-    /// The bodies stay at least this far apart, and the bound is attained.
+    /// The bodies stay at least a distance apart, and attain it.
     Free {
-        /// The least distance.
+        /// The least distance of the bodies, in units of length.
         gap: f64,
     },
     /// The bodies overlap at the start.
     Overlap,
-    /// No closed form is known.
+    /// No closed form of the outcome is known.
     Unknown,
 }
 
-/// The first time at which the distance falls to a value.
+/// A function of a distance: the first time at which the bodies are as near as that.
 pub type Distance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
-/// Every scene.
+/// Returns the scenes of all groups.
 pub fn scenes() -> Vec<Scene> {
     [
         linear::scenes(),
@@ -57,7 +56,7 @@ pub fn scenes() -> Vec<Scene> {
     .collect()
 }
 
-/// Returns the scenes whose name begins with the prefix.
+/// Returns the scenes whose name begins with `prefix`.
 pub fn scenes_named(prefix: &str) -> Vec<Scene> {
     scenes()
         .into_iter()
@@ -77,8 +76,9 @@ impl Scene {
 }
 
 impl Expect {
-    /// Returns a contact at an exactly known time, with the known distance at all earlier times.
-    fn hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+    /// Returns the outcome of a contact at an exactly known time. `distance` maps a distance to the first time at
+    /// which the bodies are that near.
+    fn hit_at(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Expect::Hit {
             latest: distance(0.0),
             earliest: Box::new(distance),

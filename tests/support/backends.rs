@@ -7,67 +7,67 @@ use ccd_core::{Answer, Body, DistanceOracle, Schedule, Settings};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// The schedules.
+/// The schedule of a backend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// A queue of pairs, ordered by proven time.
+    /// Takes pairs from a queue that is ordered by proven time.
     BestFirst,
-    /// One step for all pairs, over the front of a descent through hull trees.
+    /// Advances all pairs in one step, over the front of a descent through hull trees.
     Fast,
-    /// One step for all pairs, without trees.
+    /// Advances all pairs in one step, without trees.
     Naive,
 }
 
-/// The oracles.
+/// The distance oracle of a backend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oracle {
-    /// Closed forms, for pieces up to triangles.
+    /// Uses closed forms, for pieces up to triangles.
     ClosedForm,
-    /// GJK in f64.
+    /// Uses GJK in f64.
     Gjk,
-    /// Closed forms, with GJK for other pieces.
+    /// Uses closed forms, and GJK for other pieces.
     Direct,
-    /// Voronoi marching, with GJK if it gives up.
+    /// Uses Voronoi marching, and GJK if it gives up.
     Vmarch,
 }
 
 impl Oracle {
-    /// Returns true if the oracle supports all pieces.
+    /// Returns true if the oracle supports all pieces of both bodies.
     pub fn suits(self, bodies: &Bodies) -> bool {
         let small = |body: &Body| body.pieces().iter().all(|piece| piece.points.len() <= 3);
         self != Oracle::ClosedForm || small(bodies.a()) && small(bodies.b())
     }
 }
 
-/// A schedule with an oracle.
+/// A schedule with a distance oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend {
-    /// The schedule.
+    /// The schedule, which orders the pairs of pieces.
     pub order: Order,
-    /// The oracle.
+    /// The oracle, which computes the distances of pieces.
     pub oracle: Oracle,
 }
 
-/// The backend and the pieces of an answer, to print if an assertion fails.
+/// The backend and the kinds of pieces of an answer. It is printed if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
-    /// The backend.
+    /// The backend that gave the answer.
     pub backend: Backend,
-    /// The kinds of pieces of the bodies.
+    /// The kinds of pieces of bodies A and B.
     pub kinds: [Kind; 2],
 }
 
-/// The largest number of pairs of pieces for the slow schedule.
+/// The largest number of pairs of pieces for which the naive schedule is tested.
 const NAIVE_PAIRS: usize = 400;
 
 impl Backend {
-    /// The default backend.
+    /// The backend that the engine uses by default.
     pub const DEFAULT: Backend = Backend {
         order: Order::BestFirst,
         oracle: Oracle::Direct,
     };
 
-    /// Returns every schedule with every oracle.
+    /// Returns every combination of a schedule and an oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
         use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
         let oracles = [ClosedForm, Gjk, Direct, Vmarch];
@@ -88,7 +88,7 @@ impl Backend {
         fit && self.oracle.suits(bodies)
     }
 
-    /// Answers with a fresh schedule and a fresh oracle.
+    /// Answers a query with a fresh schedule and a fresh oracle.
     pub fn solve(self, problem: &ccd_core::Query<'_>) -> Answer {
         match self.oracle {
             Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm::default()),
@@ -98,7 +98,7 @@ impl Backend {
         }
     }
 
-    /// Answers with the backend's schedule and any oracle.
+    /// Answers a query with the backend's schedule and a given oracle.
     pub fn solve_with<O: DistanceOracle>(
         self,
         problem: &ccd_core::Query<'_>,
@@ -120,7 +120,7 @@ fn has_tree(body: &&Body) -> bool {
     body.pieces().len() == 1 || body.hull_tree().is_some()
 }
 
-/// Calls `check` with the answer of every setup that suits the query.
+/// Calls `check` with the answer of every backend and kind of pieces that suits the query.
 pub fn for_each_setup(
     query: &Query,
     config: &Settings,

@@ -6,11 +6,11 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose, Settings, StartPolicy};
 use serde::{Deserialize, Serialize};
 
-/// A query with its settings, and the reason for testing it.
+/// A query with its settings, and the reason why it is tested.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// The name.
+    /// The name of the case.
     #[serde(default)]
     pub name: String,
     /// The fault that the case revealed, or might reveal.
@@ -27,42 +27,42 @@ pub struct Case {
     /// The value of [`Settings::start`].
     #[serde(default)]
     pub start: Start,
-    /// Body A.
+    /// Body A and its motion.
     pub a: Part,
-    /// Body B.
+    /// Body B and its motion.
     pub b: Part,
 }
 
-/// The serialised form of [`StartPolicy`].
+/// The form of a [`StartPolicy`] in a file.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Start {
-    /// The value [`StartPolicy::Report`].
+    /// Stands for [`StartPolicy::Report`].
     #[default]
     Report,
-    /// The value [`StartPolicy::Leave`].
+    /// Stands for [`StartPolicy::Leave`].
     Leave,
 }
 
-/// One body of a [`Case`].
+/// A body of a [`Case`], with its motion.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// The shape of the body.
+    /// The shape of the body, by name and numbers.
     pub shape: Model,
-    /// The factor on every coordinate.
-    #[serde(default = "one")]
+    /// The factor by which every coordinate is multiplied.
+    #[serde(default = "default_scale")]
     pub scale: f64,
-    /// The position of the body's origin at the start.
+    /// The position of the body's origin in the world at the start.
     #[serde(default)]
     pub position: [f64; 3],
-    /// The rotation at the start: a rotation vector, in radians.
+    /// The rotation at the start, as a rotation vector in radians.
     #[serde(default)]
     pub turned: [f64; 3],
-    /// The velocity of the centre, per unit of time.
+    /// The velocity of the centre of rotation, per unit of time.
     #[serde(default)]
     pub velocity: [f64; 3],
-    /// The angular velocity, in radians per unit of time.
+    /// The angular velocity in the world, in radians per unit of time.
     #[serde(default)]
     pub spin: [f64; 3],
     /// The centre of rotation, in the body's frame.
@@ -70,7 +70,7 @@ pub struct Part {
     pub centre: [f64; 3],
 }
 
-/// A shape by name and numbers.
+/// The description of a shape by name and numbers.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(tag = "model", rename_all = "kebab-case")]
 #[allow(missing_docs)] // Named as the functions of `models` and their arguments.
@@ -127,7 +127,7 @@ pub enum Model {
 }
 
 impl Case {
-    /// Returns the query.
+    /// Returns the query of the case, with shapes and motions.
     pub fn query(&self) -> Query {
         Query {
             a: self.a.actor(),
@@ -149,14 +149,14 @@ impl Case {
         }
     }
 
-    /// Formats the case for the corpus.
+    /// Formats the case as TOML for the corpus.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).unwrap_or_else(|error| format!("# {error}\n{self:?}"))
     }
 }
 
 impl Part {
-    /// Returns a shape at rest at the origin.
+    /// Returns a body with a shape, at rest at the origin.
     pub fn new(shape: Model) -> Self {
         Part {
             shape,
@@ -235,6 +235,6 @@ fn default_tolerance() -> f64 {
     Settings::DEFAULT.tolerance
 }
 
-fn one() -> f64 {
+fn default_scale() -> f64 {
     1.0
 }

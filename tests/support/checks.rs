@@ -1,4 +1,4 @@
-//! The laws of every answer, checked against the referee and against the bodies.
+//! Checks every answer against the referee and against the bodies.
 
 mod questions;
 
@@ -12,19 +12,19 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Contact, Feature, Outcome, Overlap, Piece, Separation, Settings};
 
-/// A judge of answers to one query, by the referee's findings.
+/// A judge of the answers to one query, which compares them with the referee's findings.
 pub struct Judge<'a> {
     query: &'a Query,
     config: Settings,
     referee: Referee<'a>,
     finding: Finding,
     nested: bool,
-    /// The least distance at a few sampled times.
+    /// Pairs of a sampled time and the least distance then.
     samples: Vec<(f64, f64)>,
 }
 
-/// `Ok` if the law holds, otherwise the reason why not.
-pub type Law = Result<(), String>;
+/// The result of a check: `Ok`, or the reason why the answer is wrong.
+pub type CheckResult = Result<(), String>;
 
 /// Returns an error with the reason unless the condition holds; comparisons with NaN do not hold.
 #[macro_export]
@@ -38,7 +38,7 @@ macro_rules! law {
 }
 
 impl<'a> Judge<'a> {
-    /// Runs the referee on a query.
+    /// Creates the judge of a query, and runs the referee.
     pub fn new(query: &'a Query, config: &Settings) -> Self {
         let referee = Referee::with_margin(query, config.margin);
         let time = |k: u32| query.duration * f64::from(k) / 16.0;
@@ -52,7 +52,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the same judge for another tolerance, without running the referee again.
+    /// Returns the judge with another tolerance, without running the referee again.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         let config = Settings {
             tolerance,
@@ -61,12 +61,12 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
-    /// Returns the settings of the answers to judge.
+    /// Returns the settings of the answers that are judged.
     pub fn config(&self) -> Settings {
         self.config.clone()
     }
 
-    /// Returns the referee's finding.
+    /// Returns the referee's finding about the first contact.
     pub fn finding(&self) -> Finding {
         self.finding
     }
@@ -76,12 +76,12 @@ impl<'a> Judge<'a> {
         self.nested
     }
 
-    /// Checks an answer under the start policy `Report`: never late, never false, tight and resolved, with a contact as
-    /// claimed.
+    /// Checks an answer under the start policy `Report`: it is never late, never false, tight and resolved, with a
+    /// contact as claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         self.check_time(answer, 0.0)?;
         let reach = self.config.margin + answer.tolerance + self.query.rounding();
         match &answer.outcome {
@@ -96,12 +96,12 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by
-    /// `more` than this one.
+    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by `more` than this
+    /// one.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_time(&self, answer: &Answer, more: f64) -> Law {
+    pub fn check_time(&self, answer: &Answer, more: f64) -> CheckResult {
         let rounding = self.query.rounding() + more;
         law!(
             answer.tolerance >= self.config.tolerance,
@@ -110,7 +110,7 @@ impl<'a> Judge<'a> {
         let reach = self.config.margin + answer.tolerance + rounding;
         match &answer.outcome {
             Outcome::Contact { time, .. } => {
-                self.never_late(*time)?;
+                self.check_not_late(*time)?;
                 let gap = self.referee.gap(*time);
                 law!(gap <= reach, "false: the distance at {time} is {gap}");
             }
@@ -132,7 +132,7 @@ impl<'a> Judge<'a> {
                 law!(gap <= reach, "false: the distance at the start is {gap}");
             }
             Outcome::Overlapping { .. } => {}
-            Outcome::Unresolved(known) => self.never_late(known.safe_until)?,
+            Outcome::Unresolved(known) => self.check_not_late(known.safe_until)?,
             other => return Err(format!("no outcome of a first contact: {other:?}")),
         }
         Ok(())
@@ -142,7 +142,7 @@ impl<'a> Judge<'a> {
     ///
     /// # Errors
     /// If it is.
-    pub fn never_late(&self, time: f64) -> Law {
+    pub fn check_not_late(&self, time: f64) -> CheckResult {
         let in_range = (0.0..=self.query.duration).contains(&time);
         law!(in_range, "the time {time} is not within the duration");
         match self.finding {
@@ -154,8 +154,8 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
-    /// are not checked, as they need not be closed together.
-    fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
+    /// are not checked, because they need not be closed together.
+    fn is_in_solid(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let placements = Placement::pair(self.query);
         let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();
         let mesh = &[&self.query.a, &self.query.b][body].shape.mesh;
@@ -164,12 +164,12 @@ impl<'a> Judge<'a> {
             || distance_to_mesh(point, mesh, to_world) <= self.query.rounding()
     }
 
-    fn check_overlap(&self, overlap: &Overlap, bodies: &Bodies) -> Law {
+    fn check_overlap(&self, overlap: &Overlap, bodies: &Bodies) -> CheckResult {
         match overlap {
             Overlap::Pieces(contact) => {
                 let gap = self.referee.gap(0.0);
                 let both = [contact.separation.witness_a, contact.separation.witness_b];
-                let inside = || (0..2).all(|k| self.fills(k, both[k], bodies.kinds[k]));
+                let inside = || (0..2).all(|k| self.is_in_solid(k, both[k], bodies.kinds[k]));
                 law!(
                     gap <= self.query.rounding() || inside(),
                     "false: overlap at distance {gap}"
@@ -192,7 +192,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Checks witnesses, normal, bounds and features of a contact.
+/// Checks the witnesses, the normal, the bounds and the features of a contact.
 ///
 /// # Errors
 /// The one that is wrong.
@@ -202,7 +202,7 @@ pub fn check_contact(
     contact: &Contact,
     bodies: &Bodies,
     reach: f64,
-) -> Law {
+) -> CheckResult {
     let rounding = query.rounding();
     check_separation(&contact.separation, [reach, rounding])?;
     let Separation {
@@ -244,7 +244,7 @@ pub fn check_contact(
 }
 
 /// Checks the bounds, the normal and the distance of the witnesses of a separation.
-fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Law {
+fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> CheckResult {
     let Separation {
         lower,
         upper,
@@ -275,7 +275,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Law
     Ok(())
 }
 
-/// One body's side of a contact.
+/// One of the two bodies of a contact.
 struct Side<'a> {
     actor: &'a Actor,
     body: &'a Body,
@@ -301,7 +301,12 @@ impl Side<'_> {
         Ok(along.fold(f64::NEG_INFINITY, greater) + piece.radius)
     }
 
-    fn check_witness(&self, witness: DVec3, feature: Feature, [reach, rounding]: [f64; 2]) -> Law {
+    fn check_witness(
+        &self,
+        witness: DVec3,
+        feature: Feature,
+        [reach, rounding]: [f64; 2],
+    ) -> CheckResult {
         let off = distance_to_piece(witness, &self.piece()?, self.to_world);
         law!(off <= rounding, "the witness is {off} off its piece");
         let shape = &self.actor.shape;

@@ -1,9 +1,9 @@
-//! Cases that once failed, or might fail: `corpus/*.toml`.
+//! Loads the corpus: cases that once failed, or might fail, in `corpus/*.toml`.
 
 use crate::case::Case;
 use std::path::PathBuf;
 
-/// Returns every case of the corpus, by the name of its file.
+/// Returns every case of the corpus; its name is that of its file.
 ///
 /// # Panics
 /// If a file cannot be read or is not a [`Case`].

@@ -1,4 +1,4 @@
-//! Random trajectories of every kind, over the times from 0 to 1.
+//! Generates random trajectories of every kind, over the times from 0 to 1.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
@@ -8,7 +8,7 @@ use rigid_ccd::trajectory::{
     Ballistic, Carried, Chain, Curve, Joint, Pace, Poses, Spline, Steady, Timed, Turns, screw,
 };
 
-/// The kinds of trajectories.
+/// The names of the kinds of trajectories.
 pub const KINDS: [&str; 13] = [
     "motion",
     "still",
@@ -25,18 +25,18 @@ pub const KINDS: [&str; 13] = [
     "zigzag",
 ];
 
-/// Returns a random trajectory of a kind, an index of [`KINDS`], of length about `reach` and within about `reach` of
-/// the origin.
+/// Returns a random trajectory of a kind, given by its index in [`KINDS`]. Its length is about `reach`, and it stays
+/// within about `reach` of the origin.
 pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
-    of_kind(rng, KINDS[kind], reach).expect("finite numbers")
+    draw_kind(rng, KINDS[kind], reach).expect("finite numbers")
 }
 
-/// Returns whether a kind is a single motion.
+/// Returns whether trajectories of a kind are a single motion.
 pub fn is_motion(kind: usize) -> bool {
     ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
 }
 
-fn of_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+fn draw_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     Ok(match kind {
         "motion" => Box::new(motion(rng, reach)?),
         "still" => Box::new(Motion::still(pose(rng, reach)?)),
@@ -73,19 +73,22 @@ fn of_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajectory
         "Bézier curve, slerp" => {
             let count = rng.random_range(1..6);
             let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
-            Box::new(Spline::new(curve, Turns::slerp(&keys(rng))?).about(vector(rng, 0.3 * reach))?)
+            Box::new(
+                Spline::new(curve, Turns::slerp(&random_orientations(rng))?)
+                    .about(vector(rng, 0.3 * reach))?,
+            )
         }
         "B-spline, squad" => {
             let count = rng.random_range(4..9);
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
-            Box::new(Spline::new(curve, Turns::squad(&keys(rng))?))
+            Box::new(Spline::new(curve, Turns::squad(&random_orientations(rng))?))
         }
         "link" => {
             let count = rng.random_range(1..6);
             let joints: Result<_, InputError> = (0..count).map(|_| joint(rng, reach)).collect();
             let positions =
                 [(); 2].map(|()| (0..count).map(|_| rng.random_range(-1.0..1.0)).collect());
-            Box::new(Hand {
+            Box::new(LastLink {
                 chain: Chain::new(Pose::IDENTITY, joints?),
                 positions,
             })
@@ -101,7 +104,7 @@ fn of_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajectory
             let duration = rng.random_range(0.3..1.5);
             Box::new(Timed::new(thrown, -0.2..0.8, duration, pace)?)
         }
-        "smooth" => Box::new(Swing {
+        "smooth" => Box::new(Oscillation {
             place: vector(rng, reach),
             along: vector(rng, reach),
             rate: rng.random_range(0.5..20.0),
@@ -139,8 +142,8 @@ fn points(rng: &mut Pcg64, count: usize, reach: f64) -> Vec<[f64; 3]> {
     (0..count).map(|_| vector(rng, reach).to_array()).collect()
 }
 
-/// Returns orientations with rotations of less than 1 radian from one to the next.
-fn keys(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
+/// Returns random orientations at times, with rotations of less than 1 radian from one to the next.
+fn random_orientations(rng: &mut Pcg64) -> Vec<(f64, [f64; 4])> {
     let count = rng.random_range(2..6);
     let mut at = DQuat::from_scaled_axis(vector(rng, 3.0));
     let key = |k| {
@@ -160,21 +163,21 @@ fn joint(rng: &mut Pcg64, reach: f64) -> Result<Joint, InputError> {
     }
 }
 
-/// The last link of a chain, which it owns.
-struct Hand {
+/// A trajectory of the last link of a kinematic chain, which it owns.
+struct LastLink {
     chain: Chain,
     positions: [Vec<f64>; 2],
 }
 
-impl Trajectory for Hand {
+impl Trajectory for LastLink {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = &self.positions;
         (self.chain.link(first.len(), first, last, 1.0)?).stretch(from, to)
     }
 }
 
-/// A user-defined trajectory that oscillates with a sine of the time, without known accelerations.
-struct Swing {
+/// A user-defined trajectory that oscillates as a sine of the time, and whose accelerations are not known.
+struct Oscillation {
     place: DVec3,
     along: DVec3,
     rate: f64,
@@ -182,7 +185,7 @@ struct Swing {
     turn: f64,
 }
 
-impl Smooth for Swing {
+impl Smooth for Oscillation {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
         let (sin, cos) = (self.rate * time).sin_cos();
         let turned = DQuat::from_axis_angle(self.axis, self.turn * sin);

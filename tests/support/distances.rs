@@ -1,4 +1,4 @@
-//! Distances of points from pieces, from meshes, and from their features.
+//! Computes the distances from points to pieces, to meshes, and to their features.
 
 use crate::models::Mesh;
 use crate::referee::{point_segment, point_triangle};
@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Origin, Piece, Polytope};
 
-/// Returns the distance of a point from a piece; 0 inside.
+/// Returns the distance from a point to a piece; 0 inside.
 pub(crate) fn distance_to_piece(
     p: DVec3,
     piece: &Piece<'_>,
@@ -42,7 +42,7 @@ pub(crate) fn distance_to_piece(
     greater(0.0, core - piece.radius)
 }
 
-/// Returns the distance of a point from the surface.
+/// Returns the distance from a point to the surface of a mesh.
 pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, to_world: impl Fn(DVec3) -> DVec3) -> f64 {
     let off = |k| {
         let corners = mesh.triangle(k).map(&to_world);
@@ -51,7 +51,7 @@ pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, to_world: impl Fn(DVec3) -
     (0..mesh.faces.len()).map(off).fold(f64::INFINITY, lesser)
 }
 
-/// Returns the distance of a point from a feature of a mesh.
+/// Returns the distance from a point to a feature of a mesh.
 ///
 /// # Errors
 /// The mesh has no such feature.
@@ -114,7 +114,7 @@ pub(crate) fn distance_to_part_feature(
     }
 }
 
-/// Returns the corners of the face with this number in a part.
+/// Returns the corners of the face of a part with the number `face`.
 fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
     let mut facets = part.facets.iter();
     let whole = facets.find(|facet| facet.origin == Origin::Face(face));

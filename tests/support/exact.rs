@@ -1,4 +1,4 @@
-//! Locates points relative to closed meshes, without rounding, to judge decompositions.
+//! Locates points relative to closed meshes without rounding, to judge decompositions.
 //!
 //! It shares no code with the code under test.
 
@@ -11,23 +11,23 @@ use ccd_core::order::{greater, lesser};
 pub use samples::{Effort, samples};
 
 use crate::models::Mesh;
-use blend::Spot;
+use blend::LazyPoint;
 use ccd_core::glam::{DVec2, DVec3};
-use predicates::{VIEWS, holds, side, turn};
+use predicates::{VIEWS, side, triangle_contains, turn};
 use std::cmp::Ordering;
 
 /// The location of a point relative to a closed mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// The winding number is zero.
+    /// The point is outside: its winding number is zero.
     Outside,
-    /// The point is on a face.
+    /// The point is on a face of the mesh.
     Surface,
-    /// The winding number; negative for a mesh that is inside out.
+    /// The point is inside, with a winding number that is negative for a mesh that is inside out.
     Inside(i32),
 }
 
-/// A closed mesh, prepared for locating points.
+/// A closed mesh with a search structure for locating points.
 pub struct Solid<'a> {
     mesh: &'a Mesh,
     columns: Columns,
@@ -36,18 +36,18 @@ pub struct Solid<'a> {
 /// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle that is
 /// counter-clockwise seen from above.
 pub fn side_of(triangle: [DVec3; 3], point: &Blend) -> Ordering {
-    side(triangle, &Spot::new(point))
+    side(triangle, &LazyPoint::new(point))
 }
 
 /// Returns, exactly, whether a closed triangle contains a point.
 pub fn triangle_holds(triangle: [DVec3; 3], point: &Blend) -> bool {
-    holds(triangle, &Spot::new(point))
+    triangle_contains(triangle, &LazyPoint::new(point))
 }
 
 /// Returns, exactly, whether a triangle has no area.
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     let point = Blend::mean([c]);
-    let spot = Spot::new(&point);
+    let spot = LazyPoint::new(&point);
     let in_line = |&view: &[usize; 2]| turn(view, [a, b], &spot) == Ordering::Equal;
     VIEWS.iter().all(in_line)
 }
@@ -59,7 +59,9 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
     VIEWS.iter().any(|&view| {
         let mut turns = (0..corners.len()).flat_map(|k| {
             let edge = [corners[k], corners[(k + 1) % corners.len()]];
-            spots.iter().map(move |p| turn(view, edge, &Spot::new(p)))
+            spots
+                .iter()
+                .map(move |p| turn(view, edge, &LazyPoint::new(p)))
         });
         let first = turns.find(|&turn| turn != Ordering::Equal);
         first.is_some_and(|first| !turns.any(|turn| turn == first.reverse()))
@@ -67,7 +69,7 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
 }
 
 impl<'a> Solid<'a> {
-    /// Prepares a closed mesh: every edge has the same number of faces in either direction.
+    /// Prepares a closed mesh. Every edge must have the same number of faces in either direction.
     pub fn new(mesh: &'a Mesh) -> Self {
         Solid {
             mesh,
@@ -75,12 +77,12 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Locates a point by the faces that an upward ray from it crosses.
+    /// Locates a point exactly, by the faces that an upward ray from it crosses.
     ///
     /// The ray is moved sideways by (ε, ε²), with ε smaller than any number. It therefore meets no
     /// edge and no upright face, and there are no special cases.
     pub fn locate(&self, point: &Blend) -> Location {
-        let p = Spot::new(point);
+        let p = LazyPoint::new(point);
         let mut windings = 0;
         for &face in self.columns.faces_over(&p) {
             let triangle = self.mesh.triangle(face as usize);
@@ -88,7 +90,7 @@ impl<'a> Solid<'a> {
             if top < p.near.z - p.rounding() || apart_from_above(triangle, &p) {
                 continue;
             }
-            if holds(triangle, &p) {
+            if triangle_contains(triangle, &p) {
                 return Location::Surface;
             }
             windings += crossing(triangle, &p);
@@ -101,7 +103,7 @@ impl<'a> Solid<'a> {
 }
 
 /// Returns true if a point is certainly outside a triangle in the view from above.
-fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
+fn apart_from_above([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
             lesser(lesser(a[axis], b[axis]), c[axis]),
@@ -111,15 +113,15 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     })
 }
 
-/// Returns 1 if the displaced upward ray from a point leaves through a triangle, −1 if it enters, else 0.
-/// 0. The triangle must not contain the point.
-fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
+/// Returns 1 if the displaced upward ray from a point leaves through a triangle, −1 if it enters, and 0 if it misses.
+/// The triangle must not contain the point.
+fn crossing(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> i32 {
     let [a, b, c] = triangle;
     let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(VIEWS[0], edge, p) {
         // The shift by (ε, ε²) changes (b − a) × (p − a) by ε (a − b).y + ε² (b − a).x.
         Ordering::Equal => {
             let [a, b] = edge;
-            ordered(a.y, b.y).then(ordered(b.x, a.x))
+            compare_finite(a.y, b.y).then(compare_finite(b.x, a.x))
         }
         turn => turn,
     });
@@ -134,12 +136,12 @@ fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
     }
 }
 
-/// Returns the order of two finite numbers.
-fn ordered(x: f64, y: f64) -> Ordering {
+/// Compares two finite numbers.
+fn compare_finite(x: f64, y: f64) -> Ordering {
     x.partial_cmp(&y).expect("finite coordinates")
 }
 
-/// The faces of a mesh, by the cells of a grid in the xy-plane that they cover.
+/// A grid in the xy-plane, with the faces of a mesh over each of its cells.
 struct Columns {
     lo: DVec2,
     cell: DVec2,
@@ -184,7 +186,7 @@ impl Columns {
     }
 
     /// Returns a superset of the faces that a point could be over, under or on.
-    fn faces_over(&self, p: &Spot<'_>) -> &[u32] {
+    fn faces_over(&self, p: &LazyPoint<'_>) -> &[u32] {
         let [x, y] = self.cell_of(p.near.truncate());
         &self.faces[x * self.count + y]
     }

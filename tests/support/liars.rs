@@ -1,9 +1,9 @@
-//! Oracles that break their contract in every way, none of which may make an answer late.
+//! Oracles that break their contract in every way. None of them may make an answer late.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
-/// A way to lie.
+/// A way in which an oracle breaks its contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lie {
     /// Returns any axis and any points.
@@ -14,16 +14,16 @@ pub enum Lie {
     Nothing,
     /// Returns an infinite axis.
     Infinite,
-    /// Returns points that the pieces lack.
+    /// Returns indices of points that the pieces do not have.
     OutOfRange,
     /// Returns the axis from B to A.
     Backwards,
-    /// Always gives up.
+    /// Always reports that it gives up.
     GivesUp,
 }
 
 impl Lie {
-    /// Every way to lie.
+    /// Every way to break the contract.
     pub const ALL: [Lie; 7] = [
         Lie::Random,
         Lie::NanAxis,
@@ -35,7 +35,7 @@ impl Lie {
     ];
 }
 
-/// An oracle that lies in one way, reproducibly.
+/// An oracle that breaks its contract in one way, reproducibly.
 #[derive(Clone, Debug)]
 pub struct Liar {
     lie: Lie,
@@ -43,12 +43,12 @@ pub struct Liar {
 }
 
 impl Liar {
-    /// Returns an oracle that lies in this way.
+    /// Creates an oracle that breaks its contract in a given way.
     pub fn new(lie: Lie) -> Self {
         Liar { lie, state: 1 }
     }
 
-    /// Returns a number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP
+    /// Returns a pseudo-random number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP
     /// 3.3.4]`.
     fn number(&mut self) -> f64 {
         self.state = self

@@ -1,4 +1,5 @@
-//! Mixed queries: bodies from balls to knots, motions from none to many turns, each determined by a number.
+//! Queries of many kinds: bodies from balls to knots, motions from none to many turns. Each query is determined by a
+//! number.
 
 use crate::models::{
     Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
@@ -8,24 +9,24 @@ use ccd_core::{Body, Motion, Moving, Pose, Settings, StartPolicy};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The bodies.
+/// The bodies that the queries share.
 pub struct Mixed {
     bodies: Vec<Body>,
 }
 
-/// A query that refers to its bodies by index.
+/// A query that refers to shared bodies by index.
 #[derive(Clone, Debug)]
 pub struct MixedQuery {
     /// The indices of bodies A and B.
     pub bodies: [usize; 2],
-    /// Their motions.
+    /// The motions of bodies A and B.
     pub motions: [Motion; 2],
-    /// The settings.
+    /// The settings of the query.
     pub config: Settings,
 }
 
 impl Mixed {
-    /// Makes the bodies.
+    /// Creates the bodies that the queries share.
     pub fn new() -> Self {
         let cube = || cuboid(DVec3::splat(0.5));
         let shapes = vec![
@@ -48,7 +49,7 @@ impl Mixed {
         }
     }
 
-    /// Returns the query with a number.
+    /// Returns the query that `number` determines.
     pub fn query(&self, number: u64) -> MixedQuery {
         let mut rng = Pcg64::seed_from_u64(number);
         let mut body = || rng.random_range(0..self.bodies.len());
@@ -71,8 +72,8 @@ impl Mixed {
         }
     }
 
-    /// Returns a body of a query and its motion.
-    pub fn moving(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
+    /// Returns body A (0) or B (1) of a query with its motion.
+    pub fn moving_body(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
         (&self.bodies[query.bodies[which]], query.motions[which]).into()
     }
 }

@@ -1,4 +1,4 @@
-//! Generated shapes: triangle meshes, and their convex parts if known.
+//! Generates shapes: triangle meshes, and their convex parts if known.
 
 mod boxes;
 mod catalog;
@@ -29,48 +29,48 @@ use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
 /// A triangle mesh, the input of the referee and of the engine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// The vertices in the body's own frame.
+    /// The vertices in the body's frame.
     pub vertices: Vec<DVec3>,
-    /// The faces, counter-clockwise seen from outside, if there is an outside.
+    /// The faces, counter-clockwise seen from outside if there is an outside.
     pub faces: Vec<[u32; 3]>,
 }
 
 /// A shape in every form that the engine accepts.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// The surface.
+    /// The triangle mesh of the shape's surface.
     pub mesh: Mesh,
-    /// Convex parts whose union has the mesh as its surface; empty if unknown.
+    /// Convex parts whose union has the mesh as its surface; empty if none are known.
     pub parts: Vec<Polytope>,
     /// Whether the mesh bounds a solid.
     pub volume: Volume,
 }
 
-/// The kind of pieces of a body.
+/// The kind of pieces that a body is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// One piece per triangle.
+    /// Makes one piece of each triangle.
     Triangles,
-    /// One piece per convex part.
+    /// Makes one piece of each known convex part.
     Parts,
-    /// One piece per convex patch of the surface.
+    /// Makes one piece of each convex patch of the surface.
     Patches,
-    /// One piece, the hull.
+    /// Makes one piece, the convex hull.
     Hull,
 }
 
 impl Kind {
-    /// All kinds.
+    /// All kinds of pieces.
     pub const ALL: [Kind; 4] = [Kind::Triangles, Kind::Parts, Kind::Patches, Kind::Hull];
 
-    /// Returns true if pieces may extend into the inside of the mesh.
+    /// Returns true if pieces of this kind may extend into the inside of the mesh.
     pub fn is_filled(self) -> bool {
         self != Kind::Triangles
     }
 }
 
 impl Shape {
-    /// Returns a closed mesh without known parts.
+    /// Creates the solid of a closed mesh without known parts.
     pub fn closed(mesh: Mesh) -> Self {
         Shape {
             mesh,
@@ -79,7 +79,7 @@ impl Shape {
         }
     }
 
-    /// Returns a mesh without an inside.
+    /// Creates the shape of a mesh without an inside.
     pub fn open(mesh: Mesh) -> Self {
         Shape {
             volume: Volume::Surface,
@@ -87,7 +87,7 @@ impl Shape {
         }
     }
 
-    /// Returns a closed convex mesh, which is its only part.
+    /// Creates the solid of a closed convex mesh, which is its only part.
     pub fn convex(mesh: Mesh) -> Self {
         let facets = mesh.faces.iter().enumerate();
         let part = Polytope {
@@ -106,7 +106,7 @@ impl Shape {
         }
     }
 
-    /// Returns the union of shapes, as a surface; vertices and faces are numbered consecutively.
+    /// Returns the union of shapes as one surface. Vertices and faces are numbered consecutively.
     pub fn union(shapes: impl IntoIterator<Item = Shape>) -> Self {
         let mut out = Shape::open(Mesh {
             vertices: Vec::new(),
@@ -136,26 +136,26 @@ impl Shape {
         out
     }
 
-    /// Rotates, then translates, within the body's frame.
+    /// Rotates the shape, then translates it, within the body's frame.
     pub fn placed(mut self, rotation: DQuat, offset: DVec3) -> Self {
-        self.each_point(|p| rotation * p + offset);
+        self.map_points(|p| rotation * p + offset);
         self
     }
 
-    /// Translates within the body's frame.
+    /// Translates the shape within the body's frame.
     pub fn moved(self, offset: DVec3) -> Self {
         self.placed(DQuat::IDENTITY, offset)
     }
 
     /// Multiplies every coordinate by a positive factor.
     pub fn scaled(mut self, factor: f64) -> Self {
-        self.each_point(|p| factor * p);
+        self.map_points(|p| factor * p);
         self
     }
 
-    /// Multiplies each coordinate by a positive factor of its own.
+    /// Multiplies each coordinate by a positive factor for its axis.
     pub fn stretched(mut self, factors: DVec3) -> Self {
-        self.each_point(|p| factors * p);
+        self.map_points(|p| factors * p);
         self
     }
 
@@ -169,7 +169,7 @@ impl Shape {
         matches!(&self.parts[..], [part] if part.radius == 0.0) && self.is_solid()
     }
 
-    /// Returns the kinds of pieces of which the shape can be built.
+    /// Returns the kinds of pieces that the shape can be made of.
     pub fn kinds(&self) -> impl Iterator<Item = Kind> {
         Kind::ALL.into_iter().filter(|kind| match kind {
             Kind::Triangles => !self.mesh.faces.is_empty(),
@@ -179,12 +179,12 @@ impl Shape {
         })
     }
 
-    /// Returns true if the shape can be built of the given pieces.
+    /// Returns true if the shape can be made of a kind of pieces.
     pub fn can_be(&self, kind: Kind) -> bool {
         self.kinds().any(|known| known == kind)
     }
 
-    /// Builds the engine's body. Parts are filled, so only the other kinds can be hollow.
+    /// Builds the engine's body of the shape. Parts are filled, so only the other kinds can be hollow.
     ///
     /// # Panics
     /// If the shape cannot be built of these pieces.
@@ -207,7 +207,7 @@ impl Shape {
         model.body().expect("a good body")
     }
 
-    fn each_point<'a>(&'a mut self, map: impl Fn(DVec3) -> DVec3) {
+    fn map_points<'a>(&'a mut self, map: impl Fn(DVec3) -> DVec3) {
         let of_part = |part: &'a mut Polytope| {
             let corners = part.faces.iter_mut().flat_map(|face| &mut face.corners);
             part.points.iter_mut().chain(corners)
@@ -220,7 +220,7 @@ impl Shape {
 }
 
 impl Mesh {
-    /// Appends another mesh; vertices and faces are numbered consecutively.
+    /// Appends another mesh. Vertices and faces are numbered consecutively.
     pub fn append(&mut self, other: &Mesh) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
@@ -228,7 +228,7 @@ impl Mesh {
             .extend(other.faces.iter().map(|f| f.map(|v| v + base)));
     }
 
-    /// Returns the corners of a face.
+    /// Returns the corner points of a face.
     pub fn triangle(&self, face: usize) -> [DVec3; 3] {
         self.faces[face].map(|v| self.vertices[v as usize])
     }
@@ -241,7 +241,7 @@ impl Mesh {
             .fold(0.0, greater)
     }
 
-    /// Returns the enclosed volume, negative if faces are oriented inward.
+    /// Returns the enclosed volume, which is negative if faces are oriented inward.
     pub fn signed_volume(&self) -> f64 {
         let of_face = |face| {
             let [a, b, c] = self.triangle(face);
@@ -250,13 +250,13 @@ impl Mesh {
         (0..self.faces.len()).map(of_face).sum()
     }
 
-    /// Returns the same surface with every face reversed.
+    /// Returns the mesh with every face reversed.
     pub fn flipped(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
         self
     }
 
-    /// Converts the mesh to the form for decomposition.
+    /// Converts the mesh to the type that `ccd_decomp` reads.
     ///
     /// # Panics
     /// If it has no faces, or a number that is not finite.
@@ -274,7 +274,7 @@ fn core_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
     Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 
-/// Returns the faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps around. Faces are
+/// Returns the faces of a grid of `rows × columns` vertices, row by row. A closed direction wraps around. Faces are
 /// counter-clockwise seen from where rows run to the right and columns upwards.
 fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
     let vertex =
@@ -294,7 +294,7 @@ fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
     faces
 }
 
-/// One direction of a grid, by its number of vertices.
+/// One direction of a grid, with its number of vertices.
 #[derive(Clone, Copy)]
 enum Line {
     Open(usize),

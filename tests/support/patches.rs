@@ -1,7 +1,7 @@
-//! The laws of a convex patch of a closed surface, checked exactly: its hull is in the solid, its faces are on its
-//! hull, and its names are right.
+//! Checks convex patches of a closed surface exactly: the hull is in the solid, the faces are on the hull, and the
+//! names are right.
 
-use crate::checks::Law;
+use crate::checks::CheckResult;
 use crate::exact::{
     Blend, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
     triangle_holds,
@@ -15,9 +15,9 @@ use std::collections::HashMap;
 /// A convex patch: faces of a mesh, and the polytope that represents them.
 #[derive(Clone, Debug)]
 pub struct Claim<'a> {
-    /// The faces of the mesh, by number.
+    /// The numbers of the mesh faces in the patch.
     pub faces: &'a [u32],
-    /// The hull of the faces.
+    /// The polytope that is to be the hull of the faces.
     pub polytope: &'a Polytope,
 }
 
@@ -25,7 +25,7 @@ pub struct Claim<'a> {
 ///
 /// # Errors
 /// The face that is not.
-pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> Law {
+pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> CheckResult {
     let mut count = vec![0; mesh.faces.len()];
     for &face in claims.iter().flat_map(|claim| claim.faces) {
         *count
@@ -38,8 +38,7 @@ pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> Law {
     }
 }
 
-/// Checks that sampled points of a patch's hull are inside the solid or on its surface. Returns
-/// their number.
+/// Checks that sampled points of a patch's hull are inside the solid or on its surface. Returns the number of points.
 ///
 /// # Errors
 /// The point that is outside.
@@ -63,13 +62,13 @@ pub fn check_inside(
 ///
 /// # Errors
 /// The one that is not.
-pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> Law {
+pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     check_points(mesh, claim.polytope)?;
     check_hull(claim.polytope)?;
     check_names(mesh, claim)
 }
 
-fn check_points(mesh: &Mesh, polytope: &Polytope) -> Law {
+fn check_points(mesh: &Mesh, polytope: &Polytope) -> CheckResult {
     if polytope.points.len() != polytope.vertex_ids.len() || polytope.radius != 0.0 {
         return Err("not as many numbers as points, or a radius".into());
     }
@@ -85,7 +84,7 @@ fn check_points(mesh: &Mesh, polytope: &Polytope) -> Law {
 }
 
 /// Checks that facets are convex polygons with every point below them, and that together they are closed.
-fn check_hull(polytope: &Polytope) -> Law {
+fn check_hull(polytope: &Polytope) -> CheckResult {
     let points = &polytope.points;
     let spots: Vec<Blend> = points.iter().map(|&p| Blend::mean([p])).collect();
     let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
@@ -115,7 +114,7 @@ fn check_hull(polytope: &Polytope) -> Law {
     }
 }
 
-/// Returns triangles that make up a polygon, without degenerate ones.
+/// Returns triangles that make up a convex polygon, without degenerate ones.
 fn triangles<'a>(
     polytope: &'a Polytope,
     corners: &'a [u32],
@@ -127,21 +126,24 @@ fn triangles<'a>(
 
 /// Checks that every face of the patch is named once: by a facet that equals or contains it, with the outward
 /// orientation.
-fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
+fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     let polytope = claim.polytope;
     let (mut named, inside_out) = (Vec::new(), mesh.signed_volume() < 0.0);
     for facet in &polytope.facets {
         if let Origin::Face(id) = facet.origin {
             named.push(id);
             let corners = facet.corners.iter().map(|&c| polytope.points[c as usize]);
-            if !is_loop(&corners.collect::<Vec<_>>(), outward(mesh, id, inside_out)?) {
+            if !is_loop(
+                &corners.collect::<Vec<_>>(),
+                outward_corners(mesh, id, inside_out)?,
+            ) {
                 return Err(format!("{facet:?} is not face {id}"));
             }
         }
     }
     for it in &polytope.faces {
         named.push(it.id);
-        if !is_loop(&it.corners, outward(mesh, it.id, inside_out)?) {
+        if !is_loop(&it.corners, outward_corners(mesh, it.id, inside_out)?) {
             return Err(format!("{it:?} is not face {}", it.id));
         }
         let holds = |corners: &[u32]| it.corners.iter().all(|&p| lies_on(polytope, corners, p));
@@ -165,7 +167,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
 }
 
 /// Checks that every point of a merged facet is on one of its faces.
-fn check_merged(polytope: &Polytope) -> Law {
+fn check_merged(polytope: &Polytope) -> CheckResult {
     let merged = |facet: &&Facet| facet.origin == Origin::Faces;
     for facet in polytope.facets.iter().filter(merged) {
         let corners: Vec<DVec3> = facet
@@ -190,7 +192,7 @@ fn check_merged(polytope: &Polytope) -> Law {
 }
 
 /// Returns the corners of a face, counter-clockwise seen from outside.
-fn outward(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3], String> {
+fn outward_corners(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3], String> {
     if id as usize >= mesh.faces.len() {
         return Err(format!("there is no face {id}"));
     }
@@ -198,14 +200,14 @@ fn outward(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3], String>
     Ok(if inside_out { [a, c, b] } else { [a, b, c] })
 }
 
-/// Returns true if a loop is that of a triangle, with any start.
+/// Returns true if a loop of vertices is that of a triangle, with any start.
 fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()
         .any(|it| corners == it)
 }
 
-/// Returns true if a convex polygon contains a point.
+/// Returns true if a convex polygon of the polytope contains a point.
 fn lies_on(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
     let spot = Blend::mean([p]);
     triangles(polytope, corners).any(|triangle| triangle_holds(triangle, &spot))

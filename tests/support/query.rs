@@ -1,4 +1,4 @@
-//! A query in a form for both the engine and the referee.
+//! Queries in a form for both the engine and the referee.
 
 use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
@@ -10,33 +10,33 @@ use std::rc::Rc;
 /// A shape and its motion.
 #[derive(Clone, Debug)]
 pub struct Actor {
-    /// The shape.
+    /// The shape in the body's frame.
     pub shape: Shape,
-    /// The motion.
+    /// The motion in the world.
     pub motion: Motion,
 }
 
-/// Two actors over a duration.
+/// Two shapes with motions, over a duration.
 #[derive(Clone, Debug)]
 pub struct Query {
-    /// Body A.
+    /// The shape and motion of body A.
     pub a: Actor,
-    /// Body B.
+    /// The shape and motion of body B.
     pub b: Actor,
     /// The end of the time interval, which begins at 0.
     pub duration: f64,
 }
 
-/// The engine's bodies of a query.
+/// The engine's bodies for a query.
 pub struct Bodies {
     a: Rc<Body>,
     b: Rc<Body>,
-    /// The kinds of pieces of the bodies.
+    /// The kinds of pieces of bodies A and B.
     pub kinds: [Kind; 2],
 }
 
 impl Query {
-    /// Returns the query over the unit of time.
+    /// Returns the query of two actors over a duration of 1.
     pub fn new(a: Actor, b: Actor) -> Self {
         let duration = 1.0;
         Query { a, b, duration }
@@ -51,7 +51,7 @@ impl Query {
         }
     }
 
-    /// Returns the query in another frame.
+    /// Returns the query with all motions seen in another frame.
     pub fn seen_from(&self, frame: &Pose) -> Query {
         Query {
             a: self.a.seen_from(frame),
@@ -60,7 +60,7 @@ impl Query {
         }
     }
 
-    /// Returns the query in reverse.
+    /// Returns the query with time reversed.
     pub fn reversed(&self) -> Query {
         Query {
             a: self.a.reversed(self.duration),
@@ -69,13 +69,13 @@ impl Query {
         }
     }
 
-    /// Returns a bound on the rounding of any distance in this scene.
+    /// Returns a bound on the rounding error of any distance in the query.
     pub fn rounding(&self) -> f64 {
         rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
     }
 
-    /// Returns combinations of kinds of pieces: each kind with itself and with triangles, and among the other kinds
-    /// those with the fewest pieces.
+    /// Returns the bodies for combinations of kinds of pieces: each kind with itself and with triangles, and among
+    /// the other kinds those with the fewest pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
@@ -92,12 +92,12 @@ impl Query {
         all_a.iter().flat_map(with_a).collect()
     }
 
-    /// Returns the bodies built of triangles.
+    /// Returns the bodies made of triangles.
     pub fn triangles(&self) -> Bodies {
         self.bodies([Kind::Triangles; 2])
     }
 
-    /// Returns the bodies built of given kinds of pieces.
+    /// Returns the bodies made of given kinds of pieces.
     pub fn bodies(&self, kinds: [Kind; 2]) -> Bodies {
         Bodies {
             a: Rc::new(self.a.shape.body(kinds[0])),
@@ -106,7 +106,7 @@ impl Query {
         }
     }
 
-    /// Builds the engine's query.
+    /// Builds the engine's query of given bodies.
     ///
     /// # Panics
     /// If the engine refuses it.
@@ -118,39 +118,39 @@ impl Query {
 }
 
 impl Bodies {
-    /// Returns the number of pairs of pieces.
+    /// Returns the number of pairs of pieces, one of each body.
     pub fn pairs(&self) -> usize {
         self.a.pieces().len() * self.b.pieces().len()
     }
 
-    /// Returns body A.
+    /// Returns the engine's body A.
     pub fn a(&self) -> &Body {
         &self.a
     }
 
-    /// Returns body B.
+    /// Returns the engine's body B.
     pub fn b(&self) -> &Body {
         &self.b
     }
 }
 
 impl Actor {
-    /// Returns a shape at rest.
+    /// Returns a shape at rest at a position.
     pub fn still(shape: Shape, at: DVec3) -> Self {
         Actor::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
     }
 
-    /// Returns a shape that moves without rotation.
+    /// Returns a shape that moves from a position without rotation.
     pub fn straight(shape: Shape, at: DVec3, velocity: DVec3) -> Self {
         Actor::moving(shape, at, velocity, DVec3::ZERO)
     }
 
-    /// Returns a shape that rotates about its place.
+    /// Returns a shape that rotates about its position.
     pub fn turning(shape: Shape, at: DVec3, spin: DVec3) -> Self {
         Actor::moving(shape, at, DVec3::ZERO, spin)
     }
 
-    /// Returns a shape that starts unrotated at a position, with velocities.
+    /// Returns a shape that starts unrotated at a position, with a velocity and an angular velocity.
     ///
     /// # Panics
     /// If a number is not finite.
@@ -162,7 +162,8 @@ impl Actor {
         }
     }
 
-    /// Returns an upper bound on the coordinates of the shape's points, with the angle of rotation as a factor.
+    /// Returns a length from which rounding is bounded: an upper bound on the coordinates of the shape's points, in
+    /// which the radius counts once more for every radian of rotation.
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);
@@ -181,7 +182,7 @@ impl Actor {
         motion.start().translation().length() + travel + turn * (radius + radii)
     }
 
-    /// Returns the shape's body for every kind of pieces.
+    /// Returns the engine's body of the shape for every kind of pieces.
     fn bodies(&self) -> Vec<(Kind, Rc<Body>)> {
         let built = |kind| (kind, Rc::new(self.shape.body(kind)));
         self.shape.kinds().map(built).collect()

@@ -1,4 +1,5 @@
-//! All questions except the first contact, over every backend and kind of piece, and for user-defined trajectories.
+//! Asks all questions except the first contact, over every backend and kind of piece, and for user-defined
+//! trajectories.
 
 use crate::backends::Oracle;
 use crate::models::Kind;
@@ -10,13 +11,13 @@ use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settin
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
-/// A motion as a user-defined trajectory: its tangents, without accelerations.
+/// A motion as a user-defined trajectory, with its tangents and without accelerations.
 #[derive(Clone, Copy, Debug)]
-pub struct Own(pub Motion);
+pub struct UserTrajectory(pub Motion);
 
-impl Smooth for Own {
+impl Smooth for UserTrajectory {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
-        let Own(motion) = self;
+        let UserTrajectory(motion) = self;
         let (velocity, spin) = (motion.velocity(), motion.spin());
         Motion::about(motion.pose(time), velocity, spin, motion.centre())
     }
@@ -26,45 +27,45 @@ impl Smooth for Own {
     }
 }
 
-/// The backend and the pieces of answers, to print if an assertion fails.
+/// The oracle and the pieces of an answer. It is printed if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OracleSetup {
-    /// The oracle.
+    /// The distance oracle that gave the answer.
     pub oracle: Oracle,
-    /// The kinds of pieces of the bodies.
+    /// The kinds of pieces of bodies A and B.
     pub kinds: [Kind; 2],
 }
 
-/// The answers to every question about motions.
+/// The answers to every question about two motions.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
-    /// Whether the bodies touch at all.
+    /// The answer to whether the bodies touch at all.
     pub any: Answer,
-    /// The least distance.
+    /// The answer about the least distance.
     pub closest: Answer,
-    /// A required distance, and whether the bodies keep it.
+    /// A required distance, and the answer to whether the bodies keep it.
     pub cleared: (f64, Answer),
 }
 
 /// The answers to every question about the same motions, given as user-defined trajectories.
 #[derive(Clone, Copy, Debug)]
 pub struct AnswersAlong {
-    /// The first contact.
+    /// The answer about the first contact.
     pub first: Answer,
-    /// Whether the bodies touch at all.
+    /// The answer to whether the bodies touch at all.
     pub any: Answer,
-    /// The least distance.
+    /// The answer about the least distance.
     pub closest: Answer,
-    /// A required distance, and whether the bodies keep it.
+    /// A required distance, and the answer to whether the bodies keep it.
     pub cleared: (f64, Answer),
-    /// The greatest distance.
+    /// The answer about the greatest distance.
     pub greatest: Answer,
-    /// The first and the last contact.
+    /// The answer about the first and the last contact.
     pub interval: Answer,
 }
 
 impl Oracle {
-    /// All oracles.
+    /// All distance oracles.
     pub const ALL: [Oracle; 4] = [
         Oracle::ClosedForm,
         Oracle::Gjk,
@@ -81,10 +82,10 @@ pub fn for_each_answers(
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
-            Oracle::ClosedForm => ask(query, bodies, config, ClosedForm::default()),
-            Oracle::Gjk => ask(query, bodies, config, Gjk),
-            Oracle::Direct => ask(query, bodies, config, Direct::default()),
-            Oracle::Vmarch => ask(query, bodies, config, Vmarch::default().or_else(Gjk)),
+            Oracle::ClosedForm => answers_of(query, bodies, config, ClosedForm::default()),
+            Oracle::Gjk => answers_of(query, bodies, config, Gjk),
+            Oracle::Direct => answers_of(query, bodies, config, Direct::default()),
+            Oracle::Vmarch => answers_of(query, bodies, config, Vmarch::default().or_else(Gjk)),
         };
         check(bodies, asked, answers);
     });
@@ -98,10 +99,12 @@ pub fn for_each_answers_along(
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
-            Oracle::ClosedForm => ask_along(query, bodies, config, ClosedForm::default()),
-            Oracle::Gjk => ask_along(query, bodies, config, Gjk),
-            Oracle::Direct => ask_along(query, bodies, config, Direct::default()),
-            Oracle::Vmarch => ask_along(query, bodies, config, Vmarch::default().or_else(Gjk)),
+            Oracle::ClosedForm => answers_along_of(query, bodies, config, ClosedForm::default()),
+            Oracle::Gjk => answers_along_of(query, bodies, config, Gjk),
+            Oracle::Direct => answers_along_of(query, bodies, config, Direct::default()),
+            Oracle::Vmarch => {
+                answers_along_of(query, bodies, config, Vmarch::default().or_else(Gjk))
+            }
         };
         check(bodies, asked, answers);
     });
@@ -120,7 +123,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
 }
 
 /// Returns a required distance below, at or above the least distance, and the settings that require it.
-fn beside(closest: &Answer, config: &Settings) -> (f64, Settings) {
+fn required_near(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // A pseudo-random choice.
     let required = match closest.stats.iterations % 4 {
@@ -137,7 +140,7 @@ fn beside(closest: &Answer, config: &Settings) -> (f64, Settings) {
     (clearance.unwrap_or(1.0), keeping)
 }
 
-fn ask<O: DistanceOracle>(
+fn answers_of<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
     config: &Settings,
@@ -149,7 +152,7 @@ fn ask<O: DistanceOracle>(
     let closest = schedule
         .closest_approach(&problem, &mut oracle)
         .expect(well_posed);
-    let (required, keeping) = beside(&closest, config);
+    let (required, keeping) = required_near(&closest, config);
     let problem = query.problem(bodies, &keeping);
     Answers {
         any: schedule
@@ -165,20 +168,23 @@ fn ask<O: DistanceOracle>(
     }
 }
 
-fn ask_along<O: DistanceOracle>(
+fn answers_along_of<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
     config: &Settings,
     mut oracle: O,
 ) -> AnswersAlong {
-    let (a, b) = (Own(query.a.motion), Own(query.b.motion));
+    let (a, b) = (
+        UserTrajectory(query.a.motion),
+        UserTrajectory(query.b.motion),
+    );
     let (a, b) = ((bodies.a(), &a), (bodies.b(), &b));
     let along = ccd_core::Query::new(a, b, query.duration, config).expect("a well-posed query");
     let mut best_first = BestFirst::<O>::default();
     let mut depth_first = DepthFirst::<O>::default();
     let well_posed = "motions within range";
     let closest = (depth_first.closest_approach(&along, &mut oracle)).expect(well_posed);
-    let (required, keeping) = beside(&closest, config);
+    let (required, keeping) = required_near(&closest, config);
     let keeping = ccd_core::Query::new(a, b, query.duration, &keeping).expect("a well-posed query");
     let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
     // The schedule samples many times: each step lasts until the bodies have moved by about their distance,

@@ -1,4 +1,4 @@
-//! An independent judge of the first contact of two moving meshes, slow and simple.
+//! An independent judge of the first contact of two moving meshes, which is slow and simple.
 //!
 //! It shares no code with the engine. Poses come from the formula of the motion, distances from all
 //! pairs of vertices, edges and faces, times from undirected conservative advancement.
@@ -17,31 +17,31 @@ use crate::tolerance::{CLOSE, KEPT};
 use ccd_core::glam::DVec3;
 use triangles::PosedMesh;
 
-/// The referee's finding.
+/// The referee's finding about the first contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finding {
     /// The surfaces are within the margin at the start.
     Start,
     /// The surfaces are apart until `lo`, and in contact at `hi`.
     Hit {
-        /// The bodies are proven free until this time.
+        /// The time until which the bodies are proven apart.
         lo: f64,
-        /// The bodies are in contact at this time.
+        /// A time at which the bodies are in contact.
         hi: f64,
     },
     /// The surfaces are apart until `lo`, and then too near to decide.
     Near {
-        /// The bodies are proven free until this time.
+        /// The time until which the bodies are proven apart.
         lo: f64,
     },
     /// The surfaces are apart over the whole duration.
     Free {
-        /// The least distance found.
+        /// The least distance that was found.
         gap: f64,
     },
-    /// The step limit was reached.
+    /// The step limit was reached before a finding.
     Undecided {
-        /// The bodies are proven free until this time.
+        /// The time until which the bodies are proven apart.
         lo: f64,
     },
 }
@@ -53,7 +53,7 @@ pub struct Referee<'a> {
     margin: f64,
 }
 
-/// The limit of steps of advancement.
+/// The maximum number of advancement steps.
 const MAX_STEPS: u32 = 20_000;
 
 impl<'a> Referee<'a> {
@@ -99,7 +99,7 @@ impl<'a> Referee<'a> {
         )
     }
 
-    /// Finds the first contact of the bodies.
+    /// Searches for the first contact of the bodies.
     pub fn finding(&self) -> Finding {
         let speed = self.speed();
         let close = CLOSE * self.size();
@@ -175,7 +175,7 @@ impl<'a> Referee<'a> {
 }
 
 impl Finding {
-    /// Returns a time at which contact is certain, if any.
+    /// Returns a time at which contact is certain, if there is one.
     pub fn latest(self) -> Option<f64> {
         match self {
             Finding::Start => Some(0.0),

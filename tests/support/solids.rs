@@ -1,4 +1,4 @@
-//! Small solids, with distances by the referee's code.
+//! Generates small solids, and computes their distances by the referee's code.
 
 use crate::models::{Mesh, cuboid};
 use crate::referee::{Face, distance_squared};
@@ -11,15 +11,15 @@ use rand_pcg::Pcg64;
 /// A solid: the hull of a few points, grown by a radius.
 #[derive(Clone, Debug)]
 pub enum Solid {
-    /// A ball of a radius.
+    /// A ball, by its radius.
     Ball(f64),
-    /// A capsule along z: its radius, and half of its core's length.
+    /// A capsule along z, by its radius and half of its core's length.
     Capsule(f64, f64),
-    /// A cuboid with half extents.
+    /// A cuboid, by its half extents.
     Cuboid(DVec3),
-    /// A tetrahedron as a mesh.
+    /// A tetrahedron as a mesh, by its corners.
     Tetrahedron([DVec3; 4]),
-    /// A cuboid with half extents, as a mesh of twelve triangles.
+    /// A cuboid as a mesh of twelve triangles, by its half extents.
     Crate(DVec3),
 }
 
@@ -43,7 +43,7 @@ impl Solid {
         }
     }
 
-    /// Makes the body.
+    /// Builds the engine's body of the solid.
     ///
     /// # Panics
     /// If the engine refuses it.
@@ -97,7 +97,7 @@ pub struct PlacedSolid {
 }
 
 impl PlacedSolid {
-    /// Returns the distance of two solids; 0 if they overlap.
+    /// Returns the distance of two placed solids; 0 if they overlap.
     pub fn distance(&self, other: &PlacedSolid) -> f64 {
         if self.contains(other) || other.contains(self) {
             return 0.0;

@@ -1,4 +1,4 @@
-//! Random cases: shapes, poses and motions, aimed so that hits, misses and overlaps all occur.
+//! Generates random cases: shapes, poses and motions, aimed so that hits, misses and overlaps all occur.
 
 use crate::case::{Case, Model, Part, Start};
 use ccd_core::glam::{DQuat, DVec3};
@@ -7,7 +7,7 @@ use proptest::test_runner::{RngSeed, TestRunner};
 use rand_pcg::Pcg64;
 use std::f64::consts::{PI, TAU};
 
-/// Returns a runner of `cases` cases, times `CCD_TEST_CASES` if set.
+/// Returns a test runner of `cases` cases, times `CCD_TEST_CASES` if set.
 ///
 /// The cases are always the same, unless `CCD_TEST_SEED` gives another seed.
 pub fn runner(cases: u32) -> TestRunner {
@@ -33,7 +33,7 @@ fn setting(name: &str, default: u32) -> u32 {
         .unwrap_or(default)
 }
 
-/// Runs a law over random cases. A failure prints the shrunk case in the format of the corpus.
+/// Checks random cases by a function. A failure prints the shrunk case in the format of the corpus.
 ///
 /// # Panics
 /// If the law fails for a case.
@@ -50,18 +50,18 @@ pub fn check_cases(
     }
 }
 
-/// Returns two small bodies aimed at each other, of size about 1 and a few units apart. Each may move and turn, up to
-/// three turns.
+/// Generates two small bodies aimed at each other, of size about 1 and a few units apart. Each may move and rotate,
+/// up to three turns.
 pub fn cases() -> impl Strategy<Value = Case> {
-    aimed(model(), model())
+    aimed_cases(model(), model())
 }
 
-/// Like [`cases`], with convex shapes only.
+/// Generates [`cases`] with convex shapes only.
 pub fn convex_cases() -> impl Strategy<Value = Case> {
-    aimed(convex_model(), convex_model())
+    aimed_cases(convex_model(), convex_model())
 }
 
-/// Like [`cases`], far from the origin, and of very small to very large size.
+/// Generates [`cases`] far from the origin, and of very small to very large size.
 pub fn remote_cases() -> impl Strategy<Value = Case> {
     (
         cases(),
@@ -89,7 +89,7 @@ pub fn remote_cases() -> impl Strategy<Value = Case> {
         })
 }
 
-/// Like [`cases`], but so close together that many overlap at the start.
+/// Generates [`cases`] so close together that many overlap at the start.
 pub fn crowded_cases() -> impl Strategy<Value = Case> {
     (cases(), 0.0..0.4f64).prop_map(|(mut case, nearer)| {
         case.b.position = (nearer * DVec3::from(case.b.position)).into();
@@ -97,7 +97,7 @@ pub fn crowded_cases() -> impl Strategy<Value = Case> {
     })
 }
 
-fn aimed(
+fn aimed_cases(
     a: impl Strategy<Value = Model>,
     b: impl Strategy<Value = Model>,
 ) -> impl Strategy<Value = Case> {
@@ -125,13 +125,13 @@ fn aimed(
             a,
             b,
         };
-        share(&mut case, travel, drift);
+        share_velocity(&mut case, travel, drift);
         case
     })
 }
 
-/// Assigns the relative velocity to B, to A, or to both in addition to a common drift.
-fn share(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
+/// Assigns the relative velocity to B, to A, or to both in addition to a common velocity `drift`.
+fn share_velocity(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
     match drift {
         None => case.b.velocity = travel.into(),
         Some(drift) if drift.x > 0.0 => case.a.velocity = (-travel).into(),
@@ -147,7 +147,7 @@ fn drift() -> impl Strategy<Value = Option<DVec3>> {
 }
 
 fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
-    (model, turn(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| Part {
+    (model, rotation_vector(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| Part {
         turned: turned.into(),
         spin: spin.into(),
         centre: centre.into(),
@@ -155,26 +155,26 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
     })
 }
 
-/// Returns an angular velocity: zero, a part of a turn, or up to three turns per unit of time.
+/// Generates an angular velocity: zero, a part of a turn, or up to three turns per unit of time.
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),
-        3 => turn(PI),
-        1 => turn(3.0 * TAU),
-        1 => turn(1e-6),
+        3 => rotation_vector(PI),
+        1 => rotation_vector(3.0 * TAU),
+        1 => rotation_vector(1e-6),
     ]
 }
 
 fn centre() -> impl Strategy<Value = DVec3> {
-    prop_oneof![2 => Just(DVec3::ZERO), 1 => turn(1.0)]
+    prop_oneof![2 => Just(DVec3::ZERO), 1 => rotation_vector(1.0)]
 }
 
-/// Returns a vector of length up to `most`, in any direction.
-fn turn(most: f64) -> impl Strategy<Value = DVec3> {
+/// Generates a vector of length up to `most`, in any direction.
+fn rotation_vector(most: f64) -> impl Strategy<Value = DVec3> {
     (direction(), 0.0..=most).prop_map(|(n, length)| length * n)
 }
 
-/// Returns a unit vector; axes occur more often.
+/// Generates a unit vector. The coordinate axes occur more often.
 pub fn direction() -> impl Strategy<Value = DVec3> {
     let any = (-1.0..1.0f64, 0.0..TAU).prop_map(|(z, angle)| {
         let r = (1.0 - z * z).sqrt();
@@ -193,26 +193,26 @@ pub fn random_direction(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// Returns a rotation.
+/// Generates a random rotation.
 pub fn rotation() -> impl Strategy<Value = DQuat> {
-    turn(PI).prop_map(DQuat::from_scaled_axis)
+    rotation_vector(PI).prop_map(DQuat::from_scaled_axis)
 }
 
-/// Returns a half extent between 0.05 and 1.
-fn half() -> impl Strategy<Value = f64> {
+/// Generates a half extent between 0.05 and 1.
+fn half_extent() -> impl Strategy<Value = f64> {
     (-1.3..0.0f64).prop_map(|x| 10.0f64.powf(x))
 }
 
-/// Returns a convex shape of size at most about 1.
+/// Generates a convex shape of size at most about 1.
 pub fn convex_model() -> impl Strategy<Value = Model> {
-    let extents = || [half(), half(), half()];
+    let extents = || [half_extent(), half_extent(), half_extent()];
     prop_oneof![
         2 => extents().prop_map(|half| Model::Cuboid { half }),
         1 => (extents(), 0..2u32).prop_map(|(radii, levels)| Model::Ellipsoid { radii, levels }),
     ]
 }
 
-/// Returns any shape of size at most about 1, with at most about 100 triangles.
+/// Generates any shape of size at most about 1, with at most about 100 triangles.
 pub fn model() -> impl Strategy<Value = Model> {
     let ring =
         (4..9usize, 3..6usize, 0.05..0.3f64).prop_map(|(rings, sides, minor)| Model::Torus {
@@ -233,7 +233,7 @@ pub fn model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// Returns a non-convex solid.
+/// Generates a non-convex solid.
 fn solid_model() -> impl Strategy<Value = Model> {
     prop_oneof![
         1 => (0.2..0.6f64, 0.1..0.9f64)
@@ -247,7 +247,7 @@ fn solid_model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// Returns small and large triangles, some of them degenerate to a segment or a point.
+/// Generates small and large triangles, some of them degenerate to a segment or a point.
 fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
     let point = || prop::array::uniform3(-0.7..0.7f64);
     let size = prop_oneof![Just(0.05), Just(0.4), Just(1.0)];

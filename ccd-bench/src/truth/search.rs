@@ -154,7 +154,7 @@ impl<'a> Search<'a> {
             };
             match self.split(pair) {
                 Some(Split { size, parts }) if size > LARGEST_UNSPLIT_SIZE * travel => {
-                    stack.extend(parts)
+                    stack.extend(parts);
                 }
                 Some(_) => left.push(pair),
                 None if greater(a.size, b.size) < BOXES_SUFFICE_BELOW * travel => left.push(pair),

@@ -3,7 +3,8 @@ use ccd_core::order::lesser;
 use proptest::prelude::*;
 
 proptest! {
-    /// Along one axis or all, on a grid: ends coincide.
+    /// Tests the search for boxes that meet a box against a scan of all boxes. Coordinates are whole numbers, so that
+    /// many boxes touch.
     #[test]
     fn boxes_that_meet_a_box_are_those_of_the_twin(
         size in prop::sample::select(vec![[30, 2, 2], [2, 2, 30], [6, 6, 6]]),

@@ -1,4 +1,5 @@
-//! Exact signs for triangles of a list and in a projection `[SHE97]`, in addition to [`ccd_core::exact`].
+//! Exact predicates for triangles given by vertex indices, and for projections to a coordinate plane `[SHE97]`. They
+//! extend [`ccd_core::exact`].
 
 pub(crate) use ccd_core::exact::{is_degenerate, side, too_fine, turn_along};
 
@@ -7,8 +8,8 @@ use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::greater;
 use std::cmp::Ordering;
 
-/// Returns the [side] of a point, by indices into a list. A corner of the triangle needs no computation, which would be
-/// the predicate's slowest.
+/// Returns the exact [side] of the triangle's plane on which a point lies, by indices into `points`. A corner of the
+/// triangle needs no computation, which would be the predicate's slowest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
     if triangle.contains(&point) {
@@ -22,13 +23,13 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
 /// A coordinate plane on which a triangle projects to a non-zero area, and its orientation there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Projection {
-    /// The axis along which the triangle is projected.
+    /// The coordinate axis along which the triangle is projected.
     axis: usize,
     turned: bool,
 }
 
 impl Projection {
-    /// Returns a projection; `None` if the triangle is degenerate.
+    /// Chooses a coordinate plane on which the triangle has a non-zero area; `None` if the triangle is degenerate.
     pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
         (0..3).find_map(|axis| match turn_along(axis, [a, b], c) {
@@ -40,8 +41,8 @@ impl Projection {
         })
     }
 
-    /// Returns on which side of the line from `a` to `b` a point lies, all in the triangle's plane: `Greater` is to the
-    /// left, seen from the triangle's front.
+    /// Returns the side of the line from `a` to `b` on which a point of the triangle's plane lies: `Greater` is to
+    /// the left, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {
@@ -57,17 +58,17 @@ impl Projection {
 /// along one axis differ by a factor of more than 1e90.
 pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
-    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_to_one));
+    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_up_to_one));
     is_degenerate(triangle.map(|p| p * scale))
 }
 
 /// Returns the power of two that scales a number below 1 to about 1; 1 for any other number.
-fn scale_to_one(x: f64) -> f64 {
-    if x < 1.0 { to_one(x) } else { 1.0 }
+fn scale_up_to_one(x: f64) -> f64 {
+    if x < 1.0 { scale_to_one(x) } else { 1.0 }
 }
 
 /// Returns the power of two that scales a positive number to about 1; 1 for any other number.
-fn to_one(x: f64) -> f64 {
+fn scale_to_one(x: f64) -> f64 {
     const EXPONENT: u64 = f64::INFINITY.to_bits();
     if x > 0.0 && x.is_finite() {
         greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip()
@@ -80,12 +81,12 @@ fn to_one(x: f64) -> f64 {
 /// until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
 /// differ by a factor of more than 1e90.
 pub(crate) fn determinant(columns: [DVec3; 3]) -> Ordering {
-    let [x, y, z] = columns.map(|column| column * to_one(column.abs().max_element()));
+    let [x, y, z] = columns.map(|column| column * scale_to_one(column.abs().max_element()));
     side([DVec3::ZERO, x, y], z)
 }
 
-/// Returns the first point with a coordinate that is not finite, or too large.
-pub(crate) fn too_large(points: &[DVec3]) -> Option<usize> {
+/// Returns the index of the first point with a coordinate that is not finite or exceeds the supported range.
+pub(crate) fn first_out_of_range(points: &[DVec3]) -> Option<usize> {
     // Written so that NaN fails.
     let is_good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
     points.iter().position(|p| !is_good(p))

@@ -24,10 +24,10 @@ pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i
     }
 }
 
-/// Returns the `k`-th segment to try from a point to the outside of a mesh of a given size.
+/// Returns the `k`-th segment to try from the point `from` to the outside of a mesh of length `size`.
 ///
 /// It is nearly parallel to an axis, so that few boxes meet its box, but slightly tilted to avoid degenerate cases.
-pub(crate) fn probe(from: DVec3, size: f64, k: usize) -> [DVec3; 2] {
+pub(crate) fn probe_segment(from: DVec3, size: f64, k: usize) -> [DVec3; 2] {
     let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
     let across = DVec3::new(0.7548, 0.5698, -0.3247) * tilt;
     [from, from + 3.0 * size * (along + across)]

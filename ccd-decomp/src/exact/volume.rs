@@ -3,32 +3,33 @@
 use crate::tolerance::volume_rounding;
 use ccd_core::glam::DVec3;
 
-/// A sum of signed volumes, with the sum of magnitudes that bounds its rounding.
+/// A sum of signed volumes, and the sum of magnitudes that bounds its rounding error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SignedVolume {
     sum: f64,
-    /// The rounding errors of the sum.
-    lost: f64,
+    /// The sum of the rounding errors of the additions.
+    addition_errors: f64,
     size: f64,
     terms: f64,
 }
 
 impl SignedVolume {
-    /// Sums the volumes, times six, between triangles and a point near the surface.
-    pub(crate) fn of(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
+    /// Sums six times the signed volumes of the tetrahedra between each triangle and the point `near`, which is near
+    /// the surface.
+    pub(crate) fn from_triangles(triangles: impl Iterator<Item = [DVec3; 3]>, near: DVec3) -> Self {
         let mut volume = SignedVolume::default();
         triangles.for_each(|triangle| volume.add(triangle, near));
         volume
     }
 
-    /// Adds the volume, times six, between a triangle and a point near the surface.
+    /// Adds six times the signed volume of the tetrahedron between a triangle and the point `near`.
     fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
         let (arm, sides) = (p - near, [q - p, r - p]);
         let term = arm.dot(sides[0].cross(sides[1]));
         let sum = self.sum + term;
         // The exact rounding error of the addition (Knuth's two-sum).
         let added = sum - self.sum;
-        self.lost += (self.sum - (sum - added)) + (term - added);
+        self.addition_errors += (self.sum - (sum - added)) + (term - added);
         self.sum = sum;
         self.size += arm.length() * sides[0].length() * sides[1].length();
         self.terms += 1.0;
@@ -36,7 +37,7 @@ impl SignedVolume {
 
     /// Returns whether the sum is positive; `None` if [rounding](volume_rounding) could change the sign.
     pub(crate) fn is_positive(&self) -> Option<bool> {
-        let sum = self.sum + self.lost;
+        let sum = self.sum + self.addition_errors;
         let rounding = volume_rounding(self.size, self.terms);
         // Written so that NaN has no sign.
         (sum.abs() > rounding).then_some(sum > 0.0)

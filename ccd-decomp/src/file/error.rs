@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[error("{}{fault}", Prefix(.file))]
 pub struct StoreError {
-    /// The file, if there is one.
+    /// The path of the file; `None` for a reader or writer in memory.
     pub file: Option<PathBuf>,
-    /// The reason.
+    /// The reason why the body was not loaded or stored.
     pub fault: StoreFault,
 }
 
@@ -25,13 +25,13 @@ pub enum StoreFault {
     /// The file cannot be written.
     #[error("cannot be written: {0}")]
     Unwritable(#[source] io::Error),
-    /// The file does not begin like a stored body.
+    /// The file does not begin with the magic bytes of a stored body.
     #[error("holds no stored body; give a mesh, or {PREPARE}")]
     Foreign,
     /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
-    /// The file has another version of the format.
+    /// The file has a version of the format that this build does not read.
     #[error(
         "is of version {version} of the format, and version {} is what is read; {PREPARE}",
         VERSION
@@ -49,14 +49,15 @@ pub enum StoreFault {
     /// The checksum matches, but the content is no valid body.
     #[error("holds no valid body: {problem}; {PREPARE}")]
     Invalid {
-        /// The part that is not valid.
+        /// The description of the part that is not valid.
         problem: String,
     },
 }
 
 const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
 
-/// The version that is written and read. Older files are prepared again from their meshes, instead of a second reader.
+/// The version of the format that is written and read. Files of older versions are prepared again from their meshes,
+/// instead of a second reader.
 pub(super) const VERSION: u32 = 2;
 
 impl StoreFault {

@@ -12,13 +12,13 @@ use super::error::{StoreFault, VERSION};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
-/// The first bytes, as in PNG: no text begins with them, and a transfer that converts line ends or strips the eighth
-/// bit damages them.
+/// The magic bytes at the start of a file, as in PNG: no text begins with them, and a transfer that converts line
+/// ends or strips the eighth bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 
-/// Writes a payload within its frame.
+/// Writes a payload between the header and the checksum that [`read`] verifies.
 pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     let mut header = Vec::with_capacity(HEADER);
     header.extend(MAGIC);
@@ -30,15 +30,15 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     writer.flush()
 }
 
-/// Reads a payload, and verifies its frame.
+/// Reads a payload, and verifies its header, length and checksum.
 ///
 /// # Complexity
 /// Linear in the bytes present, for any announced length.
 pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
-    let mut header = bytes(&mut reader, HEADER as u64)?;
+    let mut header = read_up_to(&mut reader, HEADER as u64)?;
     if !header.starts_with(&MAGIC) {
         // More bytes identify an LFS pointer. A file shorter than the magic number is more likely foreign.
-        header.extend(bytes(&mut reader, HEADER as u64)?);
+        header.extend(read_up_to(&mut reader, HEADER as u64)?);
         return Err(if is_lfs_pointer(&header) {
             StoreFault::LfsPointer
         } else {
@@ -46,36 +46,36 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
         });
     }
     let mut fields = &header[MAGIC.len()..];
-    let version = u32::from_le_bytes(array(&mut fields)?);
+    let version = u32::from_le_bytes(split_array(&mut fields)?);
     if version != VERSION {
         return Err(StoreFault::OtherVersion { version });
     }
-    let length = u64::from_le_bytes(array(&mut fields)?);
-    let payload = bytes(&mut reader, length)?;
+    let length = u64::from_le_bytes(split_array(&mut fields)?);
+    let payload = read_up_to(&mut reader, length)?;
     if payload.len() as u64 != length {
         return Err(StoreFault::Truncated);
     }
-    let end = bytes(&mut reader, size_of::<u32>() as u64)?;
-    if u32::from_le_bytes(array(&mut &end[..])?) != checksum(&header, &payload) {
+    let end = read_up_to(&mut reader, size_of::<u32>() as u64)?;
+    if u32::from_le_bytes(split_array(&mut &end[..])?) != checksum(&header, &payload) {
         return Err(StoreFault::Damaged);
     }
-    if bytes(&mut reader, 1)?.is_empty() {
+    if read_up_to(&mut reader, 1)?.is_empty() {
         Ok(payload)
     } else {
         Err(StoreFault::Damaged)
     }
 }
 
-/// Reads up to `count` bytes.
-fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
+/// Reads up to `count` bytes; fewer if the reader ends before.
+fn read_up_to(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
     let mut bytes = Vec::new();
     let taken = reader.take(count).read_to_end(&mut bytes);
     taken.map_err(StoreFault::Unreadable)?;
     Ok(bytes)
 }
 
-/// Splits off the next `N` bytes.
-fn array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
+/// Splits the next `N` bytes off the front of a slice.
+fn split_array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
     let (first, rest) = from.split_first_chunk().ok_or(StoreFault::Truncated)?;
     *from = rest;
     Ok(*first)

@@ -19,8 +19,8 @@ pub fn write_obj(mesh: &TriangleMesh, writer: impl Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// Writes every piece as a group, `g piece_0` and so on, for viewing: its facets or, if none are known, its triangle,
-/// segment or points.
+/// Writes every piece as a separate OBJ group, `g piece_0` and so on, for viewing. A group has the facets of its
+/// piece or, if none are known, its triangle, segment or points.
 ///
 /// Vertices read back to the same bits. Shared vertices are written once for each piece. Rounding radii are omitted.
 ///
@@ -40,7 +40,8 @@ pub fn write_obj_pieces(pieces: &Pieces, writer: impl Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// Writes the facets of a piece, or its segment or points; `first` is the number of its first vertex.
+/// Writes the OBJ elements of one piece: its facets or, if none are known, its segment or points. `first` is the OBJ
+/// number of its first vertex.
 fn write_elements(piece: &Piece<'_>, first: usize, writer: &mut impl Write) -> io::Result<()> {
     let every = first..first + piece.points.len();
     if !piece.facets.is_empty() {

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// A tetrahedron with a dent, a duplicate face and an unused vertex, which the report mentions.
+/// An OBJ of a tetrahedron with a dent, a duplicate face and an unused vertex, which the report mentions.
 const DENTED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 
@@ -30,7 +30,7 @@ fn fault(bytes: &[u8]) -> StoreFault {
     }
 }
 
-/// Stored bodies of every kind of pieces, with a hull tree and without, small enough to be changed at every byte.
+/// Stored bodies of every kind of pieces, with and without a hull tree. They are small enough to change every byte.
 static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let patches = model(DENTED, Detail::Patches(Order::Cresting));
     let models = [
@@ -198,7 +198,7 @@ fn parts_that_do_not_belong_together_are_reported() {
     ));
 }
 
-/// Checks that bytes that load give a valid body.
+/// Checks that bytes either give an error or load as a valid body.
 fn check(bytes: &[u8]) {
     if let Ok(model) = Model::read(bytes) {
         let body = model.body().unwrap();
@@ -207,8 +207,8 @@ fn check(bytes: &[u8]) {
     }
 }
 
-/// A changed payload in a frame with a matching checksum.
-fn reframed(payload: &[u8]) -> Vec<u8> {
+/// Wraps a changed payload in a frame with a matching checksum.
+fn frame_payload(payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     frame::write(&mut bytes, payload).unwrap();
     bytes
@@ -219,7 +219,7 @@ fn a_payload_cut_anywhere_is_an_error() {
     for bytes in FILES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for end in 0..payload.len() {
-            let fault = fault(&reframed(&payload[..end]));
+            let fault = fault(&frame_payload(&payload[..end]));
             assert!(
                 matches!(fault, StoreFault::Invalid { .. }),
                 "{end}: {fault}"
@@ -236,7 +236,7 @@ fn no_single_change_of_a_payload_panics() {
             for value in [0, 1, 2, 0x7f, 0x80, 0xff] {
                 let mut changed = payload.clone();
                 changed[at] = value;
-                check(&reframed(&changed));
+                check(&frame_payload(&changed));
             }
         }
     }
@@ -246,7 +246,7 @@ proptest! {
     #[test]
     fn no_bytes_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         check(&bytes);
-        check(&reframed(&bytes));
+        check(&frame_payload(&bytes));
     }
 
     #[test]
@@ -261,12 +261,12 @@ proptest! {
             let at = at.index(payload.len());
             payload[at] = byte;
         }
-        check(&reframed(&payload));
-        check(&reframed(&payload[cut.index(payload.len())..]));
+        check(&frame_payload(&payload));
+        check(&frame_payload(&payload[cut.index(payload.len())..]));
     }
 }
 
-/// A new folder for a test's files.
+/// Creates an empty folder for the files of the test `name`.
 fn folder(name: &str) -> std::path::PathBuf {
     let folder = std::env::temp_dir().join(format!("ccd-{name}-{}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
@@ -323,7 +323,7 @@ fn links_are_followed_and_devices_stay_what_they_are() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// Remarks of a mesh are stored at the end; older files have none.
+/// Tests that the remarks of a mesh are stored and read back, and that older files load without remarks.
 #[test]
 fn remarks_are_stored() {
     let plain = model(TETRAHEDRON, Detail::Triangles);

@@ -1,7 +1,7 @@
 use super::{Edges, HalfEdge, twins};
 use proptest::prelude::*;
 
-/// Triangles over few vertices, whose numbers are far apart in half of the cases.
+/// Generates triangles over few vertices, whose numbers are far apart in half of the cases.
 fn triangles() -> impl Strategy<Value = Vec<[u32; 3]>> {
     let corner = prop_oneof![0u32..6, 0u32..40];
     let faces = prop::collection::vec(prop::array::uniform3(corner), 0..30);
@@ -9,7 +9,7 @@ fn triangles() -> impl Strategy<Value = Vec<[u32; 3]>> {
         .prop_map(|(faces, step)| faces.into_iter().map(|f| f.map(|v| v * step)).collect())
 }
 
-/// All half-edges by their ends, sorted: lower end, upper end, half-edge, whether it starts at the upper end.
+/// Returns all half-edges, sorted by their ends: lower end, upper end, half-edge, whether it starts at the upper end.
 fn sorted(triangles: &[[u32; 3]]) -> Vec<([u32; 2], HalfEdge, bool)> {
     let mut all = Vec::new();
     for (t, [a, b, c]) in (0..).zip(triangles.iter().copied()) {

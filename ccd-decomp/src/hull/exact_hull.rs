@@ -1,4 +1,4 @@
-//! Incremental convex hulls, by exact predicates.
+//! Incremental convex hulls in three dimensions, by exact predicates.
 
 mod conflicts;
 mod few;
@@ -10,7 +10,7 @@ use crate::tolerance::FEW_POINTS;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The hull of points of a list, as a closed surface of non-degenerate triangles.
+/// The convex hull of some points of a list, as a closed surface of non-degenerate triangles.
 ///
 /// # Guarantee
 /// Exact: every point that was inserted is inside or on it, and every corner is one of them. Facets are
@@ -21,19 +21,19 @@ pub(crate) struct ExactHull {
     corners: Vec<u32>,
 }
 
-/// The change of a hull when a point is inserted.
+/// The change of a hull by the insertion of one point.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
-    /// Whether the point sees a facet, which is then replaced; by facet.
+    /// By facet, whether the point sees it. Seen facets are replaced.
     seen: Vec<bool>,
-    /// The new facets, about the point.
+    /// The new triangles, all of which have the inserted point as a corner.
     fan: Vec<[u32; 3]>,
 }
 
 impl ExactHull {
-    /// Creates the hull of a strictly convex polygon: two fans back to back. It has no volume, and only points off its
-    /// plane may be inserted.
-    pub(crate) fn polygon(corners: &[u32]) -> Self {
+    /// Creates the flat hull of a strictly convex polygon: two triangle fans, back to back. It has no volume, and
+    /// only points off its plane may be inserted.
+    pub(crate) fn from_polygon(corners: &[u32]) -> Self {
         let fan = |k: usize| [corners[0], corners[k], corners[k + 1]];
         let front = (1..corners.len() - 1).map(fan);
         let back = front.clone().map(|[a, b, c]| [a, c, b]);
@@ -60,7 +60,8 @@ impl ExactHull {
         })
     }
 
-    /// Returns a triangle of points and a point behind its plane; `None` if all are coplanar. O(n).
+    /// Returns four points that span a tetrahedron: a triangle, and a point behind its plane. Returns `None` if all
+    /// points are coplanar. O(n).
     fn simplex(points: &[DVec3]) -> Option<[u32; 4]> {
         let at = |k: u32| points[k as usize];
         let rest = 0..points.len() as u32;
@@ -75,17 +76,18 @@ impl ExactHull {
         })
     }
 
-    /// Returns the facets.
+    /// Returns the triangles of the hull's surface, by vertex indices.
     pub(crate) fn facets(&self) -> &[[u32; 3]] {
         &self.facets
     }
 
-    /// Returns the corners of the facets without duplicates, in ascending order except for a polygon.
+    /// Returns the vertices of the hull without duplicates, in ascending order except for a polygon.
     pub(crate) fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// Computes the change by inserting a point; `None` if the point is inside. O(f log f) in the number of facets.
+    /// Computes the change by the insertion of a point; `None` if the point is inside. O(f log f) in the number of
+    /// facets.
     pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
         let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let seen: Vec<bool> = self.facets.iter().map(sees).collect();
@@ -107,15 +109,15 @@ impl ExactHull {
         })
     }
 
-    /// Returns the bounding box of all facets that a change adds or removes.
-    pub(crate) fn changed(&self, points: &[DVec3], growth: &Growth) -> Bounds {
+    /// Returns the bounding box of all facets that an insertion adds or removes.
+    pub(crate) fn changed_bounds(&self, points: &[DVec3], growth: &Growth) -> Bounds {
         let removed = self.facets.iter().zip(&growth.seen);
         let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
         let corners = removed.chain(&growth.fan).flatten();
         Bounds::enclosing(corners.map(|&v| points[v as usize]))
     }
 
-    /// Applies a change.
+    /// Applies a change that [`growth`](Self::growth) computed.
     pub(crate) fn grow(&mut self, growth: Growth) {
         let mut seen = growth.seen.into_iter();
         self.facets.retain(|_| !seen.next().unwrap_or(false));

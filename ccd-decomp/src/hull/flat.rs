@@ -1,6 +1,6 @@
 //! Exact hulls of coplanar points.
 
-use super::of_facets;
+use super::hull_from_facets;
 use crate::exact::predicates::{Projection, is_degenerate, lexicographic};
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, Loops};
@@ -20,7 +20,7 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
         _ => None,
     };
     match plane {
-        Some(projection) => of_facets(points, facets(points, projection)),
+        Some(projection) => hull_from_facets(points, facets(points, projection)),
         None => Hull {
             points: ends,
             facets: Loops::default(),
@@ -28,7 +28,8 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
     }
 }
 
-/// Returns the projection of the plane of some points, two of which are given; `None` if all are on a line.
+/// Returns the projection of the common plane of some points, of which `a` and `b` are two; `None` if all are on a
+/// line.
 fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
     let area = |p: &DVec3| (b - a).cross(*p - a).length_squared();
     let is_proper = |p: &DVec3| !is_degenerate([a, b, *p]);
@@ -42,7 +43,7 @@ fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
     Projection::new([a, b, corner])
 }
 
-/// Computes the polygons by Andrew's monotone chain.
+/// Computes the front and the back polygon by Andrew's monotone chain.
 fn facets(points: &[DVec3], projection: Projection) -> Loops {
     let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();

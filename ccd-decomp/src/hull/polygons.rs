@@ -7,8 +7,8 @@ use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Merges triangles like [`for_each_polygon`], and returns only the corners.
-pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
+/// Merges triangles like [`for_each_polygon`], and returns the corners of each polygon.
+pub(crate) fn merged_polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
     let mut loops = Loops::with_capacity(triangles.len(), 3 * triangles.len());
     for_each_polygon(points, triangles, |corners, _| loops.push(corners));
     loops
@@ -25,7 +25,7 @@ pub(crate) fn for_each_polygon(
 ) {
     // A closed surface has all twins; without them each triangle is a polygon.
     let twins = twins(triangles).unwrap_or_default();
-    let group_of = groups(points, triangles, &twins);
+    let group_of = coplanar_groups(points, triangles, &twins);
     // Sorting is stable: each group is in ascending order.
     let mut members: Vec<u32> = (0..triangles.len() as u32).collect();
     members.sort_by_key(|&t| group_of[t as usize]);
@@ -35,16 +35,16 @@ pub(crate) fn for_each_polygon(
             continue;
         };
         match group {
-            [_] => visit(&smallest_first(first), group),
+            [_] => visit(&rotated_to_smallest(first), group),
             _ => {
-                let rim = chained(rim(triangles, &twins, group, &group_of));
+                let rim = chain_edges(boundary_edges(triangles, &twins, group, &group_of));
                 visit(&strict_corners(points, &rim, plane), group);
             }
         }
     }
 }
 
-/// Drops the corners of a convex loop at which it is straight.
+/// Returns the corners of a convex polygon without those at which it is straight.
 pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -> Vec<u32> {
     let at = |k: usize| points[rim[k % rim.len()] as usize];
     (0..rim.len())
@@ -54,7 +54,7 @@ pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -
 }
 
 /// Rotates a triangle so that its smallest corner comes first.
-pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+pub(crate) fn rotated_to_smallest([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a <= b && a <= c {
         [a, b, c]
     } else if b <= c {
@@ -64,8 +64,8 @@ pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// Chains the directed edges of one loop to a list of vertices.
-fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
+/// Chains the directed edges of one closed loop into a list of vertices.
+fn chain_edges(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     rim.sort_unstable();
     let Some(&(first, mut at)) = rim.first() else {
         return Vec::new();
@@ -81,8 +81,8 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     corners
 }
 
-/// Returns the edges of a group that are not inside it, by their ends.
-fn rim(
+/// Returns the boundary edges of a group of triangles, each by its two ends.
+fn boundary_edges(
     triangles: &[[u32; 3]],
     twins: &[HalfEdge],
     group: &[u32],
@@ -101,8 +101,8 @@ fn rim(
     edges.filter(is_outer).map(ends).collect()
 }
 
-/// Returns the group of each triangle: connected coplanar triangles.
-fn groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge]) -> Vec<u32> {
+/// Returns the group number of each triangle. A group is a set of connected coplanar triangles.
+fn coplanar_groups(points: &[DVec3], triangles: &[[u32; 3]], twins: &[HalfEdge]) -> Vec<u32> {
     let mut groups = DisjointSets::new(triangles.len());
     for (edge, &twin) in (0..).zip(twins).filter(|(edge, twin)| edge < *twin) {
         let [one, other] = [edge, twin].map(|edge| edge / 3);

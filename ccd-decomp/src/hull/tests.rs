@@ -5,14 +5,14 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The corners and planes by testing all triples: a triple spans a facet if no point is in front.
-struct Twin {
+/// A brute-force hull. A triple of points spans a facet if no point is in front of its plane.
+struct BruteForceHull {
     corners: Vec<DVec3>,
-    /// The points on each facet, corners or not.
+    /// The indices of the points on each facet, corners or not.
     planes: BTreeSet<Vec<u32>>,
 }
 
-impl Twin {
+impl BruteForceHull {
     fn of(points: &[DVec3]) -> Self {
         let n = points.len();
         let first_at = |k: usize| (0..n).find(|&l| points[l] == points[k]) == Some(k);
@@ -35,19 +35,19 @@ impl Twin {
         let on: BTreeSet<u32> = planes.iter().flatten().copied().collect();
         // A corner is on three planes; in a plane, it is in no triangle or segment of others.
         let is_corner = |k: &u32| match planes.len() {
-            1 => !is_amid(points, &distinct, *k as usize),
+            1 => !is_in_coplanar_hull(points, &distinct, *k as usize),
             _ => planes.iter().filter(|plane| plane.contains(k)).count() >= 3,
         };
         let corners = on.into_iter().filter(is_corner);
-        Twin {
+        BruteForceHull {
             corners: corners.map(|k| points[k as usize]).collect(),
             planes,
         }
     }
 }
 
-/// Returns whether a point is in the hull of others in the same plane.
-fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
+/// Returns whether a point is in the convex hull of coplanar points.
+fn is_in_coplanar_hull(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     let others = || distinct.iter().filter(|&&l| l != k).map(|&l| points[l]);
     let point = points[k];
     let in_segment =
@@ -64,7 +64,7 @@ fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     others().any(|a| others().any(|b| amid(a, b)))
 }
 
-/// Checks the guarantees of a hull, one by one, in exact arithmetic.
+/// Checks the guarantees of a hull one by one, in exact arithmetic.
 fn assert_proper(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| hull.points[v as usize];
     let mut edges = BTreeSet::new();
@@ -90,9 +90,9 @@ fn assert_proper(points: &[DVec3], hull: &Hull) {
     assert_eq!(v + f, e + 2, "Euler's formula");
 }
 
-/// Checks the hull of any points: they span a plane exactly if it has facets.
-fn assert_right(points: &[DVec3]) {
-    let (hull, twin) = (hull(points).expect("in range"), Twin::of(points));
+/// Checks the hull of any points, and that it has no facets exactly if all points are on a line.
+fn assert_hull_of(points: &[DVec3]) {
+    let (hull, twin) = (hull(points).expect("in range"), BruteForceHull::of(points));
     if hull.facets.is_empty() {
         assert!(twin.planes.is_empty() && (1..=2).contains(&hull.points.len()));
     } else {
@@ -108,7 +108,7 @@ fn proper(points: &[DVec3]) -> Hull {
     hull
 }
 
-/// Pseudo-random numbers in -1..1 by a linear congruence.
+/// Returns a generator of pseudo-random numbers in −1..1, by a linear congruence.
 fn noise(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(2).wrapping_add(1);
     move || {
@@ -172,7 +172,7 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 #[case::tetrahedron(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])]
 fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
     let hull = proper(&points);
-    let twin = Twin::of(&points);
+    let twin = BruteForceHull::of(&points);
     assert_eq!(hull.points, twin.corners);
     // A flat hull has two facets in one plane.
     let planes = twin.planes.len();
@@ -243,14 +243,14 @@ fn a_coordinate_out_of_range_is_an_error(#[case] bad: DVec3) {
 }
 
 proptest! {
-    /// Few different coordinates make many coplanar, collinear and equal points.
+    /// Tests the hulls of points with few different coordinates, of which many are coplanar, collinear or equal.
     #[test]
     fn coarse_points(points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 1..18)) {
         let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_right(&points);
+        assert_hull_of(&points);
     }
 
-    /// Points within a few units in the last place of a plane, a line or each other.
+    /// Tests the hulls of points within a few units in the last place of a plane, a line or each other.
     #[test]
     fn hardly_apart(
         points in prop::collection::vec(prop::array::uniform3(-1_i8..=1), 4..14),
@@ -258,6 +258,6 @@ proptest! {
         seed in 0_u64..1000,
     ) {
         let points = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_right(&shaken(points, scale, seed));
+        assert_hull_of(&shaken(points, scale, seed));
     }
 }

@@ -1,4 +1,4 @@
-//! Adjustments of a mesh that is read from a file: unit, scale, mirroring.
+//! Adjustments of a mesh that is read from a file: unit, scale, mirroring, hollowness.
 
 use super::affine::AffineMap;
 use super::unit::Unit;
@@ -22,24 +22,24 @@ use std::fmt;
 pub struct Adjustments {
     stated: Option<Unit>,
     wanted: Option<Unit>,
-    /// The factors of the coordinates, neither 0 nor infinite.
+    /// The factors by which the coordinates are multiplied along each axis, neither 0 nor infinite.
     factors: DVec3,
     is_hollow: bool,
 }
 
-/// An axis of coordinates.
+/// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// The first.
+    /// The first axis, x.
     X,
-    /// The second.
+    /// The second axis, y.
     Y,
-    /// The third.
+    /// The third axis, z.
     Z,
 }
 
 impl Adjustments {
-    /// Changes nothing.
+    /// The adjustments that change nothing.
     pub const NONE: Adjustments = Adjustments {
         stated: None,
         wanted: None,
@@ -47,7 +47,7 @@ impl Adjustments {
         is_hollow: false,
     };
 
-    /// Takes the numbers of the file to be in a unit, whatever the file says.
+    /// Sets the unit of the numbers in the file. It takes precedence over a unit that the file states.
     #[must_use]
     pub fn stated_in(self, unit: Unit) -> Self {
         Adjustments {
@@ -56,8 +56,8 @@ impl Adjustments {
         }
     }
 
-    /// [Converts](crate::MeshFile::in_unit) the coordinates to a unit. Those of a file whose unit is not known are taken
-    /// to be in it already.
+    /// [Converts](crate::MeshFile::in_unit) the coordinates to a unit. The coordinates of a file without a known unit
+    /// stay as they are.
     #[must_use]
     pub fn converted_to(self, unit: Unit) -> Self {
         Adjustments {
@@ -66,7 +66,7 @@ impl Adjustments {
         }
     }
 
-    /// Multiplies all coordinates by a factor, which rounds each once.
+    /// Multiplies all coordinates by a factor. Each is rounded once.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] unless the factor is positive and finite.
@@ -102,12 +102,12 @@ impl Adjustments {
         }
     }
 
-    /// Combines two adjustments: units of `other` take precedence.
+    /// Combines two adjustments. The units of `other` take precedence.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.
     pub fn and(self, other: &Adjustments) -> Result<Self, InputError> {
-        let mirrored = other.axes().fold(self, Adjustments::mirrored);
+        let mirrored = other.mirrored_axes().fold(self, Adjustments::mirrored);
         let both = match other.scale() {
             1.0 => mirrored,
             scale => mirrored.scaled(scale)?,
@@ -120,29 +120,29 @@ impl Adjustments {
         })
     }
 
-    /// The unit of the numbers in the file, if it is given.
-    pub(crate) fn stated(&self) -> Option<Unit> {
+    /// Returns the unit of the numbers in the file, if the adjustments set it.
+    pub(crate) fn stated_unit(&self) -> Option<Unit> {
         self.stated
     }
 
-    /// The unit of the coordinates, if it is given.
-    pub(crate) fn wanted(&self) -> Option<Unit> {
+    /// Returns the unit to convert the coordinates to, if the adjustments set it.
+    pub(crate) fn target_unit(&self) -> Option<Unit> {
         self.wanted
     }
 
-    /// Whether a closed mesh is no solid.
+    /// Returns whether a closed mesh is treated as a hollow surface.
     pub(crate) fn is_hollow(&self) -> bool {
         self.is_hollow
     }
 
-    /// Returns the map of the coordinates, if there is any.
+    /// Returns the map from the file's coordinates to the adjusted ones; `None` if it is the identity.
     pub(crate) fn map(&self) -> Option<AffineMap> {
         let map = || DAffine3::from_scale(self.factors).into();
         (self.factors != DVec3::ONE).then(map)
     }
 
     /// Returns whether the adjustments apply to meshes only, not to prepared bodies.
-    pub(crate) fn need_mesh(&self) -> bool {
+    pub(crate) fn apply_to_meshes_only(&self) -> bool {
         let others = Adjustments {
             wanted: None,
             ..*self
@@ -154,14 +154,14 @@ impl Adjustments {
         self.factors.x.abs()
     }
 
-    /// The axes that are mirrored.
-    fn axes(&self) -> impl Iterator<Item = Axis> {
+    /// Iterates over the axes along which the mesh is mirrored.
+    fn mirrored_axes(&self) -> impl Iterator<Item = Axis> {
         let factors = self.factors;
         let axes = [Axis::X, Axis::Y, Axis::Z].into_iter();
         axes.filter(move |&axis| factors[axis as usize] < 0.0)
     }
 
-    /// Adds the adjustment that a word after a file name describes.
+    /// Adds the adjustment that a word after a file name describes, such as `scale=0.5`.
     ///
     /// # Errors
     /// The word is no adjustment.
@@ -189,15 +189,15 @@ impl Adjustments {
     }
 }
 
-/// A word after a file that names no adjustment.
+/// The error for a word after a file name that describes no adjustment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("@{word}{}", Advice(.word))]
 pub struct UnknownAdjustment {
-    /// The word.
+    /// The word that was not recognised.
     pub word: String,
 }
 
-/// The error in a word, and the accepted words.
+/// Formats why a word describes no adjustment, and which words are accepted.
 struct Advice<'a>(&'a str);
 
 impl fmt::Display for Advice<'_> {
@@ -221,7 +221,7 @@ impl Default for Adjustments {
     }
 }
 
-/// Formats the adjustments as they follow a file name. The unit of conversion is omitted.
+/// Formats the adjustments as words that follow a file name. The unit of conversion is omitted.
 impl fmt::Display for Adjustments {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(unit) = self.stated {
@@ -230,7 +230,7 @@ impl fmt::Display for Adjustments {
         if self.scale() != 1.0 {
             write!(f, "@scale={}", self.scale())?;
         }
-        for axis in self.axes() {
+        for axis in self.mirrored_axes() {
             write!(f, "@mirror={axis}")?;
         }
         if self.is_hollow {

@@ -1,4 +1,4 @@
-//! Affine maps of meshes.
+//! Affine maps that transform meshes.
 
 use crate::exact::predicates::determinant;
 use ccd_core::Pose;
@@ -25,7 +25,7 @@ impl AffineMap {
     /// The identity map.
     pub const IDENTITY: AffineMap = AffineMap(DAffine3::IDENTITY);
 
-    /// Scales by a factor about the origin, then places at a pose.
+    /// Creates the map that scales by a factor about the origin, then places at a pose.
     pub fn scaled(factor: f64, pose: Pose) -> Self {
         AffineMap(DAffine3::from_scale_rotation_translation(
             DVec3::splat(factor),
@@ -47,14 +47,15 @@ impl AffineMap {
         }
     }
 
-    /// Returns whether the map reverses orientation: its determinant is negative. The sign is exact for elements from
-    /// 1e-45 to 1e45.
+    /// Returns whether the map reverses orientation, because its determinant is negative. The sign is exact for
+    /// elements from 1e-45 to 1e45.
     pub fn mirrors(&self) -> bool {
         let matrix = self.0.matrix3;
         determinant([matrix.x_axis, matrix.y_axis, matrix.z_axis]).is_lt()
     }
 
-    /// Returns the map that applies `first`, then this one. Rounded, unless either is the identity.
+    /// Returns the composition of two maps: `first` is applied before this one. Rounded, unless either is the
+    /// identity.
     pub(crate) fn after(&self, first: &AffineMap) -> AffineMap {
         match (self.is_identity(), first.is_identity()) {
             (true, _) => *first,
@@ -65,7 +66,7 @@ impl AffineMap {
 
     /// Returns whether the map takes all points to one point.
     #[cfg(feature = "gltf")]
-    pub(crate) fn is_point(&self) -> bool {
+    pub(crate) fn collapses_to_point(&self) -> bool {
         let matrix = self.0.matrix3;
         [matrix.x_axis, matrix.y_axis, matrix.z_axis] == [DVec3::ZERO; 3]
     }

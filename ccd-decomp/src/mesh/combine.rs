@@ -45,7 +45,7 @@ impl TriangleMesh {
             vertices,
             (faces, self.face_ids.clone()),
             self.face_count,
-            self.repairs.before_triangles(),
+            self.repairs.before_triangulation(),
         ))
     }
 
@@ -81,7 +81,7 @@ impl TriangleMesh {
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {
             let first = vertices.len() as u32;
-            repairs.append(&mesh.repairs.before_triangles(), first, face_count);
+            repairs.append(&mesh.repairs.before_triangulation(), first, face_count);
             vertices.extend(&mesh.vertices);
             faces.extend(mesh.faces.iter().map(|face| face.map(|v| first + v)));
             ids.extend(mesh.face_ids.iter().map(|id| face_count + id));

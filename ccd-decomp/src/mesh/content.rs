@@ -11,27 +11,27 @@ use super::unit::{Conversion, Unit};
 use assembly::Assembly;
 use groups::Groups;
 
-/// The content of a mesh file, not yet checked.
+/// The content of a mesh file as its reader returns it, not yet checked.
 #[derive(Debug)]
 pub(crate) struct Content {
-    /// The unit of the coordinates, if the file or its format says so.
+    /// The unit of the coordinates, if the file states one or its format has one.
     pub(crate) unit: Option<Unit>,
     pub(crate) layout: Layout,
-    /// Remarks about other content.
+    /// Remarks about content that was skipped or changed.
     pub(crate) remarks: Remarks,
 }
 
 /// The layout of the faces in a file.
 #[derive(Debug)]
 pub(crate) enum Layout {
-    /// A list of vertices and faces. A part is a group of the faces.
+    /// A list of vertices and faces. Each part of the file is a group of these faces.
     List(Polygons, Groups),
-    /// Shapes, each of which may be placed more than once.
+    /// Shapes and their placements. One shape may be placed several times.
     Assembly(Assembly),
 }
 
 impl Content {
-    /// The number of parts.
+    /// Returns the number of parts of the file.
     pub(crate) fn parts(&self) -> usize {
         match &self.layout {
             Layout::List(_, groups) => groups.names.len(),
@@ -39,7 +39,7 @@ impl Content {
         }
     }
 
-    /// The name of a part, if it has one.
+    /// Returns the name of a part, if it has one.
     pub(crate) fn name(&self, part: usize) -> Option<&str> {
         match &self.layout {
             Layout::List(_, groups) => groups.names[part].as_deref(),
@@ -56,7 +56,7 @@ impl Content {
         Ok(self.remarked(faces))
     }
 
-    /// Returns the faces of each part, like [`Content::part`].
+    /// Returns the faces of each part separately, like [`Content::part`].
     pub(crate) fn all_parts(&self, conversion: Conversion) -> Result<Vec<Polygons>, MeshFault> {
         let parts: Vec<Polygons> = match &self.layout {
             Layout::List(polygons, groups) => {
@@ -73,8 +73,9 @@ impl Content {
         Ok(parts.into_iter().map(|part| self.remarked(part)).collect())
     }
 
-    /// Returns all faces: those of a list with the file's numbers, those of an assembly part by part.
-    pub(crate) fn whole(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
+    /// Returns all faces as one list. Those of a list keep the file's numbers; those of an assembly are numbered part
+    /// by part.
+    pub(crate) fn all_faces(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
         let mut faces = match self.layout {
             Layout::List(polygons, _) => converted(polygons, conversion),
             Layout::Assembly(assembly) => assembly.expanded(0..assembly.parts.len(), conversion)?,
@@ -98,13 +99,13 @@ fn converted(mut polygons: Polygons, conversion: Conversion) -> Polygons {
     polygons
 }
 
-/// A file of one list without groups.
+/// Wraps a list of faces without groups as the content of a file.
 impl From<Polygons> for Content {
     fn from(mut polygons: Polygons) -> Self {
         Content {
             unit: None,
             remarks: std::mem::take(&mut polygons.remarks),
-            layout: Layout::List(polygons, Groups::one()),
+            layout: Layout::List(polygons, Groups::single()),
         }
     }
 }

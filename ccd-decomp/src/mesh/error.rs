@@ -6,36 +6,36 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-/// A mesh that cannot be read: the file, and the fault.
+/// The error of reading a mesh: the file, and its fault.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{fault}", Prefix(.file))]
 pub struct MeshError {
-    /// The file, if the mesh came from one.
+    /// The path of the file; `None` for a mesh from a reader or from memory.
     pub file: Option<PathBuf>,
-    /// The fault, with the line and element.
+    /// The fault, which names the line and the element.
     pub fault: MeshFault,
 }
 
-/// The fault of a mesh. Lines count from 1, faces and vertices from 0, both in the file's order.
+/// The fault of a mesh. Lines are numbered from 1; faces and vertices from 0, both in the file's order.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFault {
-    /// The file cannot be read.
+    /// The operating system reports an error on reading the file.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The path is a folder.
+    /// The path leads to a folder, not to a file.
     #[error("is a folder; name a mesh in it, such as a .glb, .3mf, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension names no known format.
     #[error("{}", Extension(.extension))]
     UnknownExtension {
-        /// The text after the last dot; empty without a dot.
+        /// The file extension after the last dot; empty without a dot.
         extension: String,
     },
     /// The format is known, but this variant of it is not supported.
     #[error("holds {what}, which is not supported; export it as {instead}")]
     Unsupported {
-        /// The unsupported content.
+        /// The description of the unsupported content.
         what: String,
         /// The content that can be read instead.
         instead: &'static str,
@@ -43,44 +43,44 @@ pub enum MeshFault {
     /// The file is a STEP file under another extension.
     #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
     Step,
-    /// The format is known, but this build does not read it.
+    /// The format is known, but this build has no reader for it.
     #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
     NotBuilt {
-        /// The format.
+        /// The name of the format.
         format: &'static str,
-        /// The feature of this crate that reads it.
+        /// The Cargo feature of this crate that enables the reader.
         feature: &'static str,
     },
-    /// A file that the mesh refers to cannot be read.
+    /// A file that the mesh refers to, such as a buffer of a glTF, cannot be read.
     #[error("refers to the file {name:?}, which cannot be read: {reason}")]
     LinkedFile {
-        /// The file name in the mesh.
+        /// The name of the referenced file, as the mesh has it.
         name: String,
-        /// The reason, and the remedy.
+        /// The reason why the file cannot be read, and the remedy.
         reason: String,
     },
-    /// A fault of one element of a scene.
+    /// One element of a scene has a fault.
     #[error("{place}: {fault}")]
     At {
         /// The element, such as a node, a mesh or an object.
         place: String,
-        /// Its fault.
+        /// The fault of the element.
         fault: Box<MeshFault>,
     },
     /// The file has no part of that name or number.
     #[error("has no part {part:?}; {}", Parts(.parts))]
     NoSuchPart {
-        /// The requested name or number.
+        /// The name or number that was requested.
         part: String,
-        /// The names of all parts; a part may have none.
+        /// The names of all parts of the file, in order; `None` for a part without a name.
         parts: Vec<Option<String>>,
     },
-    /// Several parts have this name.
+    /// Several parts of the file have the requested name.
     #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), Numbers(.numbers))]
     AmbiguousPart {
-        /// The name.
+        /// The requested name.
         part: String,
-        /// The numbers of these parts, from 0.
+        /// The numbers of the parts with this name, from 0.
         numbers: Vec<usize>,
     },
     /// Instances or repeated elements expand a small file beyond the limit.
@@ -99,7 +99,7 @@ pub enum MeshFault {
         /// The limit for a file of this size, in bytes.
         limit: u64,
     },
-    /// The file is a pointer of Git LFS.
+    /// The file is a pointer of Git LFS, not the mesh itself.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
     /// The mesh has no vertices.
@@ -111,7 +111,7 @@ pub enum MeshFault {
     /// The content does not follow the format.
     #[error("{}{problem}; mend it or export the mesh again", Line(*.line))]
     Syntax {
-        /// The line, in a text.
+        /// The line number, if the format is text.
         line: Option<usize>,
         /// The text that was found, and the text that was expected.
         problem: String,
@@ -119,55 +119,55 @@ pub enum MeshFault {
     /// The file ends before the elements that it announces.
     #[error("ends before {missing} is complete; copy or export it again")]
     Truncated {
-        /// The first missing element.
+        /// The first element that is missing from the file.
         missing: String,
     },
     /// A coordinate is NaN or infinite.
     #[error("{}vertex {vertex} is NaN or infinite; give it finite coordinates", Line(*.line))]
     NotFinite {
-        /// The vertex.
+        /// The number of the vertex.
         vertex: usize,
-        /// The line, in a text.
+        /// The line number of the vertex, if the format is text.
         line: Option<usize>,
     },
     /// A coordinate exceeds the supported range.
     #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", Line(*.line))]
     TooLarge {
-        /// The vertex.
+        /// The number of the vertex.
         vertex: usize,
-        /// The line, in a text.
+        /// The line number of the vertex, if the format is text.
         line: Option<usize>,
     },
-    /// A face uses a vertex that does not exist.
+    /// A face has a vertex number that does not exist.
     #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {base}", Line(*.line))]
     NoSuchVertex {
-        /// The face.
+        /// The number of the face.
         face: usize,
-        /// The line, in a text.
+        /// The line number of the face, if the format is text.
         line: Option<usize>,
-        /// The vertex as the file writes it; a negative one of an OBJ counts back from the face.
+        /// The vertex number as the file writes it. A negative number in an OBJ counts back from the face.
         vertex: i64,
-        /// The number of vertices.
+        /// The number of vertices in the file.
         vertices: usize,
         /// The number that the format gives to the first vertex.
         base: u8,
     },
-    /// A face has less than three corners.
+    /// A face has fewer than three corners.
     #[error("{}face {face} has {corners} corners; remove it or give it three", Line(*.line))]
     TooFewCorners {
-        /// The face.
+        /// The number of the face.
         face: usize,
-        /// The line, in a text.
+        /// The line number of the face, if the format is text.
         line: Option<usize>,
-        /// The number of its corners.
+        /// The number of corners of the face.
         corners: usize,
     },
     /// There are more elements than an index can address.
     #[error("{count} {what} are too many; split the mesh into several")]
     TooMany {
-        /// The kind of elements.
+        /// The kind of elements, in the plural, such as `vertices`.
         what: &'static str,
-        /// The number of elements.
+        /// The number of elements in the file.
         count: usize,
     },
 }
@@ -182,7 +182,7 @@ impl MeshFault {
         MeshFault::Syntax { line, problem }
     }
 
-    /// Adds the element that has the fault.
+    /// Wraps the fault with the name of the element that has it.
     pub(crate) fn at(self, place: impl Into<String>) -> Self {
         MeshFault::At {
             place: place.into(),
@@ -215,7 +215,7 @@ impl fmt::Display for Extension<'_> {
             "" => write!(f, "has no extension, which tells the format of a mesh; ")?,
             other => write!(f, "{other:?} is not the extension of a mesh; ")?,
         }
-        match conversion(self.0) {
+        match conversion_advice(self.0) {
             Some(advice) => f.write_str(&advice),
             None => write!(f, "use .gltf, .glb, .3mf, .obj, .stl, .ply or .off"),
         }
@@ -231,7 +231,7 @@ fn cad_advice(extension: &str) -> String {
 }
 
 /// Returns advice on converting a file of a well-known format to a mesh.
-fn conversion(extension: &str) -> Option<String> {
+fn conversion_advice(extension: &str) -> Option<String> {
     let advice = match extension {
         "step" | "stp" | "iges" | "igs" | "brep" => return Some(cad_advice(extension)),
         "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {
@@ -254,7 +254,7 @@ fn conversion(extension: &str) -> Option<String> {
     Some(advice.into())
 }
 
-/// The maximum number of parts in a message.
+/// The maximum number of part names in a message.
 const NAMED_PARTS: usize = 20;
 
 struct Parts<'a>(&'a [Option<String>]);
@@ -295,7 +295,7 @@ impl fmt::Display for Numbers<'_> {
     }
 }
 
-/// A name from a file, truncated for messages.
+/// A name from a file, quoted and truncated for messages.
 pub(crate) struct Quote<'a>(pub(crate) &'a str);
 
 impl fmt::Debug for Quote<'_> {

@@ -1,4 +1,4 @@
-//! File formats: readers of bytes, without access to files.
+//! Mesh file formats. Each reader turns bytes into a mesh without access to files.
 
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -56,15 +56,15 @@ pub enum Format {
     ThreeMf,
 }
 
-/// The content of the files that a mesh refers to, by name.
+/// The contents of the files that a mesh refers to, by file name.
 pub(crate) type LinkedFiles = BTreeMap<String, Vec<u8>>;
 
-/// A file that a mesh refers to.
+/// A reference from a mesh to another file.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Reference {
-    /// The path, relative to the mesh, as written in the mesh.
+    /// The path of the file relative to the mesh, as written in the mesh.
     pub(crate) name: String,
-    /// The number of bytes that the mesh needs.
+    /// The number of bytes of the file that the mesh needs.
     pub(crate) bytes: u64,
 }
 
@@ -92,20 +92,20 @@ impl Format {
         self == Format::Gltf
     }
 
-    /// Returns the files that the content refers to, which [`Format::parse`] needs.
+    /// Returns the references to other files in the content, which [`Format::parse`] needs.
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
-            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) && !is_step(&text::decoded(bytes)) => {
+            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) && !is_step(&text::utf8(bytes)) => {
                 gltf::references(bytes)
             }
             _ => Ok(Vec::new()),
         }
     }
 
-    /// Parses a file's content. `linked` holds the files that it refers to.
+    /// Parses a file's content. `linked` holds the contents of the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
-        let unmarked = text::decoded(bytes);
+        let unmarked = text::utf8(bytes);
         if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
         }
@@ -113,10 +113,10 @@ impl Format {
             return Err(MeshFault::Step);
         }
         match self {
-            Format::Obj => obj::parse(&text::plain(bytes)),
+            Format::Obj => obj::parse(&text::utf8_with_line_feeds(bytes)),
             Format::Stl => stl::parse(bytes).map(Content::from),
             Format::Ply => ply::parse(&unmarked).map(Content::from),
-            Format::Off => off::parse(&text::plain(bytes)).map(Content::from),
+            Format::Off => off::parse(&text::utf8_with_line_feeds(bytes)).map(Content::from),
             #[cfg(feature = "gltf")]
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]
@@ -129,7 +129,7 @@ impl Format {
     }
 }
 
-/// Returns whether the bytes are a STEP file.
+/// Returns whether the bytes begin like a STEP file.
 fn is_step(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }

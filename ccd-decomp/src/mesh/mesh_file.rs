@@ -1,4 +1,4 @@
-//! Mesh files: their parts, and their unit.
+//! Mesh files with several parts and a unit.
 
 use super::TriangleMesh;
 use super::content::Content;
@@ -9,7 +9,7 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// The content of a mesh file: parts, by name or number, and a unit.
+/// The content of a mesh file: a unit, and parts that are found by name or number.
 ///
 /// The parts of a glTF are its nodes with meshes, those of a 3MF the items of its build, those of an OBJ its objects or
 /// groups: [`Format`] says more. Any other file is one part. Parts are numbered from 0; parts without faces are
@@ -33,10 +33,10 @@ pub struct MeshFile {
     path: Option<PathBuf>,
 }
 
-/// A part of a file.
+/// The mesh of one part of a file, with the part's name.
 #[derive(Clone, Debug)]
 pub struct NamedMesh {
-    /// The name, if the part has one. Several parts of a file may have the same.
+    /// The name of the part, if it has one. Several parts of a file may have the same name.
     pub name: Option<String>,
     /// The triangles. Vertices and faces are numbered from 0 in each part.
     pub mesh: TriangleMesh,
@@ -54,7 +54,12 @@ impl MeshFile {
             let references = format.references(&bytes)?.into_iter();
             let folder = path.parent().unwrap_or(Path::new(""));
             let linked: Result<LinkedFiles, _> = references
-                .map(|reference| Ok((reference.name.clone(), neighbour(folder, &reference)?)))
+                .map(|reference| {
+                    Ok((
+                        reference.name.clone(),
+                        read_linked_file(folder, &reference)?,
+                    ))
+                })
                 .collect();
             format.parse(&bytes, &linked?)
         };
@@ -94,7 +99,7 @@ impl MeshFile {
         self.unit
     }
 
-    /// Sets the unit of the file's coordinates, whatever the file states.
+    /// Sets the unit of the file's coordinates. It takes precedence over a unit that the file states.
     ///
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};
@@ -158,7 +163,7 @@ impl MeshFile {
         made().map_err(|fault| self.error(fault))
     }
 
-    /// Returns the mesh of each part.
+    /// Returns the meshes of all parts, each with its name.
     ///
     /// # Errors
     /// [`MeshFault::At`] with the number and name of a part, and its fault.
@@ -174,7 +179,7 @@ impl MeshFile {
         named.collect()
     }
 
-    /// Returns all parts as one mesh, one part after the other. Those of an OBJ keep the numbers of the file.
+    /// Returns all parts as one mesh, one part after the other. Elements of an OBJ keep the numbers of the file.
     ///
     /// A solid wholly inside another one counts as its cavity. [`MeshFile::into_parts`] keeps them as two solids.
     ///
@@ -187,7 +192,7 @@ impl MeshFile {
             path,
             ..
         } = self;
-        let whole = content.whole(conversion);
+        let whole = content.all_faces(conversion);
         whole
             .and_then(TriangleMesh::from_polygons)
             .map_err(|fault| error(fault, path.as_deref()))
@@ -215,7 +220,7 @@ impl MeshFile {
         }
     }
 
-    /// The name of a part in messages.
+    /// Returns the name of a part for messages.
     fn place(&self, part: usize) -> String {
         element_name("part", part, self.content.name(part))
     }
@@ -225,7 +230,7 @@ impl MeshFile {
     }
 }
 
-/// Returns the paths that a mesh is read from: the file, and those that it refers to.
+/// Returns the paths of all files that a mesh is read from: the mesh file, and those that it refers to.
 pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
     let found = || {
         if !Format::from_path(path).is_ok_and(Format::refers_to_files) {
@@ -235,7 +240,7 @@ pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut files = vec![path.to_owned()];
         for reference in format.references(&bytes)? {
-            files.push(folder.join(relative(&reference.name)?));
+            files.push(folder.join(checked_relative_path(&reference.name)?));
         }
         Ok(files)
     };
@@ -259,9 +264,9 @@ fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
 }
 
 /// Reads a file that a mesh refers to, up to the needed length. Only regular files are read: a pipe might never end.
-fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
+fn read_linked_file(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault> {
     let Reference { name, bytes } = reference;
-    let path = folder.join(relative(name)?);
+    let path = folder.join(checked_relative_path(name)?);
     let read = || {
         if !fs::metadata(&path)?.is_file() {
             return Err(std::io::Error::other("it is no file"));
@@ -276,8 +281,8 @@ fn neighbour(folder: &Path, reference: &Reference) -> Result<Vec<u8>, MeshFault>
     })
 }
 
-/// Checks that a reference stays in the mesh's folder or below it.
-fn relative(name: &str) -> Result<PathBuf, MeshFault> {
+/// Converts a reference to a path, and checks that it stays in the mesh's folder or below it.
+fn checked_relative_path(name: &str) -> Result<PathBuf, MeshFault> {
     let path = PathBuf::from(name);
     let stays = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     if path.components().all(stays) && path.file_name().is_some() {

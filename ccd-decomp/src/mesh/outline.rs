@@ -1,4 +1,4 @@
-//! Triangulates polygons that the fan about their first corner does not cover exactly.
+//! Triangulates polygons that a triangle fan about the first corner does not cover exactly.
 
 use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
@@ -10,7 +10,7 @@ use std::panic::catch_unwind;
 
 type Plane = ConstrainedDelaunayTriangulation<Corner, (), (), (), HierarchyHintGenerator<f64>>;
 
-/// A corner of the polygon in the plane.
+/// A corner of the polygon, projected to a coordinate plane.
 #[derive(Clone, Copy)]
 struct Corner {
     number: usize,
@@ -25,7 +25,8 @@ impl HasPosition for Corner {
     }
 }
 
-/// Triangulates a polygon: `n − 2` triangles for `n` corners, oriented like the polygon, by corner numbers.
+/// Triangulates a polygon of `n` corners into `n − 2` triangles, oriented like the polygon. Triangles are given by
+/// corner numbers.
 ///
 /// Returns `None` if the polygon repeats a corner, or intersects itself when projected along the coordinate axis
 /// nearest to its normal.
@@ -38,16 +39,16 @@ impl HasPosition for Corner {
 /// Expected `n log n` for `n` corners: corners and edges are inserted in a pseudorandom order. A sweep takes `n²` for
 /// corners on or near a line.
 pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
-    let places = projected(points)?;
+    let places = project(points)?;
     // A fault of the library may panic; the fan is used then.
-    let (plane, at) = catch_unwind(|| triangulated(&places)).ok()??;
-    let mut triangles = within(&plane, &at)?;
+    let (plane, at) = catch_unwind(|| triangulate_constrained(&places)).ok()??;
+    let mut triangles = triangles_inside(&plane, &at)?;
     triangles.sort_unstable();
     (triangles.len() == points.len() - 2).then_some(triangles)
 }
 
-/// Projects the points along the coordinate axis nearest to their normal, counterclockwise.
-fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
+/// Projects the corners to the coordinate plane nearest to the polygon's plane, counterclockwise.
+fn project(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let first = *points.first()?;
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
     let normal: DVec3 = pairs.map(|(&p, &q)| (p - first).cross(q - first)).sum();
@@ -63,11 +64,11 @@ fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     Some(points.iter().map(flat).collect())
 }
 
-/// Triangulates the points with the outline as constraint edges. Returns the vertex of each point; `None` if that
-/// fails.
-fn triangulated(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>)> {
+/// Triangulates the points with the outline as constraint edges. Returns the triangulation's vertex for each point;
+/// `None` if it fails.
+fn triangulate_constrained(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>)> {
     let count = places.len();
-    let order = order(places)?;
+    let order = insertion_order(places)?;
     let mut plane = Plane::new();
     let mut at = vec![FixedVertexHandle::from_index(0); count];
     for (done, &number) in order.iter().enumerate() {
@@ -87,9 +88,9 @@ fn triangulated(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>
     (plane.num_constraints() == count).then_some((plane, at))
 }
 
-/// Returns the order of insertion: three corners that span a triangle, because the library scans all while they are
-/// collinear, then the others in pseudorandom order. Returns `None` if all are collinear.
-fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
+/// Returns the order of insertion: first three corners that span a triangle, then the others in pseudorandom order.
+/// The library scans all points while they are collinear. Returns `None` if all are collinear.
+fn insertion_order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     let point = |k: usize| DVec3::new(places[k].x, places[k].y, 0.0);
     let second = (1..places.len()).find(|&k| places[k] != places[0])?;
     let spans = |&k: &usize| !is_without_area([point(0), point(second), point(k)]);
@@ -99,22 +100,22 @@ fn order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
         if [0, second, third].contains(&k) {
             0
         } else {
-            mixed(k as u64)
+            hash(k as u64)
         }
     });
     Some(order)
 }
 
-/// Hashes a number: the finalizer of SplitMix64.
-fn mixed(number: u64) -> u64 {
+/// Hashes a number by the finalizer of SplitMix64.
+fn hash(number: u64) -> u64 {
     let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     bits ^ (bits >> 31)
 }
 
-/// Collects the triangles to the left of the outline.
-fn within(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usize; 3]>> {
+/// Collects the triangles of a triangulation that are inside the outline.
+fn triangles_inside(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usize; 3]>> {
     let mut seen = vec![false; plane.num_all_faces()];
     let (mut stack, count) = (Vec::new(), at.len());
     for k in 0..count {

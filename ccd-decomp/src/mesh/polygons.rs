@@ -1,21 +1,21 @@
-//! The polygons of a file, checked and cut into triangles.
+//! Checks the polygons of a file, and cuts them into triangles.
 
 use super::error::MeshFault;
 use super::outline;
 use super::remark::Remarks;
 use super::repair::Repairs;
-use crate::exact::predicates::{is_without_area, too_large};
+use crate::exact::predicates::{first_out_of_range, is_without_area};
 use ccd_core::glam::DVec3;
 
 /// The vertices and faces of a file, not yet checked.
 #[derive(Debug, Default)]
 pub(crate) struct Polygons {
     pub(crate) vertices: Vec<DVec3>,
-    /// The vertices of all faces, one face after the other, numbered from 0; not yet checked.
+    /// The vertex numbers of the corners of all faces, one face after the other, from 0; not yet checked.
     pub(crate) corners: Vec<i64>,
-    /// The end of each face's corners in `corners`.
+    /// By face, the end of its range in `corners`.
     pub(crate) ends: Vec<usize>,
-    /// The lines of vertices and faces in the file, from 1; empty if the format has no lines.
+    /// The line numbers of vertices and faces in the file, from 1; empty if the format has no lines.
     pub(crate) vertex_lines: Vec<usize>,
     pub(crate) face_lines: Vec<usize>,
     pub(crate) remarks: Remarks,
@@ -63,17 +63,17 @@ impl Polygons {
     }
 
     pub(super) fn faces(&self) -> impl Iterator<Item = &[i64]> {
-        (0..self.ends.len()).map(|face| self.face(face))
+        (0..self.ends.len()).map(|face| self.face_corners(face))
     }
 
-    /// The corners of a face.
-    pub(super) fn face(&self, face: usize) -> &[i64] {
+    /// Returns the vertex numbers of a face's corners.
+    pub(super) fn face_corners(&self, face: usize) -> &[i64] {
         let start = face.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.corners[start..self.ends[face]]
     }
 
-    /// Triangulates every polygon as the fan about its first corner. If the fan has a degenerate triangle, or one
-    /// outside the polygon, it is triangulated otherwise.
+    /// Triangulates every polygon as the fan about its first corner. A polygon whose fan has a degenerate triangle,
+    /// or one outside the polygon, is triangulated otherwise.
     ///
     /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or not. For
     /// a non-convex polygon it covers more; that is reported if the polygon intersects itself and cannot be
@@ -92,8 +92,8 @@ impl Polygons {
             if corners.len() > 3 {
                 repairs.polygons.add(id);
                 let fan = &mut faces[start..];
-                let overhangs = overhangs(&self.vertices, fan);
-                if !(overhangs || has_flat(&self.vertices, fan)) {
+                let overhangs = has_flipped_triangle(&self.vertices, fan);
+                if !(overhangs || has_degenerate_triangle(&self.vertices, fan)) {
                     continue;
                 }
                 let points: Vec<DVec3> =
@@ -113,7 +113,7 @@ impl Polygons {
     }
 }
 
-/// Checks that pieces can index all elements.
+/// Checks that a number of elements can be indexed in 32 bits.
 pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFault> {
     // A fan makes less than one triangle per corner; pieces name corners by u32.
     if count < u32::MAX as usize / 12 {
@@ -125,7 +125,7 @@ pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFa
 
 /// Checks that all coordinates are in the supported range.
 pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
-    let Some(vertex) = too_large(vertices) else {
+    let Some(vertex) = first_out_of_range(vertices) else {
         return Ok(());
     };
     let line = lines.get(vertex).copied();
@@ -136,14 +136,14 @@ pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), 
     })
 }
 
-/// Returns whether a triangle of a fan has no area.
-fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+/// Returns whether a triangle of a fan is degenerate.
+fn has_degenerate_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     fan.iter()
         .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
 }
 
-/// Returns whether a triangle of a fan is oriented against the fan as a whole.
-fn overhangs(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+/// Returns whether a triangle of a fan is oriented against the sum of the fan's normals.
+fn has_flipped_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| vertices[v as usize]);
         (b - a).cross(c - a)

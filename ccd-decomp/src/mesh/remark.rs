@@ -1,4 +1,4 @@
-//! Remarks of readers: content that was skipped or changed.
+//! Remarks of mesh readers about content that was skipped or changed.
 
 use super::error::Quote;
 use serde::{Deserialize, Serialize};
@@ -8,22 +8,22 @@ use std::fmt;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remarks(Vec<Remark>);
 
-/// One kind of elements.
+/// A remark about one kind of elements.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Remark {
     /// The kind of elements and their treatment, such as `lines passed over`.
     pub what: String,
-    /// Their number.
+    /// The number of elements of this kind.
     pub count: usize,
-    /// The line of the first one, in a text.
+    /// The line number of the first element, if the format is text.
     pub line: Option<usize>,
 }
 
-/// The maximum number of kinds listed separately, to keep the report short.
+/// The maximum number of kinds that are listed separately, to keep the report short.
 const KINDS: usize = 8;
 
 impl Remarks {
-    /// The remarks, in the order in which they were first made.
+    /// Iterates over the remarks, in the order in which they were first made.
     pub fn iter(&self) -> std::slice::Iter<'_, Remark> {
         self.0.iter()
     }
@@ -33,7 +33,7 @@ impl Remarks {
         self.0.is_empty()
     }
 
-    /// Adds elements of a kind.
+    /// Adds a number of elements to the remark of their kind.
     pub(crate) fn add(&mut self, what: &str, count: usize, line: Option<usize>) {
         let full = self.0.len() >= KINDS;
         match self.0.iter_mut().find(|remark| remark.what == what) {
@@ -47,13 +47,13 @@ impl Remarks {
         }
     }
 
-    /// Adds elements of a kind with a name in the file.
+    /// Adds a number of elements to the remark of a kind that is named in the file.
     pub(crate) fn add_named(&mut self, kind: &str, name: &str, count: usize, line: Option<usize>) {
         let what = format!("{kind} {:?} passed over", Quote(name));
         self.add(&what, count, line);
     }
 
-    /// Adds the remarks about another file.
+    /// Appends the remarks about another file.
     pub(crate) fn append(&mut self, other: &Self) {
         for Remark { what, count, .. } in other.iter() {
             self.add(what, *count, None);
@@ -61,7 +61,7 @@ impl Remarks {
     }
 }
 
-/// The kind of all elements beyond [`KINDS`].
+/// The kind that stands for all kinds beyond [`KINDS`].
 const OTHERS: &str = "others passed over";
 
 impl fmt::Display for Remark {

@@ -1,22 +1,22 @@
-//! Repairs of a mesh: the report, and the choice of dropped faces.
+//! Faults of a mesh: which faces are dropped, and the report.
 
 use super::remark::Remarks;
-use crate::hull::polygons::smallest_first;
+use crate::hull::polygons::rotated_to_smallest;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
 
-/// The faults of a mesh, and the repairs. Numbers are those of the file.
+/// The faults that were found in a mesh, and how they were repaired. Numbers are those of the file.
 ///
 /// # Guarantee
 /// No repair removes a point of the surface.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repairs {
-    /// Faces of more than three corners, triangulated. A non-planar polygon bounds several surfaces: the triangles are
-    /// one of them.
+    /// Faces of more than three corners, which were triangulated. A non-planar polygon bounds several surfaces: the
+    /// triangles are one of them.
     pub polygons: Tally<u32>,
-    /// Polygons that intersect themselves or are far from planar: the fan extends beyond the face.
+    /// Polygons that intersect themselves or are far from planar. Their triangle fan extends beyond the polygon.
     pub overhanging: Tally<u32>,
     /// Faces dropped because another face has the same three points in the same orientation. The same points in the
     /// opposite orientation are kept: two faces back to back are a closed surface.
@@ -24,11 +24,11 @@ pub struct Repairs {
     /// Faces dropped because two of their corners are the same point, and the remaining segment or point is
     /// on an edge of another face. Otherwise they are kept.
     pub collapsed: Tally<u32>,
-    /// Faces without area, which are kept: a segment or point can be touched, too.
+    /// Faces without area, which are kept, because their segment or point can be touched, too.
     pub zero_area: Tally<u32>,
     /// Vertices that no face uses.
     pub unreferenced: Tally<u32>,
-    /// Remarks about other content of the file.
+    /// Remarks about content of the file that was skipped or changed.
     // Stored bodies have the remarks at their end; older files have none.
     #[serde(skip)]
     pub remarks: Remarks,
@@ -40,8 +40,9 @@ impl Repairs {
         self == &Repairs::default()
     }
 
-    /// Returns the repairs that rebuilding the mesh from its triangles would not find again.
-    pub(crate) fn before_triangles(&self) -> Self {
+    /// Returns the repairs that happened before triangulation. Rebuilding the mesh from its triangles would not find
+    /// them again.
+    pub(crate) fn before_triangulation(&self) -> Self {
         Repairs {
             zero_area: Tally::default(),
             ..self.clone()
@@ -106,12 +107,12 @@ impl fmt::Display for Repairs {
     }
 }
 
-/// Marks every face that has the same points as an earlier one, in the same orientation.
+/// Marks every face with the same points as an earlier face, in the same orientation.
 pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let mut keyed: Vec<([u32; 3], u32)> = faces
         .iter()
         .zip(0..)
-        .map(|(face, k)| (smallest_first(face.map(|v| positions[v as usize])), k))
+        .map(|(face, k)| (rotated_to_smallest(face.map(|v| positions[v as usize])), k))
         .collect();
     keyed.sort_unstable();
     let mut duplicate = vec![false; faces.len()];
@@ -121,7 +122,7 @@ pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     duplicate
 }
 
-/// Marks every face with two corners at one point if that point is on an edge of a face that is not marked.
+/// Marks every face that has two equal corner points, if the points of the face lie on an edge of an unmarked face.
 pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let welded = |face: &[u32; 3]| face.map(|v| positions[v as usize]);
     let has_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;

@@ -1,7 +1,7 @@
 use crate::{MeshFault, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
 
-/// The corners of a unit square, its first corner once more, and a point on its first side.
+/// Returns the corners of a unit square, its first corner once more, and a point on its first side.
 fn points() -> Vec<DVec3> {
     vec![
         dvec3(0.0, 0.0, 0.0),
@@ -59,7 +59,7 @@ fn a_face_without_area_is_kept_and_reported() {
     assert_eq!(mesh.repairs().unreferenced.first(), [3, 4]);
 }
 
-/// Products of such coordinates underflow.
+/// Tests a face whose coordinates are so small that their products underflow.
 #[test]
 fn the_finest_face_has_an_area() {
     for unit in [1e-170, 1e-300, f64::MIN_POSITIVE, f64::from_bits(1)] {
@@ -89,7 +89,8 @@ fn a_concave_polygon_is_filled() {
     assert!(mesh.repairs().overhanging.is_empty());
 }
 
-/// Corners on a line with the first one make no faces without area; other polygons keep their fan.
+/// Tests that a polygon with corners on a line with the first one gets no degenerate triangles. Other polygons keep
+/// their fan.
 #[test]
 fn a_polygon_with_straight_corners_is_filled() {
     let file = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\nf 4 5 1 3\n";

@@ -13,30 +13,30 @@ use std::str::FromStr;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
-    /// `um`, a millionth of a metre; 3MF calls it a micron.
+    /// Micrometre, `um`: a millionth of a metre. 3MF calls it a micron.
     Micrometre,
-    /// `mm`, a thousandth of a metre.
+    /// Millimetre, `mm`: a thousandth of a metre.
     Millimetre,
-    /// `cm`, a hundredth of a metre.
+    /// Centimetre, `cm`: a hundredth of a metre.
     Centimetre,
-    /// `m`.
+    /// Metre, `m`.
     Metre,
-    /// `in`, 25.4 millimetres.
+    /// Inch, `in`: 25.4 millimetres.
     Inch,
-    /// `ft`, twelve inches.
+    /// Foot, `ft`: twelve inches.
     Foot,
 }
 
-/// A text that names no unit.
+/// The error for a text that is no unit of length.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no unit {name:?}; use um, mm, cm, m, in or ft")]
 pub struct UnknownUnit {
-    /// The text.
+    /// The text that names no unit.
     pub name: String,
 }
 
 impl Unit {
-    /// All units, in the order of their names in messages.
+    /// All units, in the order in which messages list them.
     pub const ALL: [Unit; 6] = [
         Unit::Micrometre,
         Unit::Millimetre,
@@ -46,7 +46,7 @@ impl Unit {
         Unit::Foot,
     ];
 
-    /// Returns the symbol, in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
+    /// Returns the symbol of the unit in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Micrometre => "um",
@@ -58,7 +58,7 @@ impl Unit {
         }
     }
 
-    /// Returns the length in micrometres, a whole number for all units.
+    /// Returns the length of the unit in micrometres, a whole number for all units.
     fn micrometres(self) -> u32 {
         match self {
             Unit::Micrometre => 1,
@@ -86,7 +86,7 @@ impl FromStr for Unit {
     }
 }
 
-/// A conversion of coordinates: a multiplication by a whole number, then a division by one.
+/// A conversion of coordinates between units: a multiplication by a whole number, then a division by one.
 ///
 /// Between metric units one of them is 1, so that a coordinate is rounded once. A 32-bit float converts exactly to a
 /// smaller metric unit: the product with a power of ten up to 1e6 has at most 38 bits. Between metric units and inches
@@ -112,7 +112,7 @@ impl Conversion {
         }
     }
 
-    /// Converts a point; exact if the units are equal.
+    /// Converts a point to the new unit. The result is exact if the units are equal.
     pub(crate) fn apply(self, point: DVec3) -> DVec3 {
         point * self.times / self.over
     }

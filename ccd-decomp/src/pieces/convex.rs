@@ -1,4 +1,4 @@
-//! Convex solids as one polytope.
+//! Converts a convex solid to a single polytope.
 
 use super::polytope::{CoveredFacet, polytope};
 use crate::hull::polygons::for_each_polygon;
@@ -8,7 +8,7 @@ use crate::solid::shells::shells;
 use crate::solid::topology::Edge;
 use ccd_core::Polytope;
 
-/// Makes the polytope of a convex solid.
+/// Returns a convex solid as one polytope; an error if the solid is not convex.
 ///
 /// Exact: a closed surface in one part that nowhere meets itself bounds a convex solid if and only if none of its
 /// edges is reflex. About every vertex such a surface is a simple spherical polygon without a reflex angle, which
@@ -16,8 +16,8 @@ use ccd_core::Polytope;
 ///
 /// # Errors
 /// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`] with the number of parts.
-pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
-    if let Some([v, w]) = bad_edge(manifold) {
+pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
+    if let Some([v, w]) = first_non_convex_edge(manifold) {
         let edge = Edge(v.min(w), v.max(w));
         return Err(DecomposeError::NotConvex { edge });
     }
@@ -43,8 +43,8 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
     Ok(polytope(manifold, &facets))
 }
 
-/// Returns the first reflex or folded edge.
-fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
+/// Returns the first edge that is reflex or folded, by its vertices; `None` for a convex surface.
+fn first_non_convex_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
     let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
     (0..3 * manifold.faces().len() as u32)
         .find(is_bad)

@@ -1,4 +1,4 @@
-//! Convex surface decomposition: a closed mesh becomes patches whose hulls lie inside the solid.
+//! Decomposes the surface of a closed mesh into convex patches, whose hulls lie inside the solid.
 
 mod growing_patch;
 mod obstacle;
@@ -9,7 +9,7 @@ pub use order::Order;
 pub use patch::Patch;
 
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::solid::bounding_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::Flats;
@@ -19,10 +19,10 @@ use crate::work::Work;
 use growing_patch::{GrowingPatch, Join};
 use order::{Frontier, seeds};
 
-/// A decomposition of a mesh's surface into convex patches.
+/// A decomposition of a solid's surface into convex patches.
 #[derive(Clone, Debug)]
 pub struct Decomposition {
-    /// The patches. Every triangle of the mesh is in exactly one.
+    /// The patches, in the order in which they were made. Every triangle of the mesh is in exactly one.
     pub patches: Vec<Patch>,
 }
 
@@ -55,7 +55,7 @@ pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, Dec
     decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
 }
 
-/// Decomposes a surface that is known to bound a solid, given its polygons.
+/// Decomposes the surface of a solid into convex patches, given its convex polygons.
 ///
 /// # Errors
 /// [`DecomposeError::TooLong`] when the work does not suffice.
@@ -65,7 +65,7 @@ pub(crate) fn decompose_flats(
     order: Order,
     work: &Work,
 ) -> Result<Decomposition, DecomposeError> {
-    if let Ok(polytope) = as_polytope(manifold) {
+    if let Ok(polytope) = convex_polytope(manifold) {
         let faces = (0..manifold.faces().len() as u32).collect();
         let patches = vec![Patch { faces, polytope }];
         return Ok(Decomposition { patches });
@@ -75,12 +75,12 @@ pub(crate) fn decompose_flats(
         flats,
         order,
         work,
-        taken: vec![false; flats.len()],
-        tried: vec![u32::MAX; flats.len()],
+        in_patch: vec![false; flats.len()],
+        last_tried_by: vec![u32::MAX; flats.len()],
     };
     let mut patches = Vec::new();
     for seed in seeds(manifold, flats, order) {
-        if !grower.taken[seed as usize] {
+        if !grower.in_patch[seed as usize] {
             let region = grower.grow(seed, patches.len() as u32);
             work.check()?;
             patches.push(Patch::new(manifold, flats, &region));
@@ -94,25 +94,25 @@ struct Grower<'a, 'm> {
     flats: &'a Flats,
     order: Order,
     work: &'a Work,
-    /// Whether a polygon belongs to a patch.
-    taken: Vec<bool>,
-    /// The last patch that refused each polygon. A refusal is final, because the hull only grows.
-    tried: Vec<u32>,
+    /// By polygon, whether it belongs to a patch.
+    in_patch: Vec<bool>,
+    /// By polygon, the last patch that it was tested with. A refusal is final, because the hull only grows.
+    last_tried_by: Vec<u32>,
 }
 
 impl Grower<'_, '_> {
     fn grow(&mut self, seed: u32, patch: u32) -> GrowingPatch {
         let mut region = GrowingPatch::new(self.flats, seed);
-        self.taken[seed as usize] = true;
+        self.in_patch[seed as usize] = true;
         let mut frontier = Frontier::new(self.order);
-        self.reach(&mut frontier, seed);
+        self.push_neighbours(&mut frontier, seed);
         // A flat patch takes no coplanar polygon, because the union need not be convex. These are tried again once the
         // patch has volume.
         let mut in_plane = Vec::new();
         // Polygons are pushed when another one joins, and each joins once.
         while let Some(next) = frontier.pop() {
-            let tried = &mut self.tried[next as usize];
-            if self.taken[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
+            let tried = &mut self.last_tried_by[next as usize];
+            if self.in_patch[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
                 continue;
             }
             *tried = patch;
@@ -121,10 +121,10 @@ impl Grower<'_, '_> {
                 Join::Refused => {}
                 Join::InPlane => in_plane.push(next),
                 Join::Joined => {
-                    self.taken[next as usize] = true;
-                    self.reach(&mut frontier, next);
+                    self.in_patch[next as usize] = true;
+                    self.push_neighbours(&mut frontier, next);
                     for waiting in in_plane.drain(..) {
-                        self.tried[waiting as usize] = u32::MAX;
+                        self.last_tried_by[waiting as usize] = u32::MAX;
                         frontier.push(waiting);
                     }
                 }
@@ -134,7 +134,7 @@ impl Grower<'_, '_> {
     }
 
     /// Adds the neighbours of a polygon to the frontier, except beyond reflex edges.
-    fn reach(&self, frontier: &mut Frontier, flat: u32) {
+    fn push_neighbours(&self, frontier: &mut Frontier, flat: u32) {
         for &edge in &self.flats.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {
                 frontier.push(self.flats.of_face(self.manifold.twin(edge) / 3));

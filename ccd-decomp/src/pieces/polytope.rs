@@ -3,16 +3,16 @@
 use crate::solid::manifold::Manifold;
 use ccd_core::{Face, Facet, Origin, Polytope};
 
-/// A facet, and the faces of the mesh that lie in it.
+/// A facet of a polytope, and the faces of the mesh that lie in it.
 pub(super) struct CoveredFacet {
-    /// The corner vertices, counter-clockwise seen from outside.
+    /// The vertex numbers of the corners, counter-clockwise seen from outside.
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<u32>,
-    /// Whether the faces cover the facet.
+    /// Whether the faces of the mesh cover the facet.
     pub(super) is_covered: bool,
 }
 
-/// Creates the polytope of some facets. Its points are the mesh vertices at their corners.
+/// Creates a polytope from facets. Its points are the mesh vertices at the corners.
 pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[CoveredFacet]) -> Polytope {
     let mut vertices: Vec<u32> = facets.iter().flat_map(|f| &f.corners).copied().collect();
     vertices.sort_unstable();

@@ -1,4 +1,4 @@
-//! Approximation of a mesh by a few convex hulls, with errors that are certified on both sides.
+//! Approximates a mesh by a few convex hulls, with certified bounds on what they miss and on what they exceed.
 //!
 //! ```text
 //! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
@@ -17,7 +17,7 @@ mod voxels;
 
 use crate::hull::{HullError, hull};
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::is_star_shaped;
 use crate::solid::topology::Topology;
@@ -35,7 +35,7 @@ use voxels::Voxels;
 /// polytope, whose radius this is. No point of a polytope is farther than `sticks_out` from S.
 #[derive(Clone, Debug)]
 pub(crate) struct Approximation {
-    /// The hulls, at most the requested number. Their facets are no part of the mesh.
+    /// The hulls, at most the requested number. None of their facets is part of the mesh.
     pub(crate) polytopes: Vec<Polytope>,
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.
@@ -47,35 +47,35 @@ pub(crate) struct Approximation {
 /// The reason why a mesh cannot be approximated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum VhacdError {
-    /// The number of hulls is 0.
+    /// The requested number of hulls is 0.
     #[error("a mesh cannot be approximated by no hulls")]
     NoHulls,
     /// A coordinate is too near to 0 for exact predicates.
     #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
     TooFine {
-        /// The vertex, by its number in the mesh.
+        /// The number of the vertex in the mesh.
         vertex: u32,
     },
-    /// The library failed on the mesh's voxels.
+    /// The library's V-HACD failed on the mesh's voxels.
     #[error("V-HACD failed on this mesh")]
     Library,
-    /// A part's hull could not be computed.
+    /// The hull of a part could not be computed.
     #[error("the hull of a part failed: {0}")]
     Hull(HullError),
-    /// The bound on the excess of the hulls is too large to be useful.
+    /// The certified bound on the excess of the hulls is too large to be useful.
     #[error(
         "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
          diagonal; mend the mesh, or use triangles"
     )]
     TooCoarse {
-        /// The certified bound.
+        /// The certified bound, in the mesh's unit of length.
         sticks_out: f64,
         /// The largest accepted bound, in the mesh's unit of length.
         limit: f64,
     },
 }
 
-/// Approximates a mesh by at most a number of hulls. A convex solid gets one hull, and so does a mesh without a
+/// Approximates a mesh by at most `hulls` convex hulls. A convex solid gets one hull, and so does a mesh without a
 /// suitable voxel grid.
 ///
 /// # Errors
@@ -103,16 +103,16 @@ pub(crate) fn approximate(
     let parts = match voxels {
         Some(voxels) => {
             let (contents, labels) = rayon::join(
-                || cover::contents(&target, &voxels),
-                || labels::labels(&target, &voxels, hulls),
+                || cover::classify_voxels(&target, &voxels),
+                || labels::label_voxels(&target, &voxels, hulls),
             );
             let labels = labels.ok_or(VhacdError::Library)?;
             cover::points_by_part(&target, &voxels, &contents, labels)
         }
-        None => vec![cover::each_once(target.corners().collect())],
+        None => vec![cover::remove_duplicates(target.corners().collect())],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
-    let parts: Vec<Hull> = merge::down_to(parts.collect(), hulls as usize)
+    let parts: Vec<Hull> = merge::merge_to_count(parts.collect(), hulls as usize)
         .par_iter()
         .map(|points| hull(points))
         .collect::<Result<_, HullError>>()
@@ -121,10 +121,10 @@ pub(crate) fn approximate(
     let excess = if is_convex {
         0.0
     } else {
-        excess::bound(&target, &parts)
+        excess::excess_bound(&target, &parts)
     };
     let sticks_out = (excess + uncovered).next_up();
-    let limit = tolerance::TOO_COARSE * target.reach() + 2.0 * uncovered;
+    let limit = tolerance::MAX_RELATIVE_EXCESS * target.half_diagonal() + 2.0 * uncovered;
     // Written so that NaN fails.
     if !(sticks_out <= limit) {
         return Err(VhacdError::TooCoarse { sticks_out, limit });
@@ -151,8 +151,8 @@ fn polytope(hull: Hull, radius: f64) -> Polytope {
 
 /// Returns whether the mesh is known to be a convex solid, whose hull has no error.
 fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
-    let manifold = Manifold::unchecked(mesh, topology);
-    manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && as_polytope(&manifold).is_ok())
+    let manifold = Manifold::without_intersection_check(mesh, topology);
+    manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && convex_polytope(&manifold).is_ok())
 }
 
 #[cfg(test)]

@@ -1,17 +1,17 @@
-//! `Detail::Auto`: chooses the fewest exact pieces.
+//! Chooses the fewest exact pieces for `Detail::Auto`.
 
 use super::parts::Parts;
 use super::report::{Estimate, Why};
 use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
-use crate::pieces::convex::as_polytope;
+use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose_flats};
 use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
-use crate::solid::flats::{Merger, PlanarRegion};
+use crate::solid::flats::{PlanarRegion, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
-use crate::tolerance::{AUTO_WORK, FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
+use crate::tolerance::{AUTO_WORK, PATCH_COST, PieceCost, RESTING_QUERY_SHARE, TRIANGLE_COST};
 use crate::work::Work;
 
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
@@ -34,13 +34,13 @@ fn within(
     edges: Option<Edges>,
     work: &Work,
 ) -> (Parts, Why) {
-    let manifold = match Manifold::with_edges(mesh, topology, edges) {
+    let manifold = match Manifold::from_edges(mesh, topology, edges) {
         Ok(manifold) => manifold,
         Err(error) => return only_triangles(error),
     };
-    let convex = as_polytope(&manifold);
-    let mut merger = Merger::merged(&manifold);
-    let estimate = merger.largest_plane().estimate();
+    let convex = convex_polytope(&manifold);
+    let mut merger = RegionMerger::merged(&manifold);
+    let estimate = merger.largest_planar_region().estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));
     }
@@ -50,7 +50,7 @@ fn within(
     if let Ok(polytope) = convex {
         return (Parts::Hull(Box::new(polytope)), Why::Convex);
     }
-    let flats = merger.finish();
+    let flats = merger.into_flats();
     match decompose_flats(&manifold, &flats, Order::default(), work) {
         Ok(decomposition) => (Parts::Patches(decomposition), Why::PatchesFaster(estimate)),
         Err(error) => only_triangles(error),
@@ -66,12 +66,14 @@ fn only_triangles(error: DecomposeError) -> (Parts, Why) {
 }
 
 impl PlanarRegion {
-    /// Estimates the time of a query, if this part rests on another body in some queries.
+    /// Estimates the time of a query whose largest planar part rests on another body in some queries.
     fn estimate(self) -> Estimate {
-        let cost = |of: PieceCost, count: usize| of.usual + FLAT_SHARE * of.resting * count as f64;
+        let cost = |of: PieceCost, count: usize| {
+            of.usual + RESTING_QUERY_SHARE * of.resting * count as f64
+        };
         Estimate {
-            triangles: cost(TRIANGLES, self.triangles),
-            patches: cost(PATCHES, self.polygons),
+            triangles: cost(TRIANGLE_COST, self.triangles),
+            patches: cost(PATCH_COST, self.polygons),
         }
     }
 }

@@ -5,23 +5,23 @@ use crate::solid::error::DecomposeError;
 use crate::tree::hull_tree::BuildError;
 use ccd_core::{HullTreeError, InputError};
 
-/// The reason why a mesh cannot be made into a body.
+/// The reason why no body can be made of a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PrepareError {
-    /// The mesh cannot be decomposed into the requested pieces.
+    /// The mesh cannot be decomposed exactly into the requested pieces.
     #[error(transparent)]
     Decompose(#[from] DecomposeError),
-    /// The mesh cannot be approximated.
+    /// The mesh cannot be approximated by hulls.
     #[error(transparent)]
     Vhacd(#[from] VhacdError),
-    /// No hull tree can be built.
+    /// The hull tree over the pieces cannot be built.
     #[error(transparent)]
     BuildHullTree(#[from] BuildError),
-    /// The hull tree does not match the pieces.
+    /// The hull tree does not have the pieces of the body.
     #[error(transparent)]
     HullTree(#[from] HullTreeError),
-    /// The core rejects the pieces.
+    /// The constructors of `ccd_core` reject the pieces.
     #[error(transparent)]
     Input(#[from] InputError),
 }

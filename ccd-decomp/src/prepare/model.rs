@@ -7,36 +7,36 @@ use crate::tree::hierarchy::build_hierarchy;
 use crate::tree::hull_tree::build_hull_tree;
 use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, Round, Volume};
 
-/// A body before its tree is built. A `.ccd` file stores it.
+/// A prepared body before its tree is built. A `.ccd` file stores it.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// The convex pieces.
     pub pieces: Pieces,
-    /// A hierarchy over the pieces.
+    /// The binary hierarchy over the pieces.
     pub hierarchy: Hierarchy,
-    /// Whether the body is solid: a point inside touches it.
+    /// Whether the body is solid. A solid is in contact with bodies inside it.
     pub volume: Volume,
     /// The hull tree over the pieces, for the schedules that use one.
     pub hull_tree: Option<HullTree>,
-    /// The triangles of a convex solid, and a hierarchy over them, used against bodies of many triangles.
+    /// The triangles of a convex solid and a hierarchy over them. Queries use them against bodies of many triangles.
     pub surface: Option<(Pieces, Hierarchy)>,
-    /// The kind of the pieces, and the reason for it.
+    /// The report on the kind of the pieces, and the reason for it.
     pub report: Report,
 }
 
-/// A body, and the report of its preparation.
+/// A body that is ready for queries, and the report on its preparation.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// The body, ready for queries.
     pub body: Body,
-    /// The kind of the pieces, and the reason for it.
+    /// The report on the kind of the pieces, and the reason for it.
     pub report: Report,
-    /// The unit of its coordinates, if stated by the file or requested.
+    /// The unit of the body's coordinates, if stated by the file or requested.
     pub unit: Option<Unit>,
 }
 
 impl Model {
-    /// Builds the body. O(n log n) in the number of pieces.
+    /// Builds the body for queries. O(n log n) in the number of pieces.
     ///
     /// Its [excess](Body::excess) is [`Report::sticks_out`].
     ///
@@ -89,7 +89,7 @@ impl Model {
         Ok(self)
     }
 
-    /// Builds the body and keeps the report.
+    /// Builds the body, and returns it with the report.
     ///
     /// # Errors
     /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
@@ -112,8 +112,9 @@ impl Prepared {
         }
     }
 
-    /// Creates the body of a cylinder or a cone with an upper bound on its excess.
-    pub(crate) fn round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
+    /// Creates the body of a cylinder or a cone. `excess` is the upper bound on how far its polytope extends beyond
+    /// the shape.
+    pub(crate) fn from_round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
         let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()))?;
         let mut prepared = Prepared::primitive(enclosure.body()?);
         prepared.report.sticks_out = enclosure.excess();

@@ -1,4 +1,4 @@
-//! The pieces of a mesh, and the model made from them.
+//! Builds a model from the pieces of a mesh.
 
 use super::error::PrepareError;
 use super::model::Model;
@@ -10,7 +10,7 @@ use crate::solid::topology::Topology;
 use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
 
-/// The pieces of a mesh, by kind.
+/// The pieces that were made of a mesh, by kind.
 pub(super) enum Parts {
     Triangles,
     Patches(Decomposition),
@@ -18,17 +18,17 @@ pub(super) enum Parts {
     Vhacd(Approximation),
 }
 
-/// The chosen pieces of a mesh, with its topology.
+/// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
 pub(super) struct Choice {
     pub(super) volume: Volume,
     pub(super) parts: Parts,
     pub(super) why: Why,
     pub(super) topology: Topology,
-    /// The mesh with wrong shells reversed, if there are any.
+    /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
     pub(super) turned: Option<TriangleMesh>,
 }
 
-/// Pieces, and a hierarchy over them.
+/// The pieces of a body, and a hierarchy over them.
 pub(super) struct PieceTree {
     pieces: Pieces,
     hierarchy: Hierarchy,
@@ -95,8 +95,8 @@ impl PieceTree {
         Ok(PieceTree { pieces, hierarchy })
     }
 
-    /// Replaces the triangles by those of a mesh that differs only in the order of corners. The hierarchy does not
-    /// change.
+    /// Replaces the triangles by those of a mesh that differs only in the order of corners. The hierarchy stays
+    /// valid.
     fn with_corners_of(self, turned: &TriangleMesh) -> Result<Self, PrepareError> {
         let pieces = triangles(turned)?;
         Ok(PieceTree { pieces, ..self })

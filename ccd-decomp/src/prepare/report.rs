@@ -1,4 +1,4 @@
-//! Reports: the kind of a body's pieces, and the reason for it.
+//! Reports on the kind of a body's pieces, and the reason for it.
 
 use crate::mesh::repair::Repairs;
 use crate::solid::error::DecomposeError;
@@ -7,18 +7,18 @@ use ccd_core::Volume;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A report on the pieces of a body. Formats as one line of text.
+/// A report on the pieces of a body. It formats as one line of text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// The kind of its pieces.
+    /// The kind of the body's pieces.
     pub kind: PiecesKind,
-    /// The reason for this kind.
+    /// The reason for the kind of pieces.
     pub why: Why,
-    /// The number of triangles of its mesh; 0 for shapes.
+    /// The number of triangles of the mesh; 0 for a body without a mesh.
     pub triangles: usize,
-    /// The number of its pieces.
+    /// The number of pieces of the body.
     pub pieces: usize,
-    /// The number of facets that are not part of the mesh.
+    /// The number of facets of pieces that are not part of the mesh.
     pub virtual_faces: usize,
     /// The number of nodes of the hierarchy over the pieces.
     pub tree_nodes: usize,
@@ -27,11 +27,11 @@ pub struct Report {
     /// A bound on how far the pieces extend beyond the solid, or the open surface: the [excess](ccd_core::Body::excess)
     /// of the body, in the mesh's unit of length. Contacts may be early by it. 0 for exact kinds.
     pub sticks_out: f64,
-    /// Not used. The format of stored bodies has a number here.
+    /// A number that is not used, because the format of stored bodies has one here.
     pub(super) reserved: usize,
-    /// Whether the body is solid: a point inside touches it. A closed mesh is solid.
+    /// Whether the body is solid. A closed mesh is solid unless it was made hollow.
     pub volume: Volume,
-    /// The topology of the mesh, which shows why it is solid or not; `None` for shapes.
+    /// The topology of the mesh, which shows why it is solid or not; `None` for a body without a mesh.
     pub topology: Option<Topology>,
     /// The faults of the mesh that were repaired.
     pub repairs: Repairs,
@@ -40,15 +40,15 @@ pub struct Report {
 /// The kind of a body's pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PiecesKind {
-    /// A box, sphere or capsule (exact), or a polytope around a cylinder or cone.
+    /// The body is a box, sphere or capsule, which is exact, or a polytope around a cylinder or cone.
     Primitive,
-    /// The pieces are the triangles of the mesh: exact.
+    /// The pieces are the triangles of the mesh, which are exact.
     Triangles,
-    /// The pieces are convex patches of the surface, whose hulls lie inside the solid: exact.
+    /// The pieces are convex patches of the surface, whose hulls lie inside the solid. They are exact.
     Patches,
-    /// One piece, the convex solid itself: exact.
+    /// The only piece is the convex solid itself, which is exact.
     Hull,
-    /// The pieces are hulls that cover the solid: approximate.
+    /// The pieces are hulls that cover the solid, which is approximate.
     Vhacd,
 }
 
@@ -56,14 +56,14 @@ pub enum PiecesKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Why {
-    /// The kind was requested.
+    /// The caller requested the kind.
     Asked,
-    /// The solid is convex: one piece is exact. Against bodies of many triangles its own triangles are used, which is
-    /// faster.
+    /// The solid is convex, so that one piece is exact. Against bodies of many triangles its own triangles are used,
+    /// which is faster.
     Convex,
-    /// Only triangles are exact.
+    /// Only the triangles are exact.
     NothingElse(DecomposeError),
-    /// Testing whether other pieces are exact exceeds the budget. They can be requested.
+    /// Testing whether other pieces are exact exceeds the work budget. They can be requested.
     TooLong,
     /// Queries are estimated to be faster over triangles than over patches.
     TrianglesFaster(Estimate),
@@ -75,9 +75,9 @@ pub enum Why {
 /// on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// The time with triangles.
+    /// The estimated time with triangles as pieces.
     pub triangles: f64,
-    /// The time with patches.
+    /// The estimated time with patches as pieces.
     pub patches: f64,
 }
 
@@ -100,7 +100,7 @@ impl Report {
         }
     }
 
-    /// Returns whether the pieces cover the solid's surface, and nothing outside the solid.
+    /// Returns whether the pieces cover the solid's surface exactly, without points outside the solid.
     pub fn is_exact(&self) -> bool {
         match self.kind {
             // A polytope around a cylinder or cone exceeds it.
@@ -110,7 +110,7 @@ impl Report {
         }
     }
 
-    /// Describes the faults of the mesh as text; empty if it has none.
+    /// Describes the faults of the mesh as text. The text is empty if there are none.
     pub fn remarks(&self) -> String {
         let plain = |t: &Topology| {
             t.is_manifold() && t.is_solid() && t.wrong_way.is_empty() && t.signed_volume > 0.0

@@ -52,7 +52,7 @@ fn features_carry_the_numbers_of_the_file() {
     assert_eq!(feature(&[0, 1, 2]), "f1");
 }
 
-/// Many points of a plane up to rounding: every hull is still exact, as the core proves.
+/// Tests that the hull trees of points near a plane are exact, which `ccd_core` proves on loading.
 #[test]
 fn hull_trees_of_nearly_flat_meshes_are_proven() {
     use crate::test_meshes::{block, cubes, placed};

@@ -1,30 +1,30 @@
-//! Binary trees of oriented boxes.
+//! A binary tree of oriented boxes over triangles.
 
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::Apart;
+use super::planes::SeparationTests;
 use super::region::Region;
 use crate::bounds::Bounds;
-use crate::tolerance::BOXES_MET;
+use crate::tolerance::BOXES_BEFORE_ORIENTED;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 
-/// A binary tree of boxes over elements.
+/// A binary tree of oriented boxes over elements: faces or edges of faces.
 pub(crate) struct BoxTree {
     pub(super) elements: Vec<Element>,
-    /// The nodes, each before those below it.
+    /// The nodes of the tree, parents before children.
     nodes: Vec<Node>,
 }
 
 struct Node {
     bounds: Bounds,
     oriented: OrientedBox,
-    /// The elements of a leaf; empty for an inner node.
+    /// The range of elements of a leaf; empty for an inner node.
     elements: Range<u32>,
-    /// The number of nodes of the subtree, with the node itself.
+    /// The number of nodes of the subtree, including this node.
     count: u32,
 }
 
@@ -32,7 +32,7 @@ struct Node {
 const LEAF: usize = 2;
 
 impl BoxTree {
-    /// Builds the tree over some triangles. O(n log n).
+    /// Builds a tree over some faces in O(n log n).
     pub(crate) fn of_faces(
         points: &[DVec3],
         faces: &[[u32; 3]],
@@ -45,7 +45,7 @@ impl BoxTree {
         BoxTree::new(some.into_iter().map(element).collect())
     }
 
-    /// Builds the tree. O(n log n).
+    /// Builds a tree over some elements in O(n log n).
     pub(super) fn new(mut elements: Vec<Element>) -> Self {
         let mut nodes = Vec::with_capacity(2 * elements.len());
         if !elements.is_empty() {
@@ -59,8 +59,8 @@ impl BoxTree {
         self.nodes.first().map(|node| node.bounds)
     }
 
-    /// Calls `holds` for the faces of all elements that may meet a region, and some others, until it returns false or
-    /// the work is spent.
+    /// Calls `holds` for the faces of all elements that may meet a region, and some others. Stops when `holds`
+    /// returns false or the work is spent.
     pub(crate) fn all_meeting(
         &self,
         region: &Region,
@@ -74,16 +74,17 @@ impl BoxTree {
                 return true;
             }
             met.set(met.get() + 1);
-            met.get() > BOXES_MET
+            met.get() > BOXES_BEFORE_ORIENTED
                 && apart
-                    .get_or_init(|| Apart::from(region.shape()))
-                    .has(oriented)
+                    .get_or_init(|| SeparationTests::for_shape(region.shape()))
+                    .separates(oriented)
         };
-        self.all_but(is_far, work, |element| holds(element.face))
+        self.all_except_far(is_far, work, |element| holds(element.face))
     }
 
-    /// Calls `holds` for all elements, except in boxes that are far, until it returns false or the work is spent.
-    pub(super) fn all_but(
+    /// Calls `holds` for all elements, except those in boxes for which `is_far` is true. Stops when `holds`
+    /// returns false or the work is spent.
+    pub(super) fn all_except_far(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,
@@ -109,7 +110,7 @@ impl BoxTree {
     }
 
     /// Returns the elements of a leaf, or the two children of an inner node.
-    pub(super) fn below(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
+    pub(super) fn elements_and_children(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
         let Some(node) = self.nodes.get(at) else {
             return (&[], None);
         };
@@ -121,7 +122,7 @@ impl BoxTree {
         (elements, below)
     }
 
-    /// Returns a lower bound, up to rounding, of the distance of a point from the elements of a node.
+    /// Returns a lower bound, up to rounding, of the distance from a point to the elements below a node.
     pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
         greater(node.bounds.distance(point), node.oriented.distance(point))
@@ -129,13 +130,14 @@ impl BoxTree {
 }
 
 /// The number of elements above which subtrees are built in parallel.
-const SHARED: usize = 4096;
+const PARALLEL_ELEMENTS: usize = 4096;
 
-/// Adds the nodes over some elements, and sorts these; `first` is the index of the first one.
+/// Appends the subtree over some elements to `nodes`, and sorts these elements; `first` is the index of the first
+/// one.
 ///
 /// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
-    let oriented = OrientedBox::about(elements);
+    let oriented = OrientedBox::around(elements);
     let at = nodes.len();
     let split = elements.len() / 2;
     let is_leaf = elements.len() <= LEAF;
@@ -150,13 +152,13 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
         count: 1,
     });
     if !is_leaf {
-        let along = nodes[at].oriented.widest(elements);
+        let along = nodes[at].oriented.axis_of_largest_spread(elements);
         let height = |element: &Element| along.dot(element.middle());
         elements.select_nth_unstable_by(split, |a, b| {
             let order = height(a).total_cmp(&height(b));
             order.then(a.face.cmp(&b.face))
         });
-        let is_shared = elements.len() > SHARED;
+        let is_shared = elements.len() > PARALLEL_ELEMENTS;
         let (left, right) = elements.split_at_mut(split);
         let all_of = |elements: &mut [Element], first: usize| {
             let mut nodes = Vec::new();

@@ -1,4 +1,4 @@
-//! The elements of box trees.
+//! The elements that box trees are built over.
 
 use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;

@@ -1,9 +1,9 @@
-//! Large fans: many triangles about one vertex.
+//! Large fans: many triangles that share one vertex.
 
 use super::box_tree::BoxTree;
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::{planes_beside, planes_within};
+use super::planes::{separating_planes, separating_planes_in_plane};
 use super::region::{Hull, Shape};
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
@@ -12,11 +12,11 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Triangles that share one vertex, the hub. They are searched by their edges opposite to it.
+/// The triangles around one vertex, the hub. They are searched by their edges opposite to it.
 pub(super) struct Fan {
     hub: DVec3,
     rim: BoxTree,
-    /// One of the triangles, if all of them are in its plane.
+    /// One of the triangles, if all of them are coplanar.
     plane: Option<[DVec3; 3]>,
 }
 
@@ -45,7 +45,8 @@ pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>
 }
 
 impl Fan {
-    /// Creates a fan. If most faces are coplanar, the others are returned instead.
+    /// Creates a fan, and returns the faces that are not in it. If most faces are coplanar, these are the faces off
+    /// that plane.
     fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> (Self, Vec<u32>) {
         let number = members[0].0;
         let hub = points[number as usize];
@@ -76,8 +77,9 @@ impl Fan {
         (fan, others)
     }
 
-    /// Returns whether the fan is in a plane with a hull on one side, so that no part of it is inside the hull.
-    fn is_beside(&self, hull: &Hull) -> bool {
+    /// Returns whether the fan is flat and a hull lies on one side of its plane, so that no part of the fan is inside
+    /// the hull.
+    fn is_on_one_side_of(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
             let sides = hull.corners.iter().map(|&corner| side(plane, corner));
             let mut sides = sides.filter(|&side| side != Ordering::Equal);
@@ -86,8 +88,8 @@ impl Fan {
         })
     }
 
-    /// Returns whether a triangle is in the fan's plane without the hub as a corner.
-    fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
+    /// Returns whether a triangle lies in the plane of a flat fan without the hub as a corner.
+    fn is_coplanar_off_hub(&self, corners: &[DVec3; 3]) -> bool {
         let level = |plane: [DVec3; 3]| {
             let mut sides = corners.iter().map(|&corner| side(plane, corner));
             sides.all(|side| side == Ordering::Equal)
@@ -100,7 +102,7 @@ impl Fan {
         self.rim.bounds().map_or(hub, |rim| rim.union(hub))
     }
 
-    /// Calls `holds` for the triangles that may meet a shape: a part of
+    /// Calls `holds` for the triangles of the fan that may meet a shape. It is a part of
     /// [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
     pub(super) fn all_meeting(
         &self,
@@ -109,20 +111,20 @@ impl Fan {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         if let Shape::Inside(hull) = shape
-            && self.is_beside(hull)
+            && self.is_on_one_side_of(hull)
         {
             return true;
         }
         let planes = match shape {
-            Shape::Triangle(corners) if self.has_beside_hub(corners) => {
-                planes_within(corners, self.hub)
+            Shape::Triangle(corners) if self.is_coplanar_off_hub(corners) => {
+                separating_planes_in_plane(corners, self.hub)
             }
-            _ => planes_beside(shape, self.hub),
+            _ => separating_planes(shape, self.hub),
         };
         let is_far = |_: &Bounds, oriented: &OrientedBox| {
             planes.iter().any(|plane| plane.has_in_front(oriented))
         };
         self.rim
-            .all_but(is_far, work, |element| holds(element.face))
+            .all_except_far(is_far, work, |element| holds(element.face))
     }
 }

@@ -1,15 +1,15 @@
-//! Searches for triangles near a point or in a box.
+//! Searches for the triangle nearest to a point, and for the triangles that meet an axis-aligned box.
 
 use super::box_tree::BoxTree;
 use crate::bounds::Bounds;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 
-/// The cost of a node in a search by distance, in nodes of a search by region.
-const NODE: usize = 4;
+/// The cost of a node in a search by distance, in steps: nodes of a search by region.
+const STEPS_PER_NODE: usize = 4;
 
 impl BoxTree {
-    /// Returns the nearest triangle; `measure` computes the distance of a triangle from the point.
+    /// Returns the triangle nearest to a point; `measure` computes the distance of a triangle from the point.
     ///
     /// # Guarantee
     /// No other triangle is nearer, up to rounding of the order of a coordinate's.
@@ -27,8 +27,8 @@ impl BoxTree {
             if is_farther {
                 continue;
             }
-            work.spend(NODE);
-            let (elements, below) = self.below(at);
+            work.spend(STEPS_PER_NODE);
+            let (elements, below) = self.elements_and_children(at);
             for element in elements {
                 let distance = measure(element.corners);
                 // Written so that NaN is a distance only if there is no other.
@@ -49,7 +49,8 @@ impl BoxTree {
         best
     }
 
-    /// Calls `holds` for the triangles whose boxes meet a box, until it returns false or the work is spent.
+    /// Calls `holds` for the triangles whose bounding boxes meet a box. Stops when `holds` returns false or the work
+    /// is spent.
     pub(crate) fn all_in(
         &self,
         bounds: &Bounds,
@@ -57,7 +58,7 @@ impl BoxTree {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
-        self.all_but(is_far, work, |element| {
+        self.all_except_far(is_far, work, |element| {
             !Bounds::enclosing(element.corners).meets(bounds) || holds(element.face)
         })
     }

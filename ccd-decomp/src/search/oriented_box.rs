@@ -1,4 +1,4 @@
-//! Oriented boxes.
+//! Oriented boxes, and the tests that separate them from points and shapes.
 
 use super::element::Element;
 use crate::tolerance::box_rounding;
@@ -7,20 +7,21 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::rounding::U64;
 use ccd_core::vector::unit;
 
-/// An oriented box: centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
+/// An oriented box: its centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
 /// rounding, and axes that are not exactly orthonormal.
 pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
     pub(super) halves: DVec3,
     pub(super) slack: f64,
-    /// The largest coordinate of any point of the box.
+    /// The largest absolute coordinate of any point of the box.
     pub(super) reach: f64,
 }
 
 impl OrientedBox {
-    /// Creates the box of some elements, aligned with the longest side and the corner farthest from it.
-    pub(super) fn about(elements: &[Element]) -> Self {
+    /// Creates a box around some elements. It is aligned with their longest side and the corner farthest from that
+    /// side.
+    pub(super) fn around(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
         let longer = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
@@ -38,7 +39,7 @@ impl OrientedBox {
         let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
         for p in corners() {
             let offset = p - centre;
-            let along = along_each(&axes, offset);
+            let along = dot_with_each(&axes, offset);
             let rest = offset - along.x * first - along.y * second - along.z * axes[2];
             halves = halves.max(along.abs());
             slack = greater(slack, rest.abs().max_element());
@@ -55,13 +56,13 @@ impl OrientedBox {
         }
     }
 
-    /// Returns the axis along which the middles of some elements spread most. For the teeth of a comb this is not their
-    /// longest axis.
-    pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
+    /// Returns the axis of the box along which the centres of some elements spread most. For the teeth of a comb this
+    /// is not the longest axis.
+    pub(super) fn axis_of_largest_spread(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
             let offset = element.middle() - self.centre;
-            let along = along_each(&self.axes, offset);
+            let along = dot_with_each(&self.axes, offset);
             (lo, hi) = (lo.min(along), hi.max(along));
         }
         self.axes[(hi - lo).max_position()]
@@ -69,20 +70,20 @@ impl OrientedBox {
 
     /// Returns an upper bound of the dot product of a vector with any vector from the centre to the box.
     #[inline]
-    pub(super) fn depth(&self, vector: DVec3) -> f64 {
-        let along = along_each(&self.axes, vector).abs();
+    pub(super) fn support(&self, vector: DVec3) -> f64 {
+        let along = dot_with_each(&self.axes, vector).abs();
         along.dot(self.halves) + vector.abs().element_sum() * self.slack
     }
 
     /// Returns a lower bound, up to rounding, of the distance of a point from the box; negative inside. Each axis is
     /// tested separately, because they need not be orthogonal.
     pub(super) fn distance(&self, point: DVec3) -> f64 {
-        let along = along_each(&self.axes, point - self.centre).abs();
+        let along = dot_with_each(&self.axes, point - self.centre).abs();
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
     /// Returns whether an axis of the box certainly separates it from all points.
-    pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
+    pub(super) fn is_separated_from(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);
         (0..3).any(|k| {
@@ -95,9 +96,9 @@ impl OrientedBox {
     }
 }
 
-/// Computes the dot products of a vector with three axes.
+/// Returns the dot products of a vector with three axes.
 #[inline]
-fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
+fn dot_with_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
     DVec3::new(
         axes[0].dot(offset),
         axes[1].dot(offset),
@@ -105,7 +106,7 @@ fn along_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
     )
 }
 
-/// The interval that a shape covers along a direction.
+/// The interval that a shape covers along a unit vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     base: DVec3,
@@ -116,7 +117,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Computes the interval of some points along a unit vector.
+    /// Computes the interval that some points cover along a unit vector.
     pub(super) fn along(points: &[DVec3], direction: DVec3) -> Self {
         let base = points[0];
         let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
@@ -137,11 +138,11 @@ impl Extent {
         }
     }
 
-    /// Returns whether a box is certainly outside the interval.
+    /// Returns whether a box is certainly outside the interval, along the same unit vector.
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);
-        let depth = oriented.depth(self.direction) + box_rounding(self.direction, reach);
+        let depth = oriented.support(self.direction) + box_rounding(self.direction, reach);
         // Written so that NaN does not miss.
         along - depth > self.hi || along + depth < self.lo
     }

@@ -1,4 +1,4 @@
-//! Planes that separate boxes from a shape.
+//! Tests by planes that separate oriented boxes from a shape.
 
 use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
@@ -8,13 +8,13 @@ use ccd_core::rounding::height_rounding;
 use ccd_core::vector::unit;
 use std::cmp::Ordering;
 
-/// A plane with a normal of any length, towards its front.
+/// A plane through a point, with a normal of any length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     foot: DVec3,
     normal: DVec3,
     far: f64,
-    /// A bound on the rounding error of heights, per unit of reach.
+    /// A bound on the rounding error of heights above the plane, per unit of the largest coordinate.
     rounding: f64,
 }
 
@@ -33,23 +33,23 @@ impl Plane {
         Plane::new(a, [b - a, c - a])
     }
 
-    /// Returns whether a box is certainly in front.
+    /// Returns whether a box is certainly in front of the plane.
     #[inline]
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
         let offset = oriented.centre - self.foot;
         let reach = oriented.reach + 2.0 * self.far;
-        let height = self.normal.dot(offset) - oriented.depth(self.normal);
+        let height = self.normal.dot(offset) - oriented.support(self.normal);
         // Written so that NaN is not in front.
         height > self.rounding * reach + f64::MIN_POSITIVE
     }
 }
 
-/// The number of facets of a hull that boxes are tested with.
-const PLANES: usize = 16;
+/// The maximum number of facets of a hull whose planes are tested with boxes.
+const TESTED_FACETS: usize = 16;
 
-/// Returns planes with the shape on or behind them and the hub on or in front of them, exactly. A triangle of the hub
-/// and an edge in front of such a plane shares no point with the shape, except the hub.
-pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
+/// Returns planes that have the shape on or behind them and the hub on or in front of them, exactly. A triangle of
+/// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
+pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => {
             vec![Plane::through([hub, *p, *q]), Plane::through([hub, *q, *p])]
@@ -62,15 +62,15 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
             // A hub inside the triangle is a common point.
-            if !corners.contains(&hub) && holds(*corners, hub) {
+            if !corners.contains(&hub) && contains_point(*corners, hub) {
                 return planes;
             }
             for k in 0..3 {
                 let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
                 through(&mut planes, hub, [p, q], r);
                 if hub == p {
-                    upright(&mut planes, [p, q], &[r], hub);
-                    upright(&mut planes, [p, r], &[q], hub);
+                    add_axis_parallel_planes(&mut planes, [p, q], &[r], hub);
+                    add_axis_parallel_planes(&mut planes, [p, r], &[q], hub);
                 }
             }
             let [p, q, r] = *corners;
@@ -84,16 +84,16 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     }
 }
 
-/// Separation tests of boxes and a shape.
-pub(super) struct Apart<'a> {
+/// The tests by which oriented boxes are separated from a shape.
+pub(super) struct SeparationTests<'a> {
     points: &'a [DVec3],
     extents: Vec<Extent>,
     planes: Vec<Plane>,
 }
 
-impl<'a> Apart<'a> {
-    pub(super) fn from(shape: &'a Shape) -> Self {
-        let apart = |points, extents| Apart {
+impl<'a> SeparationTests<'a> {
+    pub(super) fn for_shape(shape: &'a Shape) -> Self {
+        let apart = |points, extents| SeparationTests {
             points,
             extents,
             planes: Vec::new(),
@@ -101,10 +101,10 @@ impl<'a> Apart<'a> {
         match shape {
             Shape::Segment(ends) => apart(ends, Vec::new()),
             Shape::Triangle(corners) => apart(corners, extents(corners)),
-            Shape::Inside(Hull { facets, .. }) => Apart {
+            Shape::Inside(Hull { facets, .. }) => SeparationTests {
                 planes: facets
                     .iter()
-                    .take(PLANES)
+                    .take(TESTED_FACETS)
                     .map(|&facet| Plane::through(facet))
                     .collect(),
                 ..apart(&[], Vec::new())
@@ -112,14 +112,14 @@ impl<'a> Apart<'a> {
         }
     }
 
-    pub(super) fn has(&self, oriented: &OrientedBox) -> bool {
+    pub(super) fn separates(&self, oriented: &OrientedBox) -> bool {
         self.extents.iter().any(|extent| extent.misses(oriented))
             || self.planes.iter().any(|plane| plane.has_in_front(oriented))
-            || !self.points.is_empty() && oriented.is_beside(self.points)
+            || !self.points.is_empty() && oriented.is_separated_from(self.points)
     }
 }
 
-/// Computes the extents of a triangle along its normal, and in its plane across its sides.
+/// Computes the intervals of a triangle along its normal, and in its plane along the normals of its sides.
 fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
     let [a, b, c] = *corners;
     let sides = [b - a, c - b, a - c].map(|side| unit(side).unwrap_or(DVec3::ZERO));
@@ -131,24 +131,29 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
         .collect()
 }
 
-/// Like [`planes_beside`], for a triangle coplanar with the fan: planes parallel to a coordinate axis, through the hub
-/// and a corner, and along the edges.
-pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
+/// Returns planes like [`separating_planes`], for a triangle coplanar with the fan. They are parallel to a coordinate
+/// axis, through the hub and a corner, and along the edges.
+pub(super) fn separating_planes_in_plane(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     let mut planes = Vec::new();
-    if holds(*corners, hub) {
+    if contains_point(*corners, hub) {
         return planes;
     }
     for k in 0..3 {
         let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
-        upright(&mut planes, [hub, p], &[q, r], hub);
-        upright(&mut planes, [p, q], &[r], hub);
+        add_axis_parallel_planes(&mut planes, [hub, p], &[q, r], hub);
+        add_axis_parallel_planes(&mut planes, [p, q], &[r], hub);
     }
     planes
 }
 
-/// Adds the planes through a line, parallel to a coordinate axis, with some points on or behind them and the hub on or
-/// in front of them.
-fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
+/// Adds the planes through a line, parallel to a coordinate axis, that have some points on or behind them and the hub
+/// on or in front of them.
+fn add_axis_parallel_planes(
+    planes: &mut Vec<Plane>,
+    [p, q]: [DVec3; 2],
+    behind: &[DVec3],
+    hub: DVec3,
+) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
         let turn = |x: DVec3| turn_along(axis, [p, q], x);
         let none = |of: Ordering| behind.iter().all(|&x| turn(x) != of);
@@ -161,8 +166,8 @@ fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: D
     }
 }
 
-/// Returns whether a triangle contains a point.
-fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
+/// Returns whether a triangle contains a point of its plane.
+fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
         edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)
@@ -170,7 +175,7 @@ fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::new(triangle).is_none_or(within)
 }
 
-/// Adds the plane through the hub and an edge, if the triangle's other corner is behind it.
+/// Adds the plane through the hub and an edge, if `rest`, the triangle's third corner, is behind it.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

@@ -1,9 +1,9 @@
-//! Regions to search for triangles.
+//! Regions for which triangles are searched.
 
 use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;
 
-/// A region to search: a shape and its bounding box.
+/// A region to search: a shape, and its bounding box.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
     bounds: Bounds,
@@ -24,7 +24,7 @@ const FACETS: usize = 64;
 #[derive(Clone, Debug)]
 pub(super) struct Hull {
     pub(super) corners: Vec<DVec3>,
-    /// The largest facets, in descending order.
+    /// The largest facets of the hull, in descending order of area.
     pub(super) facets: Vec<[DVec3; 3]>,
 }
 
@@ -43,7 +43,7 @@ impl Region {
         }
     }
 
-    /// Returns the bounding box.
+    /// Returns the bounding box of the region.
     pub(crate) fn bounds(&self) -> &Bounds {
         &self.bounds
     }

@@ -23,7 +23,7 @@ fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     found
 }
 
-/// A triangle or hull among fans of any size is near a few others.
+/// Tests that few triangles are reported near a triangle or hull among fans of any size.
 #[test]
 fn slivers_are_near_few_others() {
     for corners in [64, 512, 4096] {
@@ -40,7 +40,7 @@ fn slivers_are_near_few_others() {
     }
 }
 
-/// An omitted triangle shares no point with the query: compared with all pairs, exactly.
+/// Tests that an omitted triangle shares no point with the query, exactly and over all pairs.
 #[test]
 fn nothing_that_meets_is_left_out() {
     let mesh = star(64, 0.5);
@@ -63,7 +63,7 @@ fn nothing_that_meets_is_left_out() {
     assert!(meeting > 100, "{meeting}");
 }
 
-/// A hub that only touches, within a triangle or on its edge, meets it with its whole fan.
+/// Tests that a hub that only touches a triangle, inside it or on its edge, is found with its whole fan.
 #[test]
 fn a_hub_that_touches_is_not_left_out() {
     let mesh = star(64, 0.5);
@@ -87,7 +87,7 @@ fn corner() -> impl Strategy<Value = DVec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
-/// The corners of triangles about the first one, and of others; on request slim ones in one plane.
+/// Generates triangles around a common vertex, and other triangles; in some cases slim ones in one plane.
 fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     let corners = prop::collection::vec(corner(), 50..120);
     (corners, any::<bool>(), 0..100u32).prop_map(|(mut points, flat, fan)| {
@@ -102,8 +102,8 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     })
 }
 
-/// All triangles that meet a triangle, a segment or the interior of a tetrahedron are found: compared with every
-/// triangle, exactly.
+/// Tests that all triangles that meet a triangle, a segment or the interior of a tetrahedron are found, exactly and
+/// over every triangle.
 #[test]
 fn skipped_triangles_meet_nothing() {
     let probes = prop::collection::vec([corner(), corner(), corner(), corner()], 20);
@@ -159,7 +159,7 @@ fn skipped_triangles_meet_nothing() {
     assert!(near < asked / 10 * 9, "{near} of {asked}");
 }
 
-/// The least distance and all boxes that meet a box are found: compared with every triangle.
+/// Tests the nearest triangle, and the triangles whose boxes meet a box, against a scan of every triangle.
 #[test]
 fn the_nearest_triangle_is_found() {
     let given = (soup(), prop::collection::vec([corner(), corner()], 40));

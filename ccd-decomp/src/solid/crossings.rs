@@ -1,15 +1,16 @@
-//! Self-intersections of a mesh.
+//! Finds the self-intersections of a mesh.
 
 mod plates;
 
 use super::manifold::Manifold;
 use crate::exact::triangles::meet;
 use crate::search::region::Region;
-use crate::tolerance::CROSSINGS;
+use crate::tolerance::MAX_CROSSINGS;
 use crate::work::{OutOfWork, Work};
 use plates::Plates;
 
-/// Returns the pairs of faces that meet outside shared vertices and edges, at most [a thousand](CROSSINGS).
+/// Returns the pairs of faces that meet outside shared vertices and edges. The list ends at [a thousand](MAX_CROSSINGS)
+/// pairs.
 ///
 /// # Errors
 /// [`OutOfWork`] if the work does not suffice.
@@ -22,10 +23,10 @@ pub(crate) fn crossings(
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::triangle(manifold.triangle(face));
         let mut pair = |other: u32| {
-            if cross(manifold, face, other) {
+            if faces_cross(manifold, face, other) {
                 found.push((face.min(other), face.max(other)));
             }
-            found.len() < CROSSINGS && work.spend(PAIR)
+            found.len() < MAX_CROSSINGS && work.spend(STEPS_PER_PAIR)
         };
         let goes_on = match &plates {
             Some(plates) => plates.all_meeting(face, &near, work, pair),
@@ -42,11 +43,11 @@ pub(crate) fn crossings(
     Ok(found)
 }
 
-/// The approximate number of predicates for a pair.
-const PAIR: usize = 4;
+/// The approximate number of exact predicates that the test of one pair costs.
+const STEPS_PER_PAIR: usize = 4;
 
-/// Returns whether two triangles meet outside their shared corners.
-fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
+/// Returns whether two faces meet outside their shared corners.
+fn faces_cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
     let corners = [one, other].map(|f| manifold.faces()[f as usize]);
     meet(corners, [one, other].map(|f| manifold.triangle(f)))
 }

@@ -1,38 +1,38 @@
-//! Coplanar triangles of a mesh, merged into convex polygons.
+//! Merges the coplanar triangles of a mesh into convex polygons.
 
 use super::manifold::{Dihedral, Manifold};
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::Projection;
 use crate::half_edges::HalfEdge;
 use crate::hull::polygons::strict_corners;
-use crate::tolerance::{DIRECTIONS, LENGTHS};
+use crate::tolerance::{DIRECTION_BINS, LENGTH_BINS};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};
 use rayon::prelude::*;
 use std::cmp::{Ordering, Reverse};
 
-/// The faces of a mesh, grouped into convex polygons.
+/// The partition of a mesh's faces into convex polygons.
 pub(crate) struct Flats {
     flats: Vec<Flat>,
-    /// The number of the polygon, by face.
+    /// By face, the number of its polygon.
     flat_of: Vec<u32>,
 }
 
 /// A convex polygon of a mesh's surface: exactly coplanar faces without holes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Flat {
-    /// The faces, in ascending order.
+    /// The faces that make up the polygon, in ascending order.
     pub(crate) faces: Vec<u32>,
-    /// The half-edges of the boundary, counter-clockwise.
+    /// The half-edges of the polygon's boundary, counter-clockwise.
     pub(crate) rim: Vec<HalfEdge>,
-    /// The strict corners of the rim.
+    /// The vertices of the boundary at which it is not straight.
     pub(crate) corners: Vec<u32>,
 }
 
 impl Flats {
-    /// Merges coplanar neighbours, see [`Merger`].
+    /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        Merger::merged(manifold).finish()
+        RegionMerger::merged(manifold).into_flats()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -43,41 +43,41 @@ impl Flats {
         &self.flats[flat as usize]
     }
 
-    /// Returns the polygon of a face.
+    /// Returns the number of the polygon that contains a face.
     #[inline]
     pub(crate) fn of_face(&self, face: u32) -> u32 {
         self.flat_of[face as usize]
     }
 }
 
-/// The size of a planar part of the surface.
+/// The size of a planar part of the surface: a connected set of coplanar faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PlanarRegion {
     pub(crate) triangles: usize,
-    /// The number of convex polygons: at least the number of patches in it.
+    /// The number of convex polygons in the part, which is at least the number of patches.
     pub(crate) polygons: usize,
 }
 
-/// Coplanar regions that merge. Two disjoint convex regions share a single run of edges, so that the union is convex if
-/// it is at both ends of the run.
-pub(crate) struct Merger<'a, 'm> {
+/// Coplanar regions that are merged to convex polygons. Two disjoint convex regions share a single run of edges.
+/// Their union is convex if it is convex at both ends of the run.
+pub(crate) struct RegionMerger<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    /// The next and the previous half-edge on the rim of the region, by half-edge.
+    /// By half-edge, the next and the previous half-edge on the boundary of its region.
     next: Vec<HalfEdge>,
     previous: Vec<HalfEdge>,
     regions: DisjointSets,
-    /// The planar parts of the surface, each of one or more polygons.
+    /// The connected coplanar sets of faces, each of one or more polygons.
     planes: DisjointSets,
 }
 
-impl<'a, 'm> Merger<'a, 'm> {
-    /// Merges neighbours while their union is convex, in order of the longest common edge: a diagonal is removed before
-    /// an edge of the outline `[HM83]`.
+impl<'a, 'm> RegionMerger<'a, 'm> {
+    /// Merges adjacent regions while their union is convex, in order of the longest common edge: a diagonal is
+    /// removed before an edge of the outline `[HM83]`.
     ///
     /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
     /// covers a convex polygon once.
     pub(crate) fn merged(manifold: &'a Manifold<'m>) -> Self {
-        let mut merger = Merger::new(manifold);
+        let mut merger = RegionMerger::new(manifold);
         let mut edges = merger.flat_edges();
         for &edge in &edges {
             merger.planes.join(edge / 3, manifold.twin(edge) / 3);
@@ -94,7 +94,7 @@ impl<'a, 'm> Merger<'a, 'm> {
     }
 
     /// Returns the planar part with the most triangles.
-    pub(crate) fn largest_plane(&mut self) -> PlanarRegion {
+    pub(crate) fn largest_planar_region(&mut self) -> PlanarRegion {
         let faces = self.manifold.faces().len();
         let mut planes = vec![PlanarRegion::default(); faces];
         for face in 0..faces as u32 {
@@ -109,7 +109,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         let faces = manifold.faces().len() as u32;
         // The half-edges of a face are numbered from a multiple of 3.
         let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
-        Merger {
+        RegionMerger {
             manifold,
             next: turn(1).collect(),
             previous: turn(2).collect(),
@@ -118,15 +118,15 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// Collects one half-edge of every flat edge, sorted by descending length class, then by direction. Grid cells thus
-    /// merge to rows before rows merge to rectangles, for any order of the mesh.
+    /// Returns one half-edge of every flat edge, sorted by descending length class, then by direction. Grid cells
+    /// thus merge to rows before rows merge to rectangles, for any order of the mesh.
     fn flat_edges(&self) -> Vec<HalfEdge> {
         let manifold = self.manifold;
         let rank = |h: HalfEdge| {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
             let offset = b - a;
-            let length = (length(offset).log2() * LENGTHS).round() as i32;
-            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTIONS;
+            let length = (length(offset).log2() * LENGTH_BINS).round() as i32;
+            let offset = unit(offset).unwrap_or(DVec3::ZERO) * DIRECTION_BINS;
             let offset = offset.to_array().map(|x| x.round() as i32);
             (Reverse(length), offset.max(offset.map(|x| -x)), h)
         };
@@ -142,17 +142,20 @@ impl<'a, 'm> Merger<'a, 'm> {
         self.regions.root(half_edge / 3)
     }
 
-    /// Merges the regions beside an edge if the union is convex. Returns whether they are now one region.
+    /// Merges the regions on both sides of an edge if the union is convex. Returns whether they are now one region.
     fn merge_over(&mut self, edge: HalfEdge) -> bool {
         let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region(h));
         if one == other {
             return true;
         }
         // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
-        let Some(first) = self.walk(edge, |merger, h| merger.previous[h as usize], other) else {
+        let Some(first) =
+            self.last_beside_region(edge, |merger, h| merger.previous[h as usize], other)
+        else {
             return false;
         };
-        let Some(last) = self.walk(edge, |merger, h| merger.next[h as usize], other) else {
+        let Some(last) = self.last_beside_region(edge, |merger, h| merger.next[h as usize], other)
+        else {
             return false;
         };
         let twin = |h: HalfEdge| self.manifold.twin(h);
@@ -174,8 +177,9 @@ impl<'a, 'm> Merger<'a, 'm> {
         true
     }
 
-    /// Follows the rim from an edge to the last half-edge with a given region beyond it; `None` if the whole rim has.
-    fn walk(
+    /// Follows the boundary from an edge to the last half-edge that has the given region on its other side; `None` if
+    /// the whole boundary has.
+    fn last_beside_region(
         &mut self,
         edge: HalfEdge,
         step: impl Fn(&Self, HalfEdge) -> HalfEdge,
@@ -194,7 +198,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// Returns whether a rim is straight or turns left between two half-edges.
+    /// Returns whether a boundary is straight or turns left between two half-edges.
     fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
         let Some(plane) = Projection::new(self.manifold.triangle(before / 3)) else {
             return false;
@@ -204,8 +208,8 @@ impl<'a, 'm> Merger<'a, 'm> {
         plane.turn(a, b, c) != Ordering::Less
     }
 
-    /// Returns the polygons.
-    pub(crate) fn finish(mut self) -> Flats {
+    /// Returns the polygons that the regions have become.
+    pub(crate) fn into_flats(mut self) -> Flats {
         let flat_of = self.regions.numbers();
         let count = flat_of.iter().max().map_or(0, |&last| last as usize + 1);
         let mut flats = vec![Flat::default(); count];

@@ -1,4 +1,4 @@
-//! The half-edges of a closed surface.
+//! The half-edge structure of a closed surface.
 
 use super::error::DecomposeError;
 use super::topology::{Orientation, Topology};
@@ -21,37 +21,38 @@ use std::sync::OnceLock;
 pub(crate) struct Manifold<'m> {
     mesh: &'m TriangleMesh,
     faces: Vec<[u32; 3]>,
-    /// The twin, by half-edge.
+    /// By half-edge, its twin: the half-edge on the same edge in the opposite direction.
     twins: Vec<HalfEdge>,
-    /// The boxes of the faces, created on demand.
+    /// The search trees over the faces, created on demand.
     boxes: OnceLock<TriangleBoxes>,
 }
 
 /// The kind of dihedral angle at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dihedral {
-    /// The solid's angle is less than half a turn.
+    /// The interior angle is less than half a turn.
     Convex,
     /// The faces lie in one plane.
     Flat,
-    /// The solid's angle is more than half a turn.
+    /// The interior angle is more than half a turn.
     Reflex,
     /// The faces lie in one plane and on one side of the edge, back to back. A solid has no such edge.
     Folded,
 }
 
 impl<'m> Manifold<'m> {
-    /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. Takes a
-    /// tenth of the time of [`bounding_solid`](super::bounding_solid).
-    pub(crate) fn unchecked(
+    /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. It
+    /// takes a tenth of the time of [`bounding_solid`](super::bounding_solid).
+    pub(crate) fn without_intersection_check(
         mesh: &'m TriangleMesh,
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
-        Manifold::with_edges(mesh, topology, None)
+        Manifold::from_edges(mesh, topology, None)
     }
 
-    /// Creates the manifold like [`Manifold::unchecked`], with the edges between welded vertices, if they are known.
-    pub(crate) fn with_edges(
+    /// Creates the manifold like [`Manifold::without_intersection_check`]. `edges` are the edges between welded
+    /// vertices, if they are known.
+    pub(crate) fn from_edges(
         mesh: &'m TriangleMesh,
         topology: &Topology,
         edges: Option<Edges>,
@@ -89,42 +90,42 @@ impl<'m> Manifold<'m> {
         }
     }
 
-    /// Returns the mesh.
+    /// Returns the mesh of the surface.
     pub(crate) fn mesh(&self) -> &'m TriangleMesh {
         self.mesh
     }
 
-    /// Returns the vertices of all faces, counter-clockwise seen from outside.
+    /// Returns the vertex numbers of all faces, counter-clockwise seen from outside.
     pub(crate) fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// Returns the point of a vertex.
+    /// Returns the coordinates of a vertex.
     #[inline]
     pub(crate) fn point(&self, vertex: u32) -> DVec3 {
         self.mesh.vertices()[vertex as usize]
     }
 
-    /// Returns the points of a face.
+    /// Returns the corner points of a face.
     #[inline]
     pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
         let [a, b, c] = self.faces[face as usize];
         [self.point(a), self.point(b), self.point(c)]
     }
 
-    /// Returns the boxes of the faces.
+    /// Returns the search trees over the faces.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
         self.boxes
             .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
     }
 
-    /// Returns the opposite half-edge of the same edge.
+    /// Returns the twin of a half-edge: the half-edge on the same edge in the opposite direction.
     #[inline]
     pub(crate) fn twin(&self, half_edge: HalfEdge) -> HalfEdge {
         self.twins[half_edge as usize]
     }
 
-    /// Returns the three neighbours of a face.
+    /// Returns the three faces that share an edge with a face.
     pub(crate) fn neighbours(&self, face: u32) -> [u32; 3] {
         [0, 1, 2].map(|k| self.twin(3 * face + k) / 3)
     }
@@ -136,7 +137,7 @@ impl<'m> Manifold<'m> {
         [face[k], face[(k + 1) % 3]]
     }
 
-    /// Classifies the angle between the faces on either side of an edge.
+    /// Classifies the dihedral angle at an edge, exactly.
     pub(crate) fn dihedral(&self, half_edge: HalfEdge) -> Dihedral {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];

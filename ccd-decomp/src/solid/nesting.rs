@@ -1,11 +1,11 @@
-//! Nesting of shells: which parts of a closed mesh bound material, and which a cavity.
+//! Finds which shells of a closed mesh are wrongly oriented, by how they are nested.
 
 mod closed_parts;
 
 use crate::bounds::{Bounds, BoundsTree};
 use crate::disjoint_sets::members;
 use crate::exact::predicates::{is_degenerate, too_fine};
-use crate::exact::rays::{crossing, probe};
+use crate::exact::rays::{crossing, probe_segment};
 use crate::exact::triangles::meet;
 use crate::exact::volume::SignedVolume;
 use crate::half_edges::Edges;
@@ -19,7 +19,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use closed_parts::closed_parts;
 
-/// The shells of a closed mesh whose orientation contradicts their nesting.
+/// The shells of a closed mesh whose orientation contradicts their nesting in other shells.
 ///
 /// A shell is a closed part that is connected over edges. Among shells that do not cross, the outermost bound
 /// solids, those next within bound cavities, and so on, for any orientation. Outermost shells that cross make
@@ -27,16 +27,16 @@ use closed_parts::closed_parts;
 /// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
-    /// The faces to reverse, so that the solid is behind all faces, or in front of all.
+    /// The faces to reverse, so that the solid is behind all faces or in front of all faces.
     pub(crate) turned: Vec<u32>,
-    /// A face of each wrongly oriented shell, if other shells are right, by the file's number.
+    /// The wrongly oriented shells, if other shells are right: one face of each, by the file's number.
     pub(crate) wrong: Tally<u32>,
-    /// A face of each shell that may bound a solid or a cavity, by the file's number.
+    /// The shells that may bound a solid or a cavity: one face of each, by the file's number.
     pub(crate) unclear: Tally<u32>,
 }
 
 impl Nesting {
-    /// Examines a closed mesh, with its edges between welded vertices: every edge has equally many faces in both
+    /// Examines a closed mesh, given its edges between welded vertices. Every edge has equally many faces in both
     /// directions. A mesh of one part needs no reversal.
     ///
     /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
@@ -50,21 +50,21 @@ impl Nesting {
     }
 }
 
-/// The shells of a mesh, and the boxes of its faces.
+/// The shells of a mesh, and search trees over its faces.
 struct Shells<'m> {
     mesh: &'m TriangleMesh,
     boxes: TriangleBoxes,
     shell_of: Vec<u32>,
     faces_of: Vec<Vec<u32>>,
-    /// The boxes of the shells. A shell winds about no point outside its box.
+    /// The bounding boxes of the shells. The winding number of a shell is 0 outside its box.
     bounds: BoundsTree,
 }
 
-/// The nesting of one shell.
+/// The shells that surround one shell.
 #[derive(Clone, Debug, Default)]
 struct Surroundings {
     shells: Vec<u32>,
-    /// Whether a surrounding shell crosses this one.
+    /// Whether a surrounding shell intersects this one.
     crossed: bool,
     /// Whether the surrounding shells could not be determined.
     unknown: bool,
@@ -124,7 +124,7 @@ impl<'m> Shells<'m> {
                 _ => 1,
             };
             if *unknown || *crossed && windings > 0 && as_around != Some(1) {
-                unclear.add(self.name(shell));
+                unclear.add(self.name_in_reports(shell));
             }
         }
         let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
@@ -136,15 +136,15 @@ impl<'m> Shells<'m> {
         // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
             for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
-                nesting.wrong.add(self.name(shell));
+                nesting.wrong.add(self.name_in_reports(shell));
                 nesting.turned.extend(&self.faces_of[shell]);
             }
         }
         nesting
     }
 
-    /// Returns the first face of a shell, by the file's number, as its name in reports.
-    fn name(&self, shell: usize) -> u32 {
+    /// Returns the first face of a shell, by the file's number. Reports name the shell by it.
+    fn name_in_reports(&self, shell: usize) -> u32 {
         self.mesh.face_ids()[self.faces_of[shell][0] as usize]
     }
 
@@ -152,7 +152,7 @@ impl<'m> Shells<'m> {
     fn orientation(&self, faces: &[u32]) -> i32 {
         let near = self.mesh.triangle(faces[0])[0];
         let triangles = faces.iter().map(|&face| self.mesh.triangle(face));
-        match SignedVolume::of(triangles, near).is_positive() {
+        match SignedVolume::from_triangles(triangles, near).is_positive() {
             Some(true) => 1,
             Some(false) => -1,
             None => 0,
@@ -160,7 +160,7 @@ impl<'m> Shells<'m> {
     }
 
     fn surroundings(&self, shell: u32) -> Surroundings {
-        let Some(mut shells) = self.winding_about(shell) else {
+        let Some(mut shells) = self.shells_winding_about(shell) else {
             return Surroundings {
                 unknown: true,
                 ..Surroundings::default()
@@ -169,7 +169,7 @@ impl<'m> Shells<'m> {
         if shells.is_empty() {
             return Surroundings::default();
         }
-        let crossed = self.crossed_by(shell);
+        let crossed = self.shells_crossing(shell);
         shells.retain(|other| !crossed.contains(other));
         Surroundings {
             shells,
@@ -178,8 +178,9 @@ impl<'m> Shells<'m> {
         }
     }
 
-    /// Returns the other shells that wind about a shell; `None` if every ray meets an edge or vertex.
-    fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
+    /// Returns the other shells with a winding number other than 0 about a shell; `None` if every ray meets an edge
+    /// or vertex.
+    fn shells_winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
         let is_own = |other: u32| other == shell;
@@ -187,20 +188,21 @@ impl<'m> Shells<'m> {
         if self.bounds.all_meeting(&at, is_own) {
             return Some(Vec::new());
         }
-        let size = self.boxes.reach(corner);
+        let size = self.boxes.farthest_distance(corner);
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
         // Shells may touch at a corner: every attempt uses another one.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
         // Shells that share faces touch at all corners.
-        let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
-        corners
-            .chain(middles)
-            .find_map(|(k, from)| self.winding_before(shell, probe(from, size, k)))
+        let middles =
+            (0..RAY_TRIES).filter_map(|k| Some((k, self.isolated_centre(shell, face(k), size)?)));
+        corners.chain(middles).find_map(|(k, from)| {
+            self.shells_winding_about_start(shell, probe_segment(from, size, k))
+        })
     }
 
-    /// Returns the middle of a face, up to rounding; `None` if another shell is within that rounding.
-    fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
-        let (middle, across) = around_middle(face, size)?;
+    /// Returns the centre of a face, up to rounding; `None` if another shell is within that rounding.
+    fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+        let (middle, across) = centre_and_sides(face, size)?;
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
         let misses =
             |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
@@ -210,8 +212,9 @@ impl<'m> Shells<'m> {
         is_alone.then_some(middle)
     }
 
-    /// Returns the other shells that wind about the start of a ray; `None` if the ray meets an edge or vertex.
-    fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
+    /// Returns the other shells with a winding number other than 0 about the start of a ray; `None` if the ray meets
+    /// an edge or vertex.
+    fn shells_winding_about_start(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
@@ -236,7 +239,7 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the other shells that intersect a shell outside shared corners and edges.
-    fn crossed_by(&self, shell: u32) -> Vec<u32> {
+    fn shells_crossing(&self, shell: u32) -> Vec<u32> {
         let mut crossed = Vec::new();
         let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
         // A degenerate face lies on an edge of its neighbours.
@@ -259,9 +262,9 @@ impl<'m> Shells<'m> {
     }
 }
 
-/// Returns the middle of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
+/// Returns the centre of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
 /// the mesh.
-fn around_middle([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
+fn centre_and_sides([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
     let middle = (a + b + c) / 3.0;
     // Far from the origin, rounding exceeds that of the mesh's size.
     let size = size + middle.abs().max_element();

@@ -1,15 +1,15 @@
-//! The shells of a closed surface, and the check of their orientation.
+//! Finds the shells of a closed surface, and checks their orientation.
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
 use crate::disjoint_sets::{DisjointSets, members};
-use crate::exact::rays::{crossing, probe};
+use crate::exact::rays::{crossing, probe_segment};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
 use crate::tolerance::RAY_TRIES;
 use crate::work::Work;
 
-/// Checks that the solid, where the winding number is not 0, is behind every face.
+/// Checks that the solid is behind every face. The solid is where the winding number is not 0.
 ///
 /// Faces meet only where they share an edge or vertex. One point of every shell is therefore enough: the other
 /// points of the shell have the same winding number in the rest.
@@ -25,7 +25,7 @@ pub(crate) fn check_orientation(
     let faces_of = members(&shell_of);
     for faces in &faces_of {
         let triangles = faces.iter().map(|&face| manifold.triangle(face));
-        let volume = SignedVolume::of(triangles, near);
+        let volume = SignedVolume::from_triangles(triangles, near);
         let face = manifold.mesh().face_ids()[faces[0] as usize];
         let Some(outward) = volume.is_positive() else {
             return Err(DecomposeError::NoVolume { face });
@@ -47,7 +47,7 @@ pub(crate) fn check_orientation(
     Ok(())
 }
 
-/// Returns the shell of each face: shells are connected over edges.
+/// Returns the shell number of each face. Shells are connected over edges.
 pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
     let faces = manifold.faces().len();
     let mut shells = DisjointSets::new(faces);
@@ -59,7 +59,7 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
     shells.numbers()
 }
 
-/// Returns the winding number of the other shells about one; `None` if every ray meets an edge or vertex.
+/// Returns the winding number of all other shells about one shell; `None` if every ray meets an edge or vertex.
 fn winding_of_others(
     manifold: &Manifold<'_>,
     shell_of: &[u32],
@@ -68,11 +68,11 @@ fn winding_of_others(
 ) -> Option<i32> {
     let shell = shell_of[faces[0] as usize];
     let near = manifold.triangle(faces[0])[0];
-    let size = manifold.boxes().reach(near);
+    let size = manifold.boxes().farthest_distance(near);
     (0..RAY_TRIES).find_map(|k| {
         // Shells may touch at a corner: every attempt uses another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
-        let ray = probe(from, size, k);
+        let ray = probe_segment(from, size, k);
         let mut windings = Some(0);
         manifold
             .boxes()

@@ -1,4 +1,4 @@
-//! Star-shaped solids, whose whole surface is visible from one point.
+//! Recognises star-shaped solids, whose whole surface is visible from one point.
 
 use super::manifold::Manifold;
 use crate::exact::predicates::side;
@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_COORDINATE;
 use std::cmp::Ordering;
 
-/// Returns whether the whole surface is visible from one of a few points: the point is behind every face, and no face
-/// hides another.
+/// Returns whether the whole surface is visible from one of a few candidate points. A point sees the surface if it is
+/// behind every face, and no face hides another.
 ///
 /// # Guarantee
 /// Exact if true: faces then share only vertices and edges, and the solid is behind them. From a point behind all
@@ -16,15 +16,15 @@ use std::cmp::Ordering;
 /// # Complexity
 /// O(n).
 pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
-    middles(manifold).iter().any(|&middle| {
+    candidate_centres(manifold).iter().any(|&middle| {
         let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
         let has_behind = |triangle| side(triangle, middle) == Ordering::Less;
-        triangles().all(has_behind) && covers_once(triangles(), middle)
+        triangles().all(has_behind) && ray_meets_one_triangle(triangles(), middle)
     })
 }
 
-/// Returns points that are likely inside: the mean of all corners, and the centre of mass.
-fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
+/// Returns candidate points that are likely inside: the mean of all corners, and the centre of mass.
+fn candidate_centres(manifold: &Manifold<'_>) -> [DVec3; 2] {
     let faces = 0..manifold.faces().len() as u32;
     let near = manifold.triangle(0)[0];
     let (mut sum, mut moment, mut volume) = (DVec3::ZERO, DVec3::ZERO, 0.0);
@@ -37,11 +37,11 @@ fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
     }
     let mean = sum / (3 * faces.len()) as f64;
     // A non-finite point is behind no face.
-    [mean, moment / (4.0 * volume)].map(|middle| predictable(near + middle))
+    [mean, moment / (4.0 * volume)].map(|middle| with_tiny_coordinates_zeroed(near + middle))
 }
 
-/// Replaces coordinates too near to 0 for exact predicates by 0.
-fn predictable(p: DVec3) -> DVec3 {
+/// Replaces coordinates that are too near to 0 for exact predicates by 0.
+fn with_tiny_coordinates_zeroed(p: DVec3) -> DVec3 {
     DVec3::select(
         p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
         DVec3::ZERO,
@@ -49,13 +49,13 @@ fn predictable(p: DVec3) -> DVec3 {
     )
 }
 
-/// Returns whether a direction from the middle that avoids all edges meets exactly one triangle.
-fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
+/// Returns whether a ray from `middle` that avoids all edges meets exactly one triangle.
+fn ray_meets_one_triangle(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
     let mut triangles = triangles.peekable();
     let Some(&[a, b, c]) = triangles.peek() else {
         return false;
     };
-    let target = predictable((a + b + c) / 3.0);
+    let target = with_tiny_coordinates_zeroed((a + b + c) / 3.0);
     let mut met = 0;
     for [a, b, c] in triangles {
         let within = [(a, b), (b, c), (c, a)].map(|(v, w)| side([middle, v, w], target));

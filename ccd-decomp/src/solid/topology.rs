@@ -1,4 +1,4 @@
-//! The topology of a mesh: edges, closedness, orientation.
+//! Computes the topology of a mesh: irregular edges, closedness, orientation.
 
 use super::nesting::Nesting;
 use crate::half_edges::Edges;
@@ -11,22 +11,21 @@ use std::fmt;
 /// The irregular edges of a mesh and its wrongly oriented shells. Equal points count as one vertex.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
-    /// Edges of one face only: the boundaries of holes.
+    /// Edges with a single face, which are the boundaries of holes.
     pub boundary: Tally<Edge>,
-    /// Edges of two faces in the same direction: one of the two has the wrong orientation.
+    /// Edges with two faces in the same direction. One of the two faces has the wrong orientation.
     pub flipped: Tally<Edge>,
-    /// Edges of more than two faces, with more in one direction than in the other.
+    /// Edges with more than two faces, with more in one direction than in the other.
     pub branching: Tally<Edge>,
-    /// Edges of more than two faces, equally many in both directions: closed parts touch there.
+    /// Edges with more than two faces, equally many in both directions. Closed parts touch there.
     pub shared: Tally<Edge>,
-    /// Wrongly oriented shells, if other shells are right, each by one of its faces. Bodies are made with these shells
+    /// Wrongly oriented shells, if other shells are right; one face of each. Bodies are made with these shells
     /// reversed.
     pub wrong_way: Tally<u32>,
-    /// Shells that are inside one shell and cross another, so that they may bound a solid or a cavity; each by one of
-    /// its faces.
+    /// Shells inside one shell that cross another, so that they may bound a solid or a cavity; one face of each.
     pub unclear: Tally<u32>,
-    /// The enclosed volume after wrong shells are reversed, in cubic units of length; negative if all normals point
-    /// inward. Meaningful for closed meshes only.
+    /// The enclosed volume after wrong shells are reversed, in cubic units of length. It is negative if all normals
+    /// point inward, and meaningful for closed meshes only.
     pub signed_volume: f64,
 }
 
@@ -34,14 +33,14 @@ pub struct Topology {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
-/// The overall orientation of a closed mesh.
+/// The orientation of a closed mesh as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
-    /// The normals point out of the solid.
+    /// The normals of the faces point out of the solid.
     Outward,
-    /// The normals point into the solid: the mesh is inside out.
+    /// The normals of the faces point into the solid: the mesh is inside out.
     Inward,
-    /// The mesh encloses no net volume.
+    /// The mesh encloses a volume of 0.
     Neither,
 }
 
@@ -56,17 +55,18 @@ impl Topology {
     /// assert_eq!(Topology::of(&open).boundary.count(), 3);
     /// ```
     pub fn of(mesh: &TriangleMesh) -> Self {
-        Topology::and_turned(mesh).0
+        Topology::with_reoriented_mesh(mesh).0
     }
 
-    /// Computes the topology like [`Topology::of`], and a mesh with wrong shells reversed, if there are any.
-    pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
+    /// Computes the topology like [`Topology::of`]. Also returns the mesh with wrong shells reversed, if there are
+    /// any.
+    pub(crate) fn with_reoriented_mesh(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let edges = Edges::new(&mesh.welded_faces());
-        Topology::by_edges(mesh, &edges)
+        Topology::from_edges(mesh, &edges)
     }
 
-    /// Computes the same as [`Topology::and_turned`], from the edges between welded vertices.
-    pub(crate) fn by_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
+    /// Computes the same as [`Topology::with_reoriented_mesh`], given the edges between welded vertices.
+    pub(crate) fn from_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
             ..Topology::default()
@@ -88,7 +88,8 @@ impl Topology {
         let nesting = Nesting::new(mesh, edges);
         topology.wrong_way = nesting.wrong;
         topology.unclear = nesting.unclear;
-        let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));
+        let turned =
+            (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));
         if let Some(turned) = &turned {
             topology.signed_volume = signed_volume(turned);
         }
@@ -111,7 +112,7 @@ impl Topology {
         self.is_closed() && self.shared.is_empty()
     }
 
-    /// Returns the change that would make the mesh a manifold, for messages.
+    /// Returns the change that would make the mesh a manifold, as advice in messages.
     pub(crate) fn advice(&self) -> &'static str {
         if !(self.boundary.is_empty() && self.branching.is_empty()) {
             "close the mesh"
@@ -122,7 +123,7 @@ impl Topology {
         }
     }
 
-    /// Returns the orientation, by the sign of the volume.
+    /// Returns the orientation of the mesh, by the sign of its volume.
     pub fn orientation(&self) -> Orientation {
         if self.signed_volume > 0.0 {
             Orientation::Outward

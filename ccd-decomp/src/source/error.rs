@@ -12,74 +12,74 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
-    /// The text describes no body.
+    /// The text is not a description of a body.
     #[error(transparent)]
     Source(#[from] SourceError),
-    /// The mesh cannot be read.
+    /// The mesh file cannot be read.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// The stored body cannot be read.
+    /// The file of the stored body cannot be loaded.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// The core rejects the shape.
+    /// The constructors of `ccd_core` reject the shape.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The mesh cannot be made into a body.
+    /// No body can be made of the mesh.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
-    /// The content of a file cannot be made into a body.
+    /// No body can be made of the content of a file.
     #[error("{}: {error}", .file.display())]
     InFile {
-        /// The file.
+        /// The path of the file.
         file: PathBuf,
-        /// The reason.
+        /// The reason why no body can be made.
         error: PrepareError,
     },
 }
 
-/// A text that describes no body.
+/// The error for a text that does not describe a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
     /// The text is empty.
     #[error("no body given; {EXAMPLES}")]
     Empty,
-    /// The word before the colon is not a known shape.
+    /// The word before the colon is not the name of a shape.
     #[error("there is no shape {shape:?}; {EXAMPLES}")]
     UnknownShape {
-        /// The word.
+        /// The word before the colon.
         shape: String,
     },
-    /// A shape needs another number of lengths.
+    /// A shape has too many or too few lengths.
     #[error(
         "{shape:?} takes {expected} length{}, not {given}; {EXAMPLES}",
         if *.expected == 1 { "" } else { "s" }
     )]
     WrongCount {
-        /// The shape.
+        /// The name of the shape.
         shape: &'static str,
-        /// The number that it takes.
+        /// The number of lengths that the shape takes.
         expected: usize,
-        /// The number given.
+        /// The number of lengths that the text has.
         given: usize,
     },
-    /// The text after a file name is no adjustment.
+    /// A word after the file name is not an adjustment.
     #[error(transparent)]
     Adjustment(#[from] UnknownAdjustment),
-    /// Adjustments do not apply to a stored body.
+    /// A stored body has adjustments, which apply only to meshes.
     #[error("{}: {PREPARED}", .file.display())]
     Prepared {
-        /// The file.
+        /// The path of the stored body.
         file: PathBuf,
     },
-    /// A length is beyond the largest coordinate.
+    /// A length exceeds the largest supported coordinate.
     #[error(
         "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
     )]
     TooLong {
-        /// The shape.
+        /// The name of the shape.
         shape: &'static str,
-        /// The text given for the length.
+        /// The length as written in the text.
         length: String,
     },
     /// A length is not a finite number of at least 0.
@@ -87,9 +87,9 @@ pub enum SourceError {
         "{length:?} is not a length of {shape:?}: a number from 0 to {MAX_COORDINATE:e}; {EXAMPLES}"
     )]
     BadLength {
-        /// The shape.
+        /// The name of the shape.
         shape: &'static str,
-        /// The text given for the length.
+        /// The length as written in the text.
         length: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Descriptions of meshes and their parts on a command line.
+//! Parses the descriptions of meshes, and of their parts, on a command line.
 
 use crate::file::is_stored;
 use crate::mesh::TriangleMesh;
@@ -13,7 +13,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// A mesh file, or a part of one, with adjustments: `FILE`, `FILE#PART`, `FILE@mm`, `FILE#PART@scale=0.5@mirror=x`.
+/// A mesh file or a part of one, with adjustments: `FILE`, `FILE#PART`, `FILE@mm`, `FILE#PART@scale=0.5@mirror=x`.
 ///
 /// The part follows the first `#` after a mesh extension, the adjustments follow `@`. After a part, only valid
 /// adjustments are not part of its name. If a file has the whole text as its name, it is that file.
@@ -28,11 +28,11 @@ use std::str::FromStr;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshSource {
-    /// The path of the file.
+    /// The path of the mesh file.
     pub file: PathBuf,
     /// The name or number (from 0) of the part; `None` for all parts together.
     pub part: Option<String>,
-    /// The adjustments of the mesh.
+    /// The adjustments that are applied to the mesh.
     pub adjustments: Adjustments,
 }
 
@@ -43,10 +43,10 @@ impl MeshSource {
     /// [`MeshError`], which names the file.
     pub fn read(&self) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
         let mut file = MeshFile::read(&self.file)?;
-        if let Some(unit) = self.adjustments.stated() {
+        if let Some(unit) = self.adjustments.stated_unit() {
             file = file.stated_in(unit);
         }
-        if let Some(unit) = self.adjustments.wanted() {
+        if let Some(unit) = self.adjustments.target_unit() {
             file = file.in_unit(unit);
         }
         let unit = file.unit();
@@ -66,7 +66,7 @@ impl MeshSource {
         }
     }
 
-    /// Returns the kind of pieces: `asked`, or a surface if the mesh is hollow.
+    /// Returns the kind of pieces to make: `asked`, or a surface if the mesh is to be hollow.
     pub fn detail(&self, asked: Detail) -> Detail {
         if self.adjustments.is_hollow() {
             Detail::Surface
@@ -84,8 +84,8 @@ impl MeshSource {
     }
 }
 
-/// Splits a text into file name, mark, and rest.
-fn split(text: &str) -> Option<(&str, char, &str)> {
+/// Splits a text into file name, mark (`#` or `@`), and rest.
+fn split_at_mark(text: &str) -> Option<(&str, char, &str)> {
     let mut ends = text.match_indices(['#', '@']);
     let (at, mark) = ends.find(|&(at, mark)| {
         let file = Path::new(&text[..at]);
@@ -101,7 +101,8 @@ impl FromStr for MeshSource {
     type Err = UnknownAdjustment;
 
     fn from_str(text: &str) -> Result<Self, UnknownAdjustment> {
-        let Some((file, mark, rest)) = split(text).filter(|_| !Path::new(text).is_file()) else {
+        let Some((file, mark, rest)) = split_at_mark(text).filter(|_| !Path::new(text).is_file())
+        else {
             return Ok(MeshSource::whole(text));
         };
         let (mut part, mut words) = (None, Vec::new());
@@ -127,14 +128,14 @@ impl FromStr for MeshSource {
     }
 }
 
-/// A whole file without adjustments.
+/// Describes a whole mesh file without adjustments.
 impl From<PathBuf> for MeshSource {
     fn from(file: PathBuf) -> Self {
         MeshSource::whole(file)
     }
 }
 
-/// A path that is not UTF-8 has no part.
+/// Parses a path. A path that is not UTF-8 is a file name without a part.
 impl TryFrom<OsString> for MeshSource {
     type Error = UnknownAdjustment;
 

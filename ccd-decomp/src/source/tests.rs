@@ -26,7 +26,7 @@ fn descriptions_of_bodies(#[case] text: &str, #[case] expected: BodySource) {
     assert_eq!(text.parse(), Ok(expected));
 }
 
-/// A mesh whose adjustments print as that.
+/// Returns the description of a mesh with the given adjustments, as text.
 fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
     let mut words = adjusted.split('@').skip(1);
     let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_word);
@@ -56,7 +56,7 @@ fn what_means_nothing_after_a_file_is_told(#[case] text: &str, #[case] message: 
     assert!(error.starts_with(message), "{error}");
 }
 
-/// A tetrahedron, in a file of that name.
+/// A mesh file of a tetrahedron, by its path.
 struct Tetrahedron(PathBuf);
 
 impl Tetrahedron {
@@ -68,7 +68,7 @@ impl Tetrahedron {
         Tetrahedron(path)
     }
 
-    /// Loads it with words after its name.
+    /// Loads the file with words appended to its name.
     fn with(&self, words: &str) -> Prepared {
         self.try_with(words).unwrap()
     }
@@ -84,7 +84,7 @@ impl Drop for Tetrahedron {
     }
 }
 
-/// The least and the greatest coordinate along x of a body.
+/// Returns the least and the greatest x coordinate of a body.
 fn along_x(prepared: &Prepared) -> [f64; 2] {
     let xs = prepared.body.pieces().points().iter().map(|p| p.x);
     let fold = |of: fn(f64, f64) -> f64| xs.clone().reduce(of).unwrap();
@@ -136,7 +136,7 @@ fn a_closed_mesh_may_be_hollow() {
     assert_eq!(hollow.report.to_string(), "4 triangles, surface only");
 }
 
-/// A file with the whole text as its name takes precedence.
+/// Tests that a file with the whole text as its name takes precedence over a part or adjustments.
 #[test]
 fn a_file_with_the_whole_text_as_its_name_is_that_file() {
     let (plain, at) = (
@@ -201,7 +201,7 @@ fn lengths_that_are_too_large_are_reported_with_the_range(
     assert_eq!(error, SourceError::TooLong { shape, length });
 }
 
-/// The largest allowed lengths are accepted.
+/// Tests that the largest allowed lengths are accepted.
 #[test]
 fn the_largest_lengths_are_lengths() {
     for text in ["sphere:1e12", "capsule:1e12,1e12", "box:1e12,1e12,1e12"] {
@@ -218,7 +218,7 @@ fn primitives_are_single_solid_pieces() {
     }
 }
 
-/// The excess of a polytope is reported, and is at most the requested one.
+/// Tests that the reported excess of a polytope is at most the requested one.
 #[rstest]
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]
@@ -280,7 +280,7 @@ fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
     assert!(error.starts_with(&expected), "{error}");
 }
 
-/// One length is no plural.
+/// Tests that messages about one length use the singular.
 #[test]
 fn the_number_of_lengths_is_worded() {
     for (text, start) in [

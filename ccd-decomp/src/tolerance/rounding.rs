@@ -3,13 +3,13 @@
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::U64;
 
-/// The distance from a face within which no other shell may be, for the face's middle to represent its shell; in units
-/// of the mesh's size and of its distance from the origin. Rounding moves the middle off the face by 8 [`U64`] at most,
-/// and the face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
+/// The distance between shells below which the centre of a face does not represent its shell. It is relative to the
+/// mesh's size and its distance from the origin. Rounding moves the centre off the face by 8 [`U64`] at most, and the
+/// face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
-/// Returns a bound on how far clipping a polygon to a voxel moves its points, for coordinates up to `farthest`, in its
-/// unit of length. A grid of 128 layers is halved at most 21 times.
+/// Returns a bound on how far clipping a polygon to a voxel moves its points, for coordinates up to `farthest`, in
+/// the same unit. A grid of 128 layers is halved at most 21 times.
 ///
 /// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
 /// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
@@ -20,14 +20,15 @@ pub(crate) fn clip_rounding(farthest: f64) -> f64 {
     1024.0 * U64 * farthest
 }
 
-/// Returns the distance from an edge within which a clipped point counts as on it, for coordinates up to `farthest`, in
-/// its unit of length. One cut moves a point by less than a third of it.
+/// Returns the distance from an edge within which a clipped point counts as on the edge, for coordinates up to
+/// `farthest`, in the same unit. One cut moves a point by less than a third of it.
 pub(crate) fn on_edge(farthest: f64) -> f64 {
     64.0 * U64 * farthest
 }
 
-/// Returns a bound on the error of a difference of points along a direction, plus that of the extent of an [oriented
-/// box](crate::search), for coordinates up to `reach`, in its unit of length, for a direction of length about 1.
+/// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along
+/// `direction`, a vector of length about 1. It covers the difference of points and the extent of the box, for
+/// coordinates up to `reach`, in the same unit.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a difference
 /// is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as there is one of the
@@ -37,9 +38,9 @@ pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 
-/// Returns a bound on the error of the sum of `terms` products `a · (b × c)` of rounded differences of points. Here
-/// `size` is the sum of `|a| |b| |c|`, and the rounding error of each addition is summed separately; in the unit of the
-/// products.
+/// Returns a bound on the error of the sum of `terms` products `a · (b × c)` of rounded differences of points, in the
+/// unit of the products. `size` is the sum of `|a| |b| |c|`. The rounding errors of the additions are summed
+/// separately.
 ///
 /// With `u` half a unit in the last place: of the six products of three coordinates each comes from three differences,
 /// and is rounded twice and added up four times: a relative error of 9u. Their sizes add up to at most
@@ -49,14 +50,14 @@ pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
     (32.0 + 4.0 * terms * (terms * U64)) * U64 * size
 }
 
-/// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. Rounding makes 1e-15 for
-/// well-shaped triangles, and less than a tenth of this for those that are just no [needles](NEEDLE).
+/// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. The rounding error is 1e-15
+/// for well-shaped triangles, and less than a tenth of this for triangles that are just no [needles](NEEDLE).
 pub(crate) const NEAREST_SLACK: f64 = 1e-9;
 
-/// The height of a triangle relative to its longest side below which it counts as a needle. The library's error grows
+/// The ratio of a triangle's height to its longest side below which it counts as a needle. The library's error grows
 /// with the inverse: it exceeds [`NEAREST_SLACK`] at 1e-6.
 pub(crate) const NEEDLE: f64 = 1e-4;
 
-/// The minimum sine at a corner of a facet whose plane is used. The error of its normal is then at most `4 U64 / 1e-6`,
-/// less than [`NEAREST_SLACK`].
+/// The minimum sine of the angle at a corner of a facet whose plane is used. The error of the facet's normal is then
+/// at most `4 U64 / 1e-6`, less than [`NEAREST_SLACK`].
 pub(crate) const WELL_SHAPED: f64 = 1e-6;

@@ -1,9 +1,9 @@
-//! The rounding bounds cover their derivations, repeated here.
+//! Tests that the rounding bounds cover their derivations, which are repeated here.
 
 use super::*;
 use ccd_core::glam::DVec3;
 
-/// Half a unit in the last place.
+/// Half a unit in the last place of 1.
 const U: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 #[test]
@@ -24,9 +24,9 @@ fn more_hulls_take_finer_voxels() {
     assert_eq!([1, 32, 33, 1_000].map(voxel_resolution), [64, 64, 96, 96]);
 }
 
-/// The depth of a tree follows from the least share of each child.
+/// Tests that the depth of a hull tree follows from the least fraction of each child.
 #[test]
 fn a_tree_of_a_million_pieces_has_few_levels() {
-    let levels = 1e6_f64.ln() / -(1.0 - LEAST_SHARE).ln();
+    let levels = 1e6_f64.ln() / -(1.0 - MIN_CHILD_SHARE).ln();
     assert!((103.0..104.0).contains(&levels), "{levels}");
 }

@@ -1,11 +1,11 @@
-//! Builds hierarchies over pieces: median splits into clusters, agglomeration, reinsertion of subtrees.
+//! Builds binary hierarchies over pieces: median splits into clusters, agglomeration, reinsertion of subtrees.
 
 mod agglomerate;
 mod nodes;
 mod reinsert;
 
 use crate::bounds::Bounds;
-use crate::tolerance::AGGLOMERATED_PIECES;
+use crate::tolerance::MAX_CLUSTER_PIECES;
 use crate::tree::slot::Slot;
 use agglomerate::{Workspace, agglomerate};
 use ccd_core::glam::{DVec3, Vec3A};
@@ -14,8 +14,8 @@ use nodes::{Below, Cuboid, Node};
 use rayon::prelude::*;
 use reinsert::reinsert;
 
-/// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates each cluster, and reinserts the
-/// worst subtrees.
+/// Builds a binary hierarchy over pieces. It splits them at medians into clusters, agglomerates each cluster, and
+/// reinserts the worst subtrees.
 ///
 /// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or equal
 /// ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound both. The
@@ -42,13 +42,17 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
         Below::Children(first) => HierarchyNode::Inner(first, first + 1),
     };
     Hierarchy::new(
-        nodes.par_iter().with_min_len(SHARE).map(node).collect(),
+        nodes
+            .par_iter()
+            .with_min_len(PIECES_PER_TASK)
+            .map(node)
+            .collect(),
         pieces.len(),
     )
 }
 
-/// Creates a leaf for each piece, with a box in single precision, scaled to the unit cube: otherwise pieces that are
-/// tiny or far from the origin would coincide.
+/// Creates a leaf for each piece, with a box in f32. The boxes are scaled to the unit cube, so that pieces that are
+/// tiny or far from the origin do not coincide.
 fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let bounds = |piece: usize| {
         let piece = pieces.get(piece);
@@ -61,12 +65,12 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let all = 0..pieces.len();
     let boxes: Vec<Bounds> = all
         .into_par_iter()
-        .with_min_len(SHARE)
+        .with_min_len(PIECES_PER_TASK)
         .map(bounds)
         .collect();
     // Shares of fixed size do not depend on the number of threads.
     let corners = |share: &[Bounds]| Bounds::enclosing(share.iter().flat_map(|b| [b.lo, b.hi]));
-    let shares: Vec<Bounds> = boxes.par_chunks(SHARE).map(corners).collect();
+    let shares: Vec<Bounds> = boxes.par_chunks(PIECES_PER_TASK).map(corners).collect();
     let Bounds { lo, hi } = corners(&shares);
     // A tiny length has no finite reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
@@ -78,24 +82,25 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
         };
         Node::leaf(piece as u32, cuboid)
     };
-    let leaves = boxes.par_iter().with_min_len(SHARE).enumerate();
+    let leaves = boxes.par_iter().with_min_len(PIECES_PER_TASK).enumerate();
     leaves.map(leaf).collect()
 }
 
-/// The number of pieces in a task; smaller tasks cost more than they gain.
-const SHARE: usize = 4096;
+/// The number of pieces in a parallel task. Smaller tasks cost more than they gain.
+const PIECES_PER_TASK: usize = 4096;
 
-/// Splits leaves at the medians of their centres into clusters, and agglomerates these. Returns the root first.
+/// Splits leaves at the medians of their centres into clusters, and agglomerates each cluster. Returns the nodes, the
+/// root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
     let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
     if let Some(slot) = Slot::whole(&mut nodes) {
-        Splitter { leaves }.side_by_side(&mut centres, slot);
+        Splitter { leaves }.build_subtree(&mut centres, slot);
     }
     nodes
 }
 
-/// The centre of a piece's box.
+/// The centre of a piece's bounding box.
 #[derive(Clone, Copy)]
 struct Centre {
     at: [f32; 3],
@@ -116,21 +121,21 @@ struct Splitter<'l> {
 }
 
 impl Splitter<'_> {
-    /// Builds the subtree over some pieces, in parallel if there are many.
-    fn side_by_side(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
-        if centres.len() <= SHARE {
+    /// Builds the subtree over some pieces, in parallel if they are many.
+    fn build_subtree(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
+        if centres.len() <= PIECES_PER_TASK {
             return self.one_by_one(centres, slot, &mut Workspace::default());
         }
         halve(centres, slot, |[left, right]| {
             rayon::join(
-                || self.side_by_side(left.0, left.1),
-                || self.side_by_side(right.0, right.1),
+                || self.build_subtree(left.0, left.1),
+                || self.build_subtree(right.0, right.1),
             );
         });
     }
 
     fn one_by_one(&self, centres: &mut [Centre], slot: Slot<'_, Node>, workspace: &mut Workspace) {
-        if centres.len() > AGGLOMERATED_PIECES {
+        if centres.len() > MAX_CLUSTER_PIECES {
             return halve(centres, slot, |sides| {
                 for (centres, slot) in sides {
                     self.one_by_one(centres, slot, workspace);
@@ -156,7 +161,7 @@ impl Splitter<'_> {
     }
 }
 
-/// Splits pieces at the median of their centres along the longest axis, builds both sides by `make`, and joins them.
+/// Splits pieces at the median of their centres along the longest axis, builds both halves by `make`, and joins them.
 fn halve(
     centres: &mut [Centre],
     mut slot: Slot<'_, Node>,

@@ -1,9 +1,9 @@
-//! Builds hull trees over pieces: top-down splits, bottom-up hulls `[SWIFT01]`.
+//! Builds hull trees over pieces by top-down splits and bottom-up hulls `[SWIFT01]`.
 
 mod split;
 
 use crate::hull::{HullError, hull};
-use crate::tolerance::SIDE_BY_SIDE;
+use crate::tolerance::PARALLEL_PIECES;
 use crate::tree::slot::Slot;
 use ccd_core::glam::DVec3;
 use ccd_core::{HullNode, HullTree, HullTreeError, InputError, Pieces};
@@ -47,8 +47,8 @@ struct Grower<'a> {
 }
 
 impl Grower<'_> {
-    /// Builds the subtree over some pieces, every node before its children. Each side gets at least a fixed share of
-    /// the pieces, so that the depth is logarithmic.
+    /// Builds the subtree over some pieces, parents before children. Each child gets at least a fixed fraction of the
+    /// pieces, so that the depth is logarithmic.
     fn grow(&self, pieces: &mut [u32], mut slot: Slot<'_, HullNode>) -> Result<(), BuildError> {
         if let [piece] = *pieces {
             *slot.node = HullNode::Leaf(piece);
@@ -60,7 +60,7 @@ impl Grower<'_> {
         let Some([left, right]) = slot.children(of_right.len()) else {
             return Ok(());
         };
-        let (grown_left, grown_right) = if count >= SIDE_BY_SIDE {
+        let (grown_left, grown_right) = if count >= PARALLEL_PIECES {
             rayon::join(|| self.grow(of_left, left), || self.grow(of_right, right))
         } else {
             (self.grow(of_left, left), self.grow(of_right, right))
@@ -79,14 +79,14 @@ impl Grower<'_> {
     }
 }
 
-/// The reason why pieces have no hull tree.
+/// The reason why no hull tree can be built over pieces.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
     /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(DVec3),
-    /// The core rejects the tree.
+    /// The checks of `ccd_core` reject the tree.
     #[error(transparent)]
     Tree(#[from] HullTreeError),
 }

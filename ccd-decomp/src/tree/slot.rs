@@ -1,9 +1,9 @@
-//! Slots of subtrees in the list of all nodes of a binary tree, which is filled from the root.
+//! Slots for subtrees in the node list of a binary tree, which is filled from the root.
 
-/// The slot of a subtree.
+/// The slot of a subtree in the node list: its root and the range of its descendants.
 pub(super) struct Slot<'n, N> {
     pub(super) node: &'n mut N,
-    /// The descendants: the two children, those of the second, those of the first.
+    /// The descendants: the two children, then the descendants of the second child, then those of the first.
     pub(super) below: &'n mut [N],
     /// The index of the first descendant.
     pub(super) first: u32,
@@ -17,7 +17,7 @@ impl<'n, N> Slot<'n, N> {
         Some(Slot { node, below, first })
     }
 
-    /// Returns the slots of both children, the second over `leaves` leaves; `None` if there are none.
+    /// Returns the slots of both children; `None` for a leaf. The second child has `leaves` leaves.
     pub(super) fn children(&mut self, leaves: usize) -> Option<[Slot<'_, N>; 2]> {
         let [left, right, below @ ..] = &mut *self.below else {
             return None;

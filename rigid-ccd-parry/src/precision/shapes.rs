@@ -46,7 +46,7 @@ pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeEr
     };
     let oriented = mesh.flags().contains(TriMeshFlags::ORIENTED);
     if options.meshes == Meshes::SolidIfOriented && oriented {
-        form.as_solid()
+        form.into_solid()
     } else {
         Ok(form)
     }

@@ -66,7 +66,7 @@ impl Scene<'_> {
     /// continue. A simulation that sets these poses after each step lets nothing pass through anything.
     ///
     /// Bodies that touch at the start are let go, as by [`StartPolicy::Leave`], whatever the settings are: they may
-    /// slide and part, but not come nearer than half of their distance. Both have to move by a [`Motion`](crate::Motion)
+    /// slide and part, but not come nearer than half of their distance. Both have to move by a [`Motion`]
     /// or be at rest; if one is on another trajectory, both stop at once. Bodies that overlap at the start do not stop
     /// each other.
     ///
@@ -246,8 +246,9 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let duration = self.clock.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
         let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
+        let stray = self.stray_at_stop(bodies[0])? + self.stray_at_stop(bodies[1])?;
         let settings = Settings {
-            margin: self.scene.settings.margin + rounding,
+            margin: self.scene.settings.margin + rounding + stray,
             deadline: self.clock.left(),
             ..self.scene.settings.clone()
         };
@@ -269,6 +270,17 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         };
         let [velocity, spin] = [motion.velocity(), motion.spin()];
         Ok(Motion::about(motion.pose(shifted.from), velocity, spin, motion.centre())?.into())
+    }
+
+    /// Bounds how far the points of a stopped body may be from those of its computed pose; 0 for a body that moves.
+    fn stray_at_stop(&self, index: usize) -> Result<f64, InputError> {
+        if self.moves(index) {
+            return Ok(0.0);
+        }
+        let (member, time) = (&self.scene.members[index], self.stops[index].time);
+        let stretch = member.movement.stretch(time, time)?;
+        let reach = member.body.span() + length(stretch.motion.centre());
+        Ok(stretch.stray.at(reach))
     }
 
     fn moves(&self, index: usize) -> bool {

@@ -1,4 +1,4 @@
-//! Runs every target on its corpus, and on random changes of it.
+//! Runs every fuzz target on its corpus, and on random changes of it.
 //!
 //! `CCD_TEST_CASES` multiplies the number of random changes, and `CCD_TEST_SEED` picks other ones. With
 //! `CCD_FUZZ_FILE=file`, only that file is run. An input that fails is kept in the folder `target/tmp`.
@@ -12,7 +12,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The number of random changes of each corpus, less than a second each.
+/// The number of random changes of each corpus file set, which take less than a second each.
 const CHANGES: u64 = 100;
 
 #[test]
@@ -96,12 +96,12 @@ fn replay(target: Target) {
     assert!(!corpus.is_empty(), "no corpus of {}", target.name);
     let mut mutator = Mutator::new(from_environment("CCD_TEST_SEED", 1), &corpus);
     for number in 0..CHANGES * from_environment("CCD_TEST_CASES", 1) {
-        let bytes = mutator.next();
+        let bytes = mutator.next_file();
         run(target, &bytes, &format!("change {number}"));
     }
 }
 
-/// Runs a target. An input that fails is kept, and named.
+/// Runs a target on an input. If it fails, keeps the input in a file and names it.
 fn run(target: Target, bytes: &[u8], name: &str) {
     if let Err(panic) = catch_unwind(AssertUnwindSafe(|| (target.run)(bytes))) {
         let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}-fault", target.name));

@@ -1,9 +1,9 @@
-//! Random changes of files.
+//! Changes files at random.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Generates files from those of a corpus: changed, cut, repeated, and joined with others.
+/// A generator of files from those of a corpus: changed, cut, repeated, and joined with others.
 pub(crate) struct Mutator<'a> {
     random: Pcg64,
     corpus: &'a [Vec<u8>],
@@ -11,8 +11,8 @@ pub(crate) struct Mutator<'a> {
 
 /// The maximum number of changes of a file.
 const CHANGES: usize = 6;
-/// Bytes with a meaning in some format.
-const TELLING: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";
+/// Bytes that have a meaning in some file format.
+const MEANINGFUL_BYTES: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";
 
 impl<'a> Mutator<'a> {
     pub(crate) fn new(seed: u64, corpus: &'a [Vec<u8>]) -> Self {
@@ -20,45 +20,48 @@ impl<'a> Mutator<'a> {
         Mutator { random, corpus }
     }
 
-    pub(crate) fn next(&mut self) -> Vec<u8> {
-        let mut bytes = self.one().to_vec();
-        for _ in 0..1 + self.below(CHANGES) {
+    pub(crate) fn next_file(&mut self) -> Vec<u8> {
+        let mut bytes = self.pick_file().to_vec();
+        for _ in 0..1 + self.random_below(CHANGES) {
             self.change(&mut bytes);
         }
         bytes
     }
 
-    fn one(&mut self) -> &'a [u8] {
-        let at = self.below(self.corpus.len());
+    fn pick_file(&mut self) -> &'a [u8] {
+        let at = self.random_below(self.corpus.len());
         &self.corpus[at]
     }
 
     fn change(&mut self, bytes: &mut Vec<u8>) {
-        let at = self.below(bytes.len() + 1);
-        let end = at + self.below(bytes.len() - at + 1);
-        match self.below(7) {
+        let at = self.random_below(bytes.len() + 1);
+        let end = at + self.random_below(bytes.len() - at + 1);
+        match self.random_below(7) {
             0 => {
                 let byte = self.random.random();
                 bytes.splice(at..bytes.len().min(at + 1), [byte]);
             }
             1 => {
-                let byte = TELLING[self.below(TELLING.len())];
+                let byte = MEANINGFUL_BYTES[self.random_below(MEANINGFUL_BYTES.len())];
                 bytes.splice(at..bytes.len().min(at + 1), [byte]);
             }
-            2 => bytes.insert(at, TELLING[self.below(TELLING.len())]),
+            2 => bytes.insert(
+                at,
+                MEANINGFUL_BYTES[self.random_below(MEANINGFUL_BYTES.len())],
+            ),
             3 => drop(bytes.drain(at..end.min(at + 16))),
             4 => {
                 let copy = bytes[at..end.min(at + 64)].to_vec();
-                let to = self.below(bytes.len() + 1);
+                let to = self.random_below(bytes.len() + 1);
                 bytes.splice(to..to, copy);
             }
             5 => {
-                let other = self.one();
-                let from = self.below(other.len() + 1);
+                let other = self.pick_file();
+                let from = self.random_below(other.len() + 1);
                 bytes.splice(at..end, other[from..].iter().copied().take(64));
             }
             _ => {
-                let bit = self.below(8);
+                let bit = self.random_below(8);
                 bytes
                     .iter_mut()
                     .skip(at)
@@ -68,7 +71,7 @@ impl<'a> Mutator<'a> {
         }
     }
 
-    fn below(&mut self, end: usize) -> usize {
+    fn random_below(&mut self, end: usize) -> usize {
         self.random.random_range(0..end)
     }
 }

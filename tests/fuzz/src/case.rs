@@ -1,4 +1,4 @@
-//! A query in plain numbers, and its text form.
+//! A query as plain numbers, and its form as files and a command line.
 
 use crate::nearest::Triangle;
 use crate::raw_motion::{Goal, RawMotion, RawPose};
@@ -12,20 +12,20 @@ pub struct Case {
     pub courses: [RawMotion; 2],
     pub duration: f64,
     pub config: Settings,
-    /// The part of the answer that the generator knows.
+    /// The expected result, as far as the generator knows it.
     pub expect: Expect,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expect {
     Nothing,
-    /// The bodies part, or keep their distance.
+    /// The bodies separate, or keep their distance.
     Free,
-    /// The bodies come nearer than allowed, certainly before this time.
+    /// The bodies certainly come nearer than allowed before the given time.
     ContactBy(f64),
 }
 
-/// A mesh.
+/// A mesh of vertices and faces, with its known properties.
 #[derive(Clone, Debug, Default)]
 pub struct Shape {
     pub vertices: Vec<[f64; 3]>,
@@ -33,21 +33,21 @@ pub struct Shape {
     pub form: Form,
 }
 
-/// The known properties of a mesh.
+/// The properties that a mesh is known to have.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Form {
     #[default]
     Soup,
-    /// Closed, oriented outward, without flaws, so that patches can be made of it.
+    /// The mesh is closed, oriented outward and without flaws, so that patches can be made of it.
     Solid,
-    /// A solid that is convex.
+    /// The mesh bounds a convex solid.
     Convex,
-    /// The hull of the vertices; the faces are its facets except for rounding.
+    /// The shape is the hull of the vertices. The faces are its facets except for rounding.
     Points,
 }
 
 impl Shape {
-    /// Returns a box around the origin, by its half extents.
+    /// Returns a box around the origin, given its half extents.
     pub fn cuboid(half: [f64; 3]) -> Self {
         let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let corner = |k| [0, 1, 2].map(|bit| sign(k, bit) * half[bit]);
@@ -79,14 +79,14 @@ impl Shape {
         lengths.fold(0.0, crate::vector::larger)
     }
 
-    /// Returns the same shape with every vertex changed.
+    /// Returns the shape with `change` applied to every vertex.
     pub fn map(mut self, change: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         self.vertices.iter_mut().for_each(|v| *v = change(*v));
         self
     }
 
-    /// Returns both shapes as one mesh.
-    pub fn with(mut self, other: &Shape) -> Self {
+    /// Returns two shapes as one mesh.
+    pub fn joined_with(mut self, other: &Shape) -> Self {
         let base = self.vertices.len() as u32;
         self.vertices.extend(&other.vertices);
         self.faces
@@ -95,14 +95,14 @@ impl Shape {
         self
     }
 
-    /// Returns the same shape with all faces reversed.
+    /// Returns the shape with all faces reversed.
     pub fn flipped(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
         self.form = Form::Soup;
         self
     }
 
-    fn obj(&self) -> String {
+    fn to_obj(&self) -> String {
         let mut out = String::new();
         for [x, y, z] in &self.vertices {
             let _ = writeln!(out, "v {x:e} {y:e} {z:e}");
@@ -115,7 +115,7 @@ impl Shape {
 }
 
 impl Case {
-    /// Returns files and a command line for the same query.
+    /// Returns the files and the command line that repeat the query.
     pub fn reproducer(&self) -> String {
         let mut header = vec!["id".to_owned(), "duration".to_owned()];
         let mut row = vec!["0".to_owned(), format!("{:e}", self.duration)];
@@ -161,8 +161,8 @@ impl Case {
         format!(
             "--- a.obj\n{}--- b.obj\n{}--- m.csv\n{}\n{}\n--- ccd query --a a.obj --b b.obj --motions \
              m.csv --tolerance {tolerance:e} --margin {margin:e} --budget {budget} --start {start}\n",
-            self.shapes[0].obj(),
-            self.shapes[1].obj(),
+            self.shapes[0].to_obj(),
+            self.shapes[1].to_obj(),
             header.join(","),
             row.join(","),
         )

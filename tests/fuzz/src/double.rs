@@ -1,4 +1,4 @@
-//! Double-double numbers: the unevaluated sum of two f64 \[DEKKER71\].
+//! Double-double arithmetic: a number is the unevaluated sum of two f64 \[DEKKER71\].
 //!
 //! The arithmetic of a judge: `ccd-distance-vmarch`, which it judges, has another.
 
@@ -7,14 +7,14 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::LazyLock;
 
-/// The number `hi + lo`, where `hi` is the sum rounded to f64: about 32 digits.
+/// The number `hi + lo`, where `hi` is the sum rounded to f64. It has about 32 digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Double {
     hi: f64,
     lo: f64,
 }
 
-/// Returns the rounded sum and its error.
+/// Returns the sum of two numbers, as the rounded sum and its error.
 #[inline]
 fn two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
@@ -23,7 +23,7 @@ fn two_sum(a: f64, b: f64) -> Double {
     Double { hi, lo }
 }
 
-/// Like [`two_sum`], for a larger `a`.
+/// Computes [`two_sum`] faster, for `a` of larger magnitude than `b`.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
@@ -33,7 +33,7 @@ fn quick_two_sum(a: f64, b: f64) -> Double {
     }
 }
 
-/// Returns the rounded product and its error, unless the error underflows.
+/// Returns the product of two numbers, as the rounded product and its error, unless the error underflows.
 #[inline]
 fn two_prod(a: f64, b: f64) -> Double {
     let hi = a * b;
@@ -48,7 +48,7 @@ impl Double {
         Double { hi, lo: 0.0 }
     }
 
-    /// Returns sine and cosine, by reduction to quarter turns and power series.
+    /// Returns the sine and the cosine, by reduction to quarter turns and power series.
     pub fn sin_cos(self) -> (Double, Double) {
         // π/2 in three parts.
         const HALF_PI: [f64; 3] = [
@@ -79,7 +79,7 @@ impl Double {
         }
     }
 
-    /// Returns the angle of a point on the unit circle: the f64 angle, improved by one Newton step.
+    /// Returns the angle with the given sine and cosine: the f64 angle, improved by one Newton step.
     pub fn angle(sin: Double, cos: Double) -> Double {
         let near = Double::new(sin.hi.atan2(cos.hi));
         let (s, c) = near.sin_cos();

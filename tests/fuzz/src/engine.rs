@@ -1,4 +1,4 @@
-//! Runs the engine through its public interface alone.
+//! Runs the engine through its public interface.
 
 use crate::case::{Case, Form, Shape};
 use ccd_core::glam::DVec3;
@@ -9,7 +9,7 @@ use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use std::fmt;
 
-/// The kind of pieces of both bodies. Bodies whose form does not allow it use triangles.
+/// The kind of pieces of both bodies. A body whose form does not allow it has triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Triangles,
@@ -26,7 +26,7 @@ pub enum Method {
     Fast,
 }
 
-/// Both bodies, made of one kind of pieces.
+/// The engine's bodies of a case, made of one kind of pieces.
 pub struct Bodies {
     pub bodies: [Body; 2],
     pub kind: Kind,
@@ -62,7 +62,7 @@ impl Bodies {
     }
 }
 
-/// The choice of bodies with or without hull trees.
+/// Whether bodies have hull trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trees {
     Without,

@@ -1,64 +1,64 @@
-//! Judges answers.
+//! Judges the engine's answers by the referee's distances.
 
 mod start;
 
 use crate::case::{Case, Expect};
 use crate::double::Double;
 use crate::engine::{Bodies, Method};
-use crate::nearest::{Triangle, depth, distance};
+use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::referee::{Evidence, Limit, Scene};
-use crate::solid::{Solid, Where, clearance};
+use crate::solid::{PointLocation, Solid, distance_to_surface};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::Unresolved;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
-/// The allowed decrease of the distance of released bodies, in units of rounding.
+/// The allowed decrease of the distance of released bodies, in units of the rounding bound.
 const RESTING: f64 = 1.0;
 
-/// A fault of an answer.
+/// A kind of fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
-    /// The bodies were too near before the reported time.
+    /// The bodies were nearer than allowed before the reported time.
     Late,
-    /// The bodies were too near, and no contact was reported at all.
+    /// The bodies were nearer than allowed, and no contact was reported.
     Missed,
     /// A contact is reported although the bodies are farther apart than margin and tolerance.
     FalseContact,
-    /// Touching or overlap is reported although the bodies are apart.
+    /// Touching or overlap at the start is reported although the bodies are apart.
     FalseStart,
-    /// An overlap is not reported.
+    /// The bodies overlap at the start, which is not reported.
     NotOverlapping,
-    /// A lower bound is above the distance.
+    /// A reported lower bound is above the distance.
     LowerBound,
-    /// An upper bound is below the distance.
+    /// A reported upper bound is below the distance.
     UpperBound,
-    /// A witness is not on its body.
+    /// A witness point is not on its body.
     Witness,
-    /// A proven gap is wrong.
+    /// A proven gap is larger than the distance.
     Clearance,
-    /// An unresolved query was safe for less time than claimed.
+    /// The bodies of an unresolved query were in contact before the certified time.
     NotSafe,
-    /// Two answers contradict each other.
+    /// The answers of two methods contradict each other.
     Disagreement,
     Panic,
     Hang,
 }
 
-/// An answer and its method.
+/// An answer, with the method that gave it.
 pub struct GivenAnswer<'a> {
     pub bodies: &'a Bodies,
     pub method: Method,
     pub answer: Answer,
 }
 
-/// Judges answers to one case; `rounding` bounds the engine's allowance for rounding.
+/// A judge of the answers to one case; `rounding` bounds the engine's allowance for rounding.
 pub struct Judge<'a> {
     case: &'a Case,
     scene: Scene,
     rounding: f64,
     start: Start,
-    /// The solids at the start.
+    /// The closed surfaces of both bodies at the start.
     placed: [Solid; 2],
     volumes: [Volume; 2],
 }
@@ -68,7 +68,7 @@ pub type Faults = Vec<(Fault, String)>;
 impl<'a> Judge<'a> {
     pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
         let scene = Scene::new(case);
-        let placed = [0, 1].map(|side| Solid::new(scene.placed(side, 0.0)));
+        let placed = [0, 1].map(|side| Solid::new(scene.triangles_at(side, 0.0)));
         let start = Start::new(&scene, &placed, volumes, rounding);
         Judge {
             case,
@@ -80,15 +80,17 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the faults of the answers, with the index of the answer. The flag is true if the
-    /// search for earlier contacts was complete.
-    pub fn all(&self, given: &[GivenAnswer<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
-        let times = given.iter().map(|g| self.proven(&g.answer.outcome));
+    /// Returns the faults of all answers, each with the index of its answer. The flag is true if the search for
+    /// earlier contacts was complete.
+    pub fn faults(&self, given: &[GivenAnswer<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
+        let times = given
+            .iter()
+            .map(|g| self.proven_free_until(&g.answer.outcome));
         let until = times.fold(0.0, larger);
-        let (evidence, proven) = self.scene.first_below(self.limit(given), until);
+        let (evidence, proven) = self.scene.first_below(self.contact_limit(given), until);
         let mut faults = Vec::new();
         for (k, one) in given.iter().enumerate() {
-            let found = self.one(one, evidence).into_iter();
+            let found = self.faults_of_answer(one, evidence).into_iter();
             faults.extend(found.map(|(fault, text)| (k, fault, text)));
         }
         faults.extend(self.disagreements(given));
@@ -96,7 +98,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns the time until which an answer proves that there is no contact.
-    fn proven(&self, outcome: &Outcome) -> f64 {
+    fn proven_free_until(&self, outcome: &Outcome) -> f64 {
         match *outcome {
             Outcome::Contact { time, .. } => time,
             Outcome::Free { .. } => self.case.duration,
@@ -105,8 +107,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Returns the conditions under which the bodies are too near.
-    fn limit(&self, given: &[GivenAnswer<'_>]) -> Limit {
+    /// Returns the conditions under which the bodies count as nearer than allowed.
+    fn contact_limit(&self, given: &[GivenAnswer<'_>]) -> Limit {
         let margin = self.case.config.margin;
         let tolerance = given
             .iter()
@@ -131,12 +133,12 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn one(&self, given: &GivenAnswer<'_>, evidence: Option<Evidence>) -> Faults {
+    fn faults_of_answer(&self, given: &GivenAnswer<'_>, evidence: Option<Evidence>) -> Faults {
         let answer = &given.answer;
-        let mut faults = self.unexpected(&answer.outcome);
+        let mut faults = self.check_expected(&answer.outcome);
         let mut say = |fault, text| faults.push((fault, text));
         let margin = self.case.config.margin;
-        let proven = self.proven(&answer.outcome);
+        let proven = self.proven_free_until(&answer.outcome);
         let before = evidence.filter(|e| e.time < proven || proven == self.case.duration);
         let below_margin =
             |e: &Evidence| !(e.distance > 0.0) || e.distance < self.required_distance(margin);
@@ -161,7 +163,7 @@ impl<'a> Judge<'a> {
             }
             Outcome::Contact { time, contact } => {
                 early.into_iter().for_each(|e| say(Fault::Late, known(e)));
-                faults.extend(self.near(given, &contact, time));
+                faults.extend(self.check_contact(given, &contact, time));
             }
             Outcome::Free { proven_gap } => match (early, before) {
                 (Some(e), _) => say(Fault::Missed, known(e)),
@@ -170,8 +172,12 @@ impl<'a> Judge<'a> {
                 }
                 _ => {}
             },
-            Outcome::Touching { contact } => faults.extend(self.near(given, &contact, 0.0)),
-            Outcome::Overlapping { overlap, .. } => faults.extend(self.overlap(given, &overlap)),
+            Outcome::Touching { contact } => {
+                faults.extend(self.check_contact(given, &contact, 0.0));
+            }
+            Outcome::Overlapping { overlap, .. } => {
+                faults.extend(self.check_overlap(given, &overlap));
+            }
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 if overlaps && safe_until > 0.0 {
                     say(Fault::NotSafe, format!("overlapping, {:?}", answer.outcome));
@@ -187,7 +193,7 @@ impl<'a> Judge<'a> {
         faults
     }
 
-    /// Returns the distance below which the bodies are too near.
+    /// Returns the distance below which the bodies count as nearer than allowed.
     fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
             StartPolicy::Leave => smaller(margin, self.start.distance - RESTING * self.rounding),
@@ -195,7 +201,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn unexpected(&self, outcome: &Outcome) -> Faults {
+    fn check_expected(&self, outcome: &Outcome) -> Faults {
         let wrong = match (self.case.expect, *outcome) {
             (_, Outcome::Unresolved(_)) | (Expect::Nothing, _) => None,
             (Expect::Free, Outcome::Free { .. }) => None,
@@ -210,8 +216,8 @@ impl<'a> Judge<'a> {
         wrong.into_iter().map(|fault| (fault, text())).collect()
     }
 
-    /// Checks a contact at a time, its bounds and its witnesses.
-    fn near(&self, given: &GivenAnswer<'_>, contact: &Contact, time: f64) -> Faults {
+    /// Checks a contact at a time: its bounds and its witnesses.
+    fn check_contact(&self, given: &GivenAnswer<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
         let (scene, error) = (&self.scene, self.scene.error());
         let found = contact.separation;
@@ -222,7 +228,7 @@ impl<'a> Judge<'a> {
             d = scene.exact_distance(time);
         }
         // A piece may extend through the interior of its solid, where the surfaces are farther apart.
-        let inside = || self.inside(contact, time);
+        let inside = || self.is_witness_inside(contact, time);
         if d > reported + error && !inside() {
             let fault = if time > 0.0 {
                 Fault::FalseContact
@@ -243,28 +249,27 @@ impl<'a> Judge<'a> {
         if let Some(d) = lower.filter(|d| found.lower > d + error) {
             faults.push((Fault::LowerBound, format!("pieces {}", text(d))));
         }
-        if let Some(off) = self.off_surface(contact, time) {
+        if let Some(off) = self.witness_error(contact, time) {
             faults.push((Fault::Witness, format!("off by {off:e}, {}", text(d))));
         }
         faults
     }
 
-    /// Returns true if a witness of one body is inside the other's solid.
-    fn inside(&self, contact: &Contact, time: f64) -> bool {
+    /// Returns true if a witness on one body is inside the other body's solid.
+    fn is_witness_inside(&self, contact: &Contact, time: f64) -> bool {
         let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
         [(0, found.witness_b), (1, found.witness_a)]
             .into_iter()
             .any(|(outer, witness)| {
-                let solid = Solid::new(self.scene.placed(outer, time));
+                let solid = Solid::new(self.scene.triangles_at(outer, time));
                 let point = Vector::from_array(witness.to_array()) - origin;
-                self.volumes[outer] == Volume::Solid && solid.locate(point) == Where::Inside
+                self.volumes[outer] == Volume::Solid && solid.locate(point) == PointLocation::Inside
             })
     }
 
-    /// Returns the distance by which witnesses are off the contact's claims, if that is more than
-    /// rounding.
-    fn off_surface(&self, contact: &Contact, time: f64) -> Option<f64> {
+    /// Returns the distance of the witnesses from where the contact claims them to be, if it exceeds rounding.
+    fn witness_error(&self, contact: &Contact, time: f64) -> Option<f64> {
         let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
         let witnesses = [found.witness_a, found.witness_b].map(|w| Vector(w.to_array()));
@@ -272,12 +277,12 @@ impl<'a> Judge<'a> {
         let far = larger(far, origin.largest());
         let allowed = 1e-12 * (self.scene.scale + far) + 16.0 * self.rounding;
         let mut off = [0, 1].map(|k| {
-            let placed = self.scene.placed(k, time);
+            let placed = self.scene.triangles_at(k, time);
             let point = Vector::from_array(witnesses[k].0) - origin;
-            let off = clearance(point, &placed);
+            let off = distance_to_surface(point, &placed);
             // A piece may extend through the interior of its solid.
             let may = self.volumes[k] == Volume::Solid && off > allowed;
-            if may && Solid::new(placed).locate(point) != Where::Outside {
+            if may && Solid::new(placed).locate(point) != PointLocation::Outside {
                 0.0
             } else {
                 off
@@ -311,11 +316,11 @@ impl<'a> Judge<'a> {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
             let to_world = |p: [f64; 3]| {
-                snapshots[k].arm(Vector::from_array(p) - track.centre)
+                snapshots[k].arm_of(Vector::from_array(p) - track.centre)
                     + (snapshots[k].centre - snapshots[0].centre)
             };
             Some(
-                surface(&piece)?
+                piece_surface(&piece)?
                     .into_iter()
                     .map(|t| t.map(to_world))
                     .collect(),
@@ -324,7 +329,7 @@ impl<'a> Judge<'a> {
         Some([side(0, contact.piece_a)?, side(1, contact.piece_b)?])
     }
 
-    fn overlap(&self, given: &GivenAnswer<'_>, overlap: &Overlap) -> Faults {
+    fn check_overlap(&self, given: &GivenAnswer<'_>, overlap: &Overlap) -> Faults {
         let text = || {
             format!(
                 "distance {:e}, {:?}",
@@ -352,7 +357,7 @@ impl<'a> Judge<'a> {
             .as_ref()
             .map(|both| both.each_ref().map(|s| &s[..]))
         {
-            Some([[s], [t]]) => !(depth(s, t).rounded() > 0.0),
+            Some([[s], [t]]) => !(penetration_depth(s, t).rounded() > 0.0),
             _ => false,
         }
     }
@@ -362,10 +367,12 @@ impl<'a> Judge<'a> {
         let solid = &self.placed[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());
-        solid.locate(point) != Where::Outside || clearance(point, &solid.triangles) < near
+        solid.locate(point) != PointLocation::Outside
+            || distance_to_surface(point, &solid.triangles) < near
     }
 
-    /// Finds contacts so near that another answer's proof should have ended there, too.
+    /// Returns the pairs of answers that contradict each other: a contact so near that another answer's proof should
+    /// have ended there.
     fn disagreements(&self, given: &[GivenAnswer<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
         if self.case.config.start == StartPolicy::Leave {
@@ -379,7 +386,7 @@ impl<'a> Judge<'a> {
             for (k, other) in given.iter().enumerate() {
                 let tolerance = smaller(one.answer.tolerance, other.answer.tolerance);
                 let near = d < self.case.config.margin + 0.5 * tolerance - self.scene.error();
-                if near && self.proven(&other.answer.outcome) > time {
+                if near && self.proven_free_until(&other.answer.outcome) > time {
                     let text = format!("{d:e} apart at {time:e}, {:?}", other.answer.outcome);
                     faults.push((k, Fault::Disagreement, text));
                 }
@@ -389,8 +396,8 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Returns the triangles that bound a piece.
-fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
+/// Returns the triangles that bound a piece; `None` if the piece has none.
+fn piece_surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
     let at = |k: u32| piece.points[k as usize].to_array();
     if let Some(last) = (piece.points.len() as u32)
         .checked_sub(1)

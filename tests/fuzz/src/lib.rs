@@ -1,4 +1,4 @@
-//! The random adversary: fuzz targets, and the judge of random queries.
+//! Fuzz targets, and the judge of random queries.
 //!
 //! A target is a function of bytes that panics if the product has a fault. The same functions are run
 //! guided by coverage ([`libfuzzer/`](../libfuzzer)), and over the kept corpus in every `cargo test`.
@@ -25,8 +25,8 @@ pub mod targets;
 pub mod trial;
 pub mod vector;
 
-/// Removes libFuzzer's panic hook, which aborts also at panics that the product catches, for example those of libraries.
+/// Removes libFuzzer's panic hook, which also aborts at panics that the product catches, such as those of libraries.
 /// Panics that are not caught still abort.
-pub fn let_caught_panics_pass() {
+pub fn ignore_caught_panics() {
     drop(std::panic::take_hook());
 }

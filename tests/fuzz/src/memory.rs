@@ -1,4 +1,4 @@
-//! A memory limit of targets: memory out of proportion to the input is a fault.
+//! Limits the memory of fuzz targets: memory out of proportion to the input is a fault.
 
 use cap::Cap;
 use std::alloc::System;
@@ -10,9 +10,8 @@ static HEAP: Cap<System> = Cap::new(System, usize::MAX);
 
 static UNLIMITED_PANICS: Once = Once::new();
 
-/// Runs a function within a memory limit. If it needs more bytes than given, all threads together, the process is
-/// aborted.
-pub(crate) fn within<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
+/// Runs a function within a memory limit. Aborts the process if all threads together need more than `bytes`.
+pub(crate) fn with_memory_limit<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
     // The report of a panic takes more memory than most inputs.
     UNLIMITED_PANICS.call_once(|| {
         let hook = panic::take_hook();

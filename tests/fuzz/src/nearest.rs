@@ -1,4 +1,4 @@
-//! The distance or the penetration depth of two triangles.
+//! Computes the distance or the penetration depth of two triangles.
 //!
 //! For either number type: the property suite's referee, which judges a hundred times as many pairs, has a faster
 //! one in f64 that names the points.
@@ -7,7 +7,7 @@ use crate::vector::{Number, Vector};
 
 pub type Triangle<N> = [Vector<N>; 3];
 
-/// Returns the distance of two triangles, the least over all candidate pairs of points, so that it is never too small
+/// Returns the distance of two triangles: the least over all candidate pairs of points, so that it is never too small
 /// except for rounding. It is 0 if an edge of one passes through the other.
 pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
@@ -24,13 +24,17 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
         }
     };
     for i in 0..3 {
-        on_face(s[i], t, face_t).into_iter().for_each(&mut offer);
-        on_face(t[i], s, face_s).into_iter().for_each(&mut offer);
+        offset_to_plane(s[i], t, face_t)
+            .into_iter()
+            .for_each(&mut offer);
+        offset_to_plane(t[i], s, face_s)
+            .into_iter()
+            .for_each(&mut offer);
         for j in 0..3 {
             offer(s[i] - t[j]);
-            offer(edges_t[j].way_from(s[i]));
-            offer(edges_s[i].way_from(t[j]));
-            between_lines(&edges_s[i], &edges_t[j])
+            offer(edges_t[j].offset_from(s[i]));
+            offer(edges_s[i].offset_from(t[j]));
+            offset_between_lines(&edges_s[i], &edges_t[j])
                 .into_iter()
                 .for_each(&mut offer);
         }
@@ -38,11 +42,11 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     way.length()
 }
 
-/// A side of a triangle.
+/// A side of a triangle, prepared for distances.
 struct Edge<N> {
     from: Vector<N>,
     way: Vector<N>,
-    /// The direction, scaled so that its squares neither overflow nor underflow, and the scale.
+    /// The direction of the edge, scaled so that its squares neither overflow nor underflow, and the scale.
     along: Vector<N>,
     scale: N,
     square: N,
@@ -65,16 +69,16 @@ impl<N: Number> Edge<N> {
         [edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])]
     }
 
-    /// Returns the vector from a point to the nearest point of the edge. For an edge without
-    /// length, NaN makes that its start.
-    fn way_from(&self, p: Vector<N>) -> Vector<N> {
+    /// Returns the vector from a point to the nearest point of the edge. If the edge has no length, NaN makes that
+    /// its start.
+    fn offset_from(&self, p: Vector<N>) -> Vector<N> {
         let share = self.along.dot(p - self.from) / self.square * self.scale;
-        self.from + self.way * clamped(share) - p
+        self.from + self.way * clamp_to_unit_interval(share) - p
     }
 }
 
 #[inline]
-fn clamped<N: Number>(x: N) -> N {
+fn clamp_to_unit_interval<N: Number>(x: N) -> N {
     let (zero, one) = (N::from_f64(0.0), N::from_f64(1.0));
     // NaN becomes 0.
     if x > one {
@@ -100,9 +104,8 @@ fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     }
 }
 
-/// Returns the vector from the nearest point of one edge's line to that of another, if either is
-/// within its edge.
-fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
+/// Returns the vector between the nearest points of two edges' lines, if either point is within its edge.
+fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let n = p.along.cross(q.along);
     let square = n.dot(n);
     if !(square.rounded() > 0.0) {
@@ -114,17 +117,22 @@ fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let (zero, one) = (N::from_f64(0.0), N::from_f64(1.0));
     let within = |x: N| x >= zero && x <= one;
     // Clamped anyway, since rounding may put the other point slightly beyond its end.
-    (within(x) || within(y)).then(|| w + q.way * clamped(y) - p.way * clamped(x))
+    (within(x) || within(y))
+        .then(|| w + q.way * clamp_to_unit_interval(y) - p.way * clamp_to_unit_interval(x))
 }
 
-/// Returns the vector from a point to a triangle's plane, if its foot is within the triangle.
-fn on_face<N: Number>(p: Vector<N>, t: &Triangle<N>, face: Option<Vector<N>>) -> Option<Vector<N>> {
+/// Returns the vector from a point to its foot in a triangle's plane, if the foot is within the triangle.
+fn offset_to_plane<N: Number>(
+    p: Vector<N>,
+    t: &Triangle<N>,
+    face: Option<Vector<N>>,
+) -> Option<Vector<N>> {
     let n = face?;
     let down = n * n.dot(t[0] - p);
-    within(p + down, t, n).then_some(down)
+    is_over_triangle(p + down, t, n).then_some(down)
 }
 
-fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
+fn is_over_triangle<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
     let ways = [
         (t[1] - t[0]).scaled(),
         (t[2] - t[1]).scaled(),
@@ -138,7 +146,7 @@ fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
         })
 }
 
-/// Returns the unit normal, or `None` if the triangle's area is within rounding.
+/// Returns the unit normal of a triangle, or `None` if its area is within rounding.
 pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
     let (u, v) = ((t[1] - t[0]).scaled(), (t[2] - t[0]).scaled());
     let n = u.cross(v);
@@ -146,7 +154,7 @@ pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
     (n.largest() > 1e-30).then_some(n)?.unit()
 }
 
-/// Returns true if an edge passes through the interior of a triangle.
+/// Returns true if one of the edges passes through the interior of a triangle.
 fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
     let zero = N::from_f64(0.0);
     let Some(n) = face else { return false };
@@ -155,13 +163,13 @@ fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector
     (0..3).any(|k| {
         let (up, down) = (heights[k], heights[(k + 1) % 3]);
         let crosses = (up > zero && down < zero) || (up < zero && down > zero);
-        crosses && within(edges[k].from + edges[k].way * (up / (up - down)), t, n)
+        crosses && is_over_triangle(edges[k].from + edges[k].way * (up / (up - down)), t, n)
     })
 }
 
 /// Returns the least displacement that separates the interiors of two triangles, by the separating axes. It is negative
 /// if a gap separates them, and 0 if one is flat along every axis.
-pub fn depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
+pub fn penetration_depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let edges = |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled);
     let (es, et, ns, nt) = (edges(s), edges(t), normal(s), normal(t));
     let mut axes: Vec<Vector<N>> = ns.into_iter().chain(nt).collect();

@@ -1,23 +1,23 @@
-//! The motion of a body as input, and the positions of its points in [`Double`].
+//! A body's motion as the numbers given to the engine, and the positions of its points in [`Double`].
 
 use crate::double::Double;
 use crate::vector::{Number, Vector};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 
-/// A motion in the numbers that the engine receives.
+/// A motion as the numbers that the engine receives.
 #[derive(Clone, Copy, Debug)]
 pub struct RawMotion {
     pub start: RawPose,
     pub goal: Goal,
-    /// The point of the body that moves in a straight line.
+    /// The point that moves in a straight line, in the body's frame.
     pub centre: [f64; 3],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RawPose {
     pub position: [f64; 3],
-    /// The components w, x, y, z; any length.
+    /// The quaternion's components w, x, y, z, not of unit length.
     pub quaternion: [f64; 4],
 }
 
@@ -40,15 +40,15 @@ impl RawPose {
         Pose::new(self.position, DQuat::from_xyzw(x, y, z, w))
     }
 
-    /// Returns the unit quaternion.
-    fn turn(&self) -> [Double; 4] {
+    /// Returns the rotation as a unit quaternion.
+    fn rotation_angle(&self) -> [Double; 4] {
         let q = self.quaternion.map(Double::new);
         let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
         q.map(|x| x / square.sqrt())
     }
 
     fn point(&self, x: Vector<Double>) -> Vector<Double> {
-        let [w, a, b, c] = self.turn();
+        let [w, a, b, c] = self.rotation_angle();
         let (u, two) = (Vector([a, b, c]), Double::new(2.0));
         let across = u.cross(x) * two;
         x + across * w + u.cross(across) + Vector::from_array(self.position)
@@ -64,7 +64,7 @@ impl RawMotion {
         }
     }
 
-    /// Converts the motion to the engine's form.
+    /// Converts the motion to the engine's type.
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
         let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
         match self.goal {
@@ -73,16 +73,16 @@ impl RawMotion {
         }
     }
 
-    /// Returns the approximate angle of rotation, in radians.
-    pub fn turn(&self, duration: f64) -> f64 {
+    /// Returns the approximate angle of rotation over the duration, in radians.
+    pub fn rotation_angle(&self, duration: f64) -> f64 {
         match self.goal {
             Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
             Goal::End(_) => std::f64::consts::PI,
         }
     }
 
-    /// Returns the exact motion over a duration. Between end poses, the centre moves straight, and
-    /// the rotation is the shortest turn between the unit quaternions.
+    /// Returns the exact motion over a duration. Between end poses, the centre moves straight, and the body rotates
+    /// by the shortest rotation between the unit quaternions.
     pub fn track(&self, duration: f64) -> Track {
         let centre = Vector::from_array(self.centre);
         let start = self.start.point(centre);
@@ -95,7 +95,8 @@ impl RawMotion {
             }
             Goal::End(end) => {
                 let velocity = (end.point(centre) - start) * per_time;
-                let (axis, angle) = shortest_turn(self.start.turn(), end.turn());
+                let (axis, angle) =
+                    shortest_turn(self.start.rotation_angle(), end.rotation_angle());
                 (velocity, axis, angle * per_time)
             }
         };
@@ -119,7 +120,7 @@ impl RawMotion {
     }
 }
 
-/// Returns the axis and the angle of `end · start⁻¹`.
+/// Returns the axis and the angle of the rotation `end · start⁻¹`.
 fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
@@ -133,19 +134,19 @@ fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>
     (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
 }
 
-/// A motion, exact except for the rounding of [`Double`].
+/// A motion that is exact except for the rounding of [`Double`].
 #[derive(Clone, Debug)]
 pub struct Track {
     pub start: Vector<Double>,
     pub velocity: Vector<Double>,
     pub axis: Vector<Double>,
     pub rate: Double,
-    /// The images of the body's axes at the start.
+    /// The directions of the body's axes at the start, in the world.
     columns: [Vector<Double>; 3],
     pub centre: Vector<Double>,
 }
 
-/// The placement of a body at a time.
+/// The position and orientation of a body at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapshot {
     columns: [Vector<Double>; 3],
@@ -170,15 +171,15 @@ impl Track {
         Snapshot { columns, centre }
     }
 
-    /// Returns the speed of a point at an arm from the centre, rounded.
+    /// Returns the velocity in the world of a point at `arm` from the centre, rounded.
     pub fn velocity_of(&self, arm: Vector<f64>) -> Vector<f64> {
         self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
     }
 }
 
 impl Snapshot {
-    /// Returns the vector from the centre to a point; `x` is that vector in the body's frame.
-    pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
+    /// Returns the vector in the world from the centre to a point; `x` is that vector in the body's frame.
+    pub fn arm_of(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c
     }

@@ -1,4 +1,4 @@
-//! The referee: the bodies' distance at a time, and the first time found with a distance below a threshold, by
+//! The referee computes the bodies' distance at a time, and the first time with a distance below a threshold, by
 //! conservative advancement over all pairs of triangles.
 //!
 //! Positions and their differences are computed in [`Double`]. Distances are searched in f64 and
@@ -8,43 +8,43 @@ mod search;
 
 use crate::case::Case;
 use crate::double::Double;
-use crate::nearest::{Triangle, depth, distance};
+use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::{Snapshot, Track};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
-/// The largest error of the referee, as a fraction of a scene's size.
+/// The largest error of the referee's distances, as a fraction of a scene's size.
 const ERROR: f64 = 1e-25;
-/// The fraction of the size below which results of f64 are checked in [`Double`].
-const NOISE: f64 = 1e-13;
+/// The distance, as a fraction of a scene's size, below which results of f64 are checked in [`Double`].
+const CHECKED_BELOW: f64 = 1e-13;
 
-/// A body's triangles and its track.
-pub struct Side {
+/// A body's triangles and its motion.
+pub struct MovingBody {
     pub track: Track,
     /// The triangles relative to the centre of rotation, in the body's frame.
     pub triangles: Vec<Triangle<Double>>,
     balls: Vec<Ball>,
-    /// The ball around all triangles.
+    /// The bounding ball of all triangles.
     whole: Ball,
-    /// The radius of the ball around the centre of rotation.
+    /// The radius of the ball around the centre of rotation that contains all triangles.
     reach: f64,
 }
 
 struct Ball {
     middle: Vector<Double>,
     radius: f64,
-    /// The largest distance from the centre of rotation, 0 for a body that does not rotate.
+    /// The largest distance of a point from the centre of rotation; 0 for a body that does not rotate.
     arm: f64,
 }
 
-/// Two bodies on their tracks.
+/// Two bodies and their motions.
 pub struct Scene {
-    pub sides: [Side; 2],
-    /// The largest length in the scene.
+    pub sides: [MovingBody; 2],
+    /// The largest length in the scene: a coordinate or a distance of motion.
     pub scale: f64,
 }
 
-/// A time at which the bodies are nearer than allowed.
+/// A proof that the bodies are nearer than allowed at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence {
     pub time: f64,
@@ -52,16 +52,16 @@ pub struct Evidence {
     pub depth: f64,
 }
 
-impl Side {
+impl MovingBody {
     fn new(triangles: &[Triangle<f64>], track: Track) -> Self {
         let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.centre;
         let triangles: Vec<Triangle<Double>> = triangles.iter().map(|t| t.map(arm)).collect();
-        let balls: Vec<Ball> = triangles.iter().map(|t| Ball::about(t, &track)).collect();
+        let balls: Vec<Ball> = triangles.iter().map(|t| Ball::around(t, &track)).collect();
         let corners: Vec<Vector<Double>> = triangles.iter().flatten().copied().collect();
         let reaches = corners.iter().map(|p| p.length().rounded());
         let reach = reaches.fold(0.0, larger);
-        Side {
-            whole: Ball::about(&corners, &track),
+        MovingBody {
+            whole: Ball::around(&corners, &track),
             reach,
             triangles,
             balls,
@@ -72,15 +72,15 @@ impl Side {
     fn triangle(&self, k: usize, snapshot: &Snapshot, origin: Vector<Double>) -> Triangle<Double> {
         let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
         [
-            snapshot.arm(p) + to,
-            snapshot.arm(q) + to,
-            snapshot.arm(r) + to,
+            snapshot.arm_of(p) + to,
+            snapshot.arm_of(q) + to,
+            snapshot.arm_of(r) + to,
         ]
     }
 }
 
 impl Ball {
-    fn about(points: &[Vector<Double>], track: &Track) -> Self {
+    fn around(points: &[Vector<Double>], track: &Track) -> Self {
         let sum = points.iter().skip(1).fold(points[0], |sum, &p| sum + p);
         let middle = sum * Double::new(1.0 / points.len() as f64);
         let far = |r, &p: &Vector<Double>| larger(r, (p - middle).length().rounded());
@@ -103,7 +103,7 @@ impl Ball {
 impl Scene {
     pub fn new(case: &Case) -> Self {
         let side = |k: usize| {
-            Side::new(
+            MovingBody::new(
                 &case.shapes[k].triangles(),
                 case.courses[k].track(case.duration),
             )
@@ -112,8 +112,8 @@ impl Scene {
         let way = (sides[0].track.start - sides[1].track.start)
             .length()
             .rounded();
-        let travel = |s: &Side| s.track.velocity.length().rounded() * case.duration;
-        let turn = |s: &Side| 1.0 + s.track.rate.rounded() * case.duration;
+        let travel = |s: &MovingBody| s.track.velocity.length().rounded() * case.duration;
+        let turn = |s: &MovingBody| 1.0 + s.track.rate.rounded() * case.duration;
         let scale = way
             + travel(&sides[0])
             + travel(&sides[1])
@@ -122,7 +122,8 @@ impl Scene {
         Scene { sides, scale }
     }
 
-    /// Returns a bound on the error of the referee's distances. Positions in the world have a relative error of 1e-31.
+    /// Returns a bound on the error of the referee's distances. Positions in the world have a relative error of
+    /// 1e-31.
     pub fn error(&self) -> f64 {
         let far = self.sides.iter().map(|s| s.track.start.largest());
         ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
@@ -132,8 +133,8 @@ impl Scene {
         [self.sides[0].track.at(t), self.sides[1].track.at(t)]
     }
 
-    /// Returns all triangles of a body at a time, relative to A's centre.
-    pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
+    /// Returns all triangles of a body at a time, relative to the centre of body A.
+    pub fn triangles_at(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
         let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
         all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].centre))
@@ -142,19 +143,23 @@ impl Scene {
 
     /// Returns the distance of the two surfaces at a time.
     pub fn distance(&self, t: f64) -> f64 {
-        let [a, b] = [self.placed(0, t), self.placed(1, t)];
-        let near = self.nearest(&a, &b);
+        let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
+        let near = self.near_pairs(&a, &b);
         let best = near
             .iter()
             .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
-        let noise = NOISE * self.scale;
+        let noise = CHECKED_BELOW * self.scale;
         let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
         let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
         exact.fold(f64::INFINITY, smaller)
     }
 
     /// Returns pairs of triangles with their distances in f64, including the nearest pair.
-    fn nearest(&self, a: &[Triangle<Double>], b: &[Triangle<Double>]) -> Vec<(f64, usize, usize)> {
+    fn near_pairs(
+        &self,
+        a: &[Triangle<Double>],
+        b: &[Triangle<Double>],
+    ) -> Vec<(f64, usize, usize)> {
         let rounded = |all: &[Triangle<Double>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
             let middle = |t: &Triangle<f64>| (t[0] + t[1] + t[2]) * (1.0 / 3.0);
             let rounded = all.iter().map(|t| t.map(Vector::rounded));
@@ -166,7 +171,7 @@ impl Scene {
         for (i, (s, m)) in a.iter().enumerate() {
             for (j, (t, n)) in b.iter().enumerate() {
                 let (way, radii) = (*m - *n, balls[0][i].radius + balls[1][j].radius);
-                let kept = (best + radii) * (1.0 + 1e-9) + NOISE * self.scale;
+                let kept = (best + radii) * (1.0 + 1e-9) + CHECKED_BELOW * self.scale;
                 if way.dot(way) < kept * kept {
                     let d = distance(s, t);
                     best = smaller(best, d);
@@ -177,23 +182,23 @@ impl Scene {
         near
     }
 
-    /// Returns the distance with every pair in [`Double`]. This is required before an answer is called wrong.
+    /// Returns the distance at a time with every pair in [`Double`]. It is computed before an answer is called wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
-        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+        let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a
             .iter()
             .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
         pairs.fold(f64::INFINITY, smaller)
     }
 
-    /// Returns the greatest penetration depth of two triangles at a time.
-    pub fn depth(&self, t: f64) -> f64 {
-        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+    /// Returns the greatest penetration depth of any two triangles at a time.
+    pub fn penetration_depth(&self, t: f64) -> f64 {
+        let [a, b] = [self.triangles_at(0, t), self.triangles_at(1, t)];
         let pairs = a.iter().flat_map(|s| {
             b.iter().map(move |t| {
                 let flat = |t: &Triangle<Double>| t.map(Vector::rounded);
-                if depth(&flat(s), &flat(t)) > 0.0 {
-                    depth(s, t).rounded()
+                if penetration_depth(&flat(s), &flat(t)) > 0.0 {
+                    penetration_depth(s, t).rounded()
                 } else {
                     0.0
                 }
@@ -202,18 +207,18 @@ impl Scene {
         pairs.fold(0.0, larger)
     }
 
-    /// Returns the earliest time found, up to `until`, at which the distance is below `threshold`.
-    /// The flag is true if none was missed, except for f64's rounding.
+    /// Returns the earliest time found, up to `until`, at which the distance is below the limit. The flag is true if
+    /// none was missed, except for f64's rounding.
     pub fn first_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
         Search::new(self, limit, until).run()
     }
 }
 
-/// The conditions under which bodies are too near.
+/// The conditions under which bodies count as nearer than allowed.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// The bodies are too near if their distance is below this.
+    /// The distance below which the bodies are nearer than allowed.
     pub threshold: f64,
-    /// The bodies are too near if their triangles penetrate deeper than this.
+    /// The penetration depth of triangles above which the bodies are nearer than allowed.
     pub depth: f64,
 }

@@ -1,27 +1,27 @@
-//! Tests whether points are inside closed triangles, by rays in [`Double`].
+//! Tests whether points are inside closed surfaces, by rays in [`Double`].
 
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, normal};
 use crate::vector::{Number, Vector, larger, smaller};
 use std::collections::HashMap;
 
-/// The location of a point.
+/// The location of a point relative to a closed surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Where {
+pub enum PointLocation {
     Outside,
     Inside,
-    /// Within parts that cross each other.
+    /// The point is within parts that cross each other.
     Doubtful,
-    /// Unknown, because every ray grazed.
+    /// The location is unknown, because every ray touched an edge or vertex.
     Unknown,
 }
 
-/// Closed triangles, part by part.
+/// Closed surfaces, split into connected parts.
 pub struct Solid {
     pub triangles: Vec<Triangle<Double>>,
-    /// The connected part of each triangle.
+    /// By triangle, the number of its connected part.
     parts: Vec<usize>,
-    /// Whether parts cross each other: then points in several of them are doubtful.
+    /// Whether parts cross each other. Points in several crossing parts are doubtful.
     crossing: bool,
 }
 
@@ -40,7 +40,7 @@ impl Solid {
         }
     }
 
-    /// Returns a corner of every part.
+    /// Returns one corner of every connected part.
     pub fn corners(&self) -> impl Iterator<Item = Vector<Double>> {
         let firsts = self
             .parts
@@ -50,13 +50,13 @@ impl Solid {
         firsts.map(|(k, _)| self.triangles[k][0])
     }
 
-    /// Locates a point that is on no triangle. Every second part of nested parts is a cavity.
-    pub fn locate(&self, p: Vector<Double>) -> Where {
+    /// Locates a point that is on no triangle. Nested parts are solid and cavity in turn.
+    pub fn locate(&self, p: Vector<Double>) -> PointLocation {
         let seen = DIRECTIONS
             .iter()
             .find_map(|&ray| self.crossings(p, Vector::from_array(ray)));
         let Some(seen) = seen else {
-            return Where::Unknown;
+            return PointLocation::Unknown;
         };
         let around = seen
             .values()
@@ -66,14 +66,14 @@ impl Solid {
             .values()
             .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
         match around {
-            _ if repeated || self.crossing && around > 1 => Where::Doubtful,
-            around if around % 2 == 1 => Where::Inside,
-            _ => Where::Outside,
+            _ if repeated || self.crossing && around > 1 => PointLocation::Doubtful,
+            around if around % 2 == 1 => PointLocation::Inside,
+            _ => PointLocation::Outside,
         }
     }
 
-    /// Returns the winding number and the number of crossings of a ray, for every part that it
-    /// crosses, or `None` if it grazes.
+    /// Returns the winding number and the number of crossings of a ray, for every part that it crosses. Returns
+    /// `None` if it touches an edge or vertex.
     fn crossings(
         &self,
         p: Vector<Double>,
@@ -103,8 +103,8 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [0.02, 0.41, -0.89],
 ];
 
-/// Returns the direction in which a triangle winds about a ray that crosses it, 0 without a crossing, or `None` if it
-/// grazes.
+/// Returns the direction in which a ray crosses a triangle, as 1 or −1; 0 without a crossing. Returns `None` if the
+/// ray touches an edge or vertex.
 fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Option<i32> {
     let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
     let grazing = 1e-18 * size * size;
@@ -128,7 +128,7 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
     })
 }
 
-/// Returns for every triangle the first one that is connected to it.
+/// Returns the first triangle of the connected part of every triangle.
 fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
     // The least index of the groups with a corner at the position.
@@ -150,14 +150,14 @@ fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     }
 }
 
-/// Returns the distance of a point from a surface.
-pub fn clearance(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
+/// Returns the distance from a point to a surface.
+pub fn distance_to_surface(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
     let apart = triangles.iter().map(|t| distance(&[p; 3], t).rounded());
     apart.fold(f64::INFINITY, smaller)
 }
 
-/// Returns points just off both sides of every triangle, by a fraction of its size.
-pub fn points_near(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
+/// Returns points just off both sides of every triangle. Their distance is a fraction of the triangle's size.
+pub fn points_beside_triangles(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
     let mut points = Vec::new();
     for t in triangles {
         let Some(n) = normal(t) else { continue };

@@ -1,4 +1,4 @@
-//! The targets: functions of bytes that panic, hang or use too much memory only if the product has a fault.
+//! The fuzz targets: functions of bytes that panic, hang or use too much memory only if the product has a fault.
 
 mod bodies;
 mod mesh;
@@ -10,73 +10,73 @@ mod stored;
 use ccd_decomp::Format;
 pub use query::encode;
 
-/// A target, with the name of its corpus and of its program.
+/// A fuzz target, with the name of its corpus and of its program.
 #[derive(Clone, Copy)]
 pub struct Target {
     pub name: &'static str,
     pub run: fn(&[u8]),
 }
 
-/// All targets.
+/// All fuzz targets.
 pub const ALL: [Target; 10] = [
     QUERY, STORED, OBJ, STL, PLY, OFF, GLTF, THREEMF, MOTIONS, PATHS,
 ];
 
-/// A query in bytes, answered by several methods and judged by the referee.
+/// Decodes a query, answers it by several methods, and judges the answers by the referee.
 pub const QUERY: Target = Target {
     name: "query",
     run: query::run,
 };
 
-/// A stored body with a repaired frame, and a few queries on it.
+/// Loads a stored body after repairing its frame, and runs a few queries on it.
 pub const STORED: Target = Target {
     name: "stored",
     run: stored::run,
 };
 
-/// A mesh as OBJ, and the bodies made of it.
+/// Reads a mesh as OBJ, and makes bodies of it.
 pub const OBJ: Target = Target {
     name: "obj",
     run: |bytes| mesh::run(Format::Obj, bytes),
 };
 
-/// A mesh as STL, and the bodies made of it.
+/// Reads a mesh as STL, and makes bodies of it.
 pub const STL: Target = Target {
     name: "stl",
     run: |bytes| mesh::run(Format::Stl, bytes),
 };
 
-/// A mesh as PLY, and the bodies made of it.
+/// Reads a mesh as PLY, and makes bodies of it.
 pub const PLY: Target = Target {
     name: "ply",
     run: |bytes| mesh::run(Format::Ply, bytes),
 };
 
-/// A mesh as OFF, and the bodies made of it.
+/// Reads a mesh as OFF, and makes bodies of it.
 pub const OFF: Target = Target {
     name: "off",
     run: |bytes| mesh::run(Format::Off, bytes),
 };
 
-/// A mesh as glTF, its parts, and the bodies made of it.
+/// Reads a mesh as glTF, with its parts, and makes bodies of it.
 pub const GLTF: Target = Target {
     name: "gltf",
-    run: |bytes| mesh::scene(Format::Gltf, bytes),
+    run: |bytes| mesh::run_scene(Format::Gltf, bytes),
 };
 
-/// A mesh as 3MF, packed or the model alone, and the bodies made of it.
+/// Reads a mesh as 3MF, packed or the model alone, and makes bodies of it.
 pub const THREEMF: Target = Target {
     name: "threemf",
-    run: mesh::packed,
+    run: mesh::run_packed,
 };
 
-/// A table of motions.
+/// Reads a table of motions.
 pub const MOTIONS: Target = Target {
     name: "motions",
     run: motions::run,
 };
 
-/// A table of paths.
+/// Reads a table of paths.
 pub const PATHS: Target = Target {
     name: "paths",
     run: paths::run,

@@ -1,4 +1,4 @@
-//! One query, answered by many methods and judged.
+//! Answers one query by many methods, and judges the answers.
 
 use crate::case::{Case, Form, Shape};
 use crate::engine::{Bodies, Kind, Method, Trees};
@@ -8,12 +8,12 @@ use std::collections::HashMap;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The outcome of a query.
+/// A case with the outcomes of all methods, and the failures among them.
 pub struct Trial {
     pub case: Case,
-    pub asked: Vec<(Kind, Method)>,
+    pub methods: Vec<(Kind, Method)>,
     pub outcomes: Vec<Outcome>,
-    /// The reason why the engine, or the decomposition, refused the case.
+    /// The reason why the engine or the decomposition rejected the case, if it did.
     pub refused: Option<String>,
     pub failures: Vec<Failure>,
     /// Whether the referee's search for an earlier contact was complete.
@@ -31,7 +31,7 @@ pub struct Failure {
 
 impl fmt::Display for Trial {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for ((kind, method), outcome) in self.asked.iter().zip(&self.outcomes) {
+        for ((kind, method), outcome) in self.methods.iter().zip(&self.outcomes) {
             writeln!(f, "{kind} {method}: {outcome:?}")?;
         }
         f.write_str(&self.case.reproducer())
@@ -59,27 +59,27 @@ impl Failure {
 }
 
 /// Builds the bodies of a case, runs the methods, and judges their answers.
-pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
+pub fn run_methods(case: Case, methods: Vec<(Kind, Method)>) -> Trial {
     let mut trial = Trial {
         case,
-        asked: Vec::new(),
+        methods: Vec::new(),
         outcomes: Vec::new(),
         refused: None,
         failures: Vec::new(),
         proven: true,
     };
-    let built = build(&mut trial, &asked);
-    let given = answers(&mut trial, &built, asked);
-    trial.asked = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
+    let built = build(&mut trial, &methods);
+    let given = answers(&mut trial, &built, methods);
+    trial.methods = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
     trial.outcomes = given.iter().map(|g| g.answer.outcome).collect();
     judge(&mut trial, &given);
     trial
 }
 
-/// Builds bodies of every required kind.
-fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
+/// Builds the bodies of every kind that the methods need.
+fn build(trial: &mut Trial, methods: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
-    for (kind, method) in asked {
+    for (kind, method) in methods {
         let key = (*kind, method.trees());
         if built.iter().any(|(k, _)| *k == key) {
             continue;
@@ -87,7 +87,9 @@ fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bod
         match catch_unwind(|| Bodies::new(&trial.case, key.0, key.1)) {
             Ok(Ok(bodies)) => built.push((key, bodies)),
             Ok(Err(why)) => trial.refused = Some(why),
-            Err(panic) => trial.failures.push(panicked(&*panic, (*kind, *method))),
+            Err(panic) => trial
+                .failures
+                .push(failure_of_panic(&*panic, (*kind, *method))),
         }
     }
     built
@@ -97,13 +99,13 @@ fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bod
 fn answers<'b>(
     trial: &mut Trial,
     built: &'b [((Kind, Trees), Bodies)],
-    asked: Vec<(Kind, Method)>,
+    methods: Vec<(Kind, Method)>,
 ) -> Vec<GivenAnswer<'b>> {
     let mut given = Vec::new();
-    for (kind, method) in asked {
+    for (kind, method) in methods {
         let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
         let Some((_, bodies)) = bodies else { continue };
-        let settings = config_of(&trial.case, method);
+        let settings = settings_for(&trial.case, method);
         let problem = match bodies.problem(&trial.case, &settings) {
             Ok(problem) => problem,
             Err(why) => {
@@ -117,18 +119,20 @@ fn answers<'b>(
                 method,
                 answer,
             }),
-            Err(panic) => trial.failures.push(panicked(&*panic, (kind, method))),
+            Err(panic) => trial
+                .failures
+                .push(failure_of_panic(&*panic, (kind, method))),
         }
     }
     given
 }
 
-/// Records the faults of the answers.
+/// Judges the answers, and records their faults in the trial.
 fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
     let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));
-    let (faults, proven) = judge.all(given);
+    let (faults, proven) = judge.faults(given);
     let others: String = given
         .iter()
         .map(|g| format!("  {} {}: {:?}\n", g.bodies.kind, g.method, g.answer.outcome))
@@ -143,8 +147,8 @@ fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     trial.proven = proven;
 }
 
-/// Returns the settings; schedules with one step for all pairs get a smaller budget.
-fn config_of(case: &Case, method: Method) -> Settings {
+/// Returns the settings of a case for a method. Schedules with one step for all pairs get a smaller budget.
+fn settings_for(case: &Case, method: Method) -> Settings {
     let most = match method {
         Method::Naive | Method::Fast => 200_000,
         _ => u64::MAX,
@@ -155,7 +159,7 @@ fn config_of(case: &Case, method: Method) -> Settings {
     }
 }
 
-/// Returns the engine's allowance for rounding: the least tolerance that it accepts.
+/// Returns the engine's allowance for rounding, which is the least tolerance that it accepts.
 fn rounding(case: &Case, bodies: &Bodies) -> f64 {
     let least = Settings {
         tolerance: 1e-100,
@@ -164,7 +168,7 @@ fn rounding(case: &Case, bodies: &Bodies) -> f64 {
     bodies.problem(case, &least).map_or(0.0, |p| p.tolerance())
 }
 
-fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
+fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     let text = panic.downcast_ref::<String>().cloned();
     let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
     Failure {
@@ -175,12 +179,12 @@ fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     }
 }
 
-/// Returns the case with as few triangles as still fail in the same way.
-pub fn shrunk(case: &Case, failure: &Failure) -> Case {
+/// Returns the case with triangles dropped for as long as it fails in the same way.
+pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
-        let mut asked = vec![(Kind::Triangles, Method::Direct)];
-        asked.push(failure.by);
-        let again = ask(case.clone(), asked);
+        let mut methods = vec![(Kind::Triangles, Method::Direct)];
+        methods.push(failure.by);
+        let again = run_methods(case.clone(), methods);
         again.failures.iter().any(|f| f.fault == failure.fault)
     };
     let mut case = case.clone();
@@ -193,7 +197,7 @@ pub fn shrunk(case: &Case, failure: &Failure) -> Case {
             let mut fewer = case.clone();
             fewer.shapes[side].faces.remove(face);
             fewer.shapes[side].form = Form::Soup;
-            fewer.shapes[side] = used(&fewer.shapes[side]);
+            fewer.shapes[side] = without_unused_vertices(&fewer.shapes[side]);
             if fails(&fewer) {
                 case = fewer;
             } else {
@@ -205,7 +209,7 @@ pub fn shrunk(case: &Case, failure: &Failure) -> Case {
 }
 
 /// Returns the shape without unused vertices.
-fn used(shape: &Shape) -> Shape {
+fn without_unused_vertices(shape: &Shape) -> Shape {
     let mut new = HashMap::new();
     let mut out = Shape {
         form: shape.form,

@@ -1,9 +1,9 @@
-//! Vectors over both number types.
+//! Vectors in three dimensions over f64 and double-double numbers.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The scalar type: f64 for searching, [`Double`](crate::double::Double) for judging.
+/// The scalar type of vectors: f64 for searching, [`Double`](crate::double::Double) for judging.
 pub trait Number:
     Copy
     + Debug
@@ -50,7 +50,7 @@ impl<N: Number> Vector<N> {
         self.each(N::rounded)
     }
 
-    /// Like `map` of arrays, but unrolled by compilers.
+    /// Applies a function to each component. Unlike `map` of arrays, compilers unroll it.
     #[inline]
     fn each<M>(self, change: impl Fn(N) -> M) -> Vector<M> {
         let [x, y, z] = self.0;
@@ -80,7 +80,7 @@ impl<N: Number> Vector<N> {
         v.dot(v).sqrt() * scale
     }
 
-    /// Scales by a power of two to a largest component of about 1; zero stays zero.
+    /// Scales the vector by a power of two, so that its largest component is about 1; zero stays zero.
     #[inline]
     pub fn scaled(self) -> Self {
         let size = self.largest();
@@ -103,7 +103,7 @@ impl<N: Number> Vector<N> {
         (length.rounded() > 0.1).then(|| v * (N::from_f64(1.0) / length))
     }
 
-    /// Returns the absolute value of the largest component, rounded.
+    /// Returns the largest absolute value of a component, rounded.
     #[inline]
     pub fn largest(self) -> f64 {
         let Vector([x, y, z]) = self.each(|x| x.rounded().abs());
@@ -111,7 +111,7 @@ impl<N: Number> Vector<N> {
     }
 }
 
-/// Returns the power of two at or below a normal number, from its exponent alone.
+/// Returns the largest power of two not above a normal number, from its exponent alone.
 #[inline]
 fn power_of_two(size: f64) -> f64 {
     f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000)

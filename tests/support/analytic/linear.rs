@@ -30,18 +30,18 @@ fn slab() -> Actor {
     Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z)
 }
 
-/// T1: face on face, coplanar.
+/// Returns T1: a cube that falls face onto face, with coplanar faces.
 fn falling_cube() -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = Actor::straight(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     Scene::new(
         "T1 falling cube",
         [cube, slab()],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }
 
-/// T8: edge across edge, and corner on face.
+/// Returns T8: tilted cubes that meet edge across edge, and corner on face.
 fn tilted_cubes() -> [Scene; 2] {
     let cube = || cuboid(DVec3::splat(0.5));
     let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
@@ -54,17 +54,17 @@ fn tilted_cubes() -> [Scene; 2] {
         Scene::new(
             "T8 edge on edge",
             [falls(upper), Actor::still(lower, DVec3::ZERO)],
-            Expect::hit(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
+            Expect::hit_at(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
         ),
         Scene::new(
             "T8 corner on slab",
             [falls(corner_down), slab()],
-            Expect::hit(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
+            Expect::hit_at(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
         ),
     ]
 }
 
-/// T10: a flat cube slides over a slab at a small distance.
+/// Returns T10: a flat cube that slides over a slab at a small distance.
 pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = Actor::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
@@ -77,7 +77,7 @@ pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     )
 }
 
-/// T13: a small fast cube against paper.
+/// Returns T13: a small fast cube that hits a thin sheet.
 fn bullet() -> Scene {
     let bullet = cuboid(DVec3::splat(0.005));
     let bullet = Actor::straight(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
@@ -85,20 +85,20 @@ fn bullet() -> Scene {
     Scene::new(
         "T13 bullet",
         [bullet, paper],
-        Expect::hit(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
+        Expect::hit_at(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
     )
 }
 
-/// T15: crossed hooks, base in base; the lateral gaps are wider than any tolerance.
+/// Returns T15: crossed hooks that meet base in base. The lateral gaps are wider than any tolerance.
 fn hooks_closing() -> Scene {
     Scene::new(
         "T15 hooks closing",
         hooks(-DVec3::Z),
-        Expect::hit(|g| 0.3 - g),
+        Expect::hit_at(|g| 0.3 - g),
     )
 }
 
-/// T15 in the other direction, in which the slack grows. The neighbouring legs stay nearest.
+/// Returns T15 in the other direction, in which the slack grows. The neighbouring legs stay nearest.
 fn hooks_parting() -> Scene {
     // A leg's inner face is at 0.3; the other hook's base reaches to 0.1.
     Scene::new(
@@ -119,7 +119,7 @@ fn hooks(velocity: DVec3) -> [Actor; 2] {
     ]
 }
 
-/// T16: a tilted plate moves through a slit, free if its projection is lower than the slit.
+/// Returns T16: a tilted plate that moves through a slit. It is free if its projection is lower than the slit.
 fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     let tilted = DQuat::from_rotation_y(-phi);
     let plate = cuboid(DVec3::new(1.0, 1.0, 0.1)).placed(tilted, DVec3::ZERO);
@@ -135,13 +135,13 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
         // The slit's upper edge meets the front face, at the edge's height.
         let part = (half_height - bottom.z) / (top.z - bottom.z);
         let front = bottom.x + part * (top.x - bottom.x);
-        Expect::hit(move |g| (2.0 - front - g / phi.cos()) / speed)
+        Expect::hit_at(move |g| (2.0 - front - g / phi.cos()) / speed)
     };
     let slit = Actor::still(slit_plate(half_height), DVec3::ZERO);
     Scene::new(format!("T16 slit {half_height}"), [plate, slit], expect)
 }
 
-/// T17: vertex on vertex of two linked rings, each on the other's hollow side.
+/// Returns T17: two linked rings that meet vertex on vertex, each on the other's hollow side.
 fn linked_tori() -> Scene {
     let (major, minor, rings, sides) = (1.0, 0.25, 24, 8);
     let flat = torus(major, minor, rings, sides);
@@ -163,7 +163,7 @@ fn linked_tori() -> Scene {
     )
 }
 
-/// T19: comb into comb, until the tips reach the other's base.
+/// Returns T19: two combs that move into each other, until the tips reach the other comb's base.
 pub fn combs(teeth: usize) -> Scene {
     let (apart, speed) = (0.5, 1.0);
     let flipped = comb(teeth).placed(
@@ -175,28 +175,28 @@ pub fn combs(teeth: usize) -> Scene {
     Scene::new(
         format!("T19 combs of {teeth}"),
         [upper, lower],
-        Expect::hit(move |g| (apart - g) / speed),
+        Expect::hit_at(move |g| (apart - g) / speed),
     )
 }
 
-/// T21: needles come down tip first.
+/// Returns T21: needles that come down tip first.
 fn needles_on_slab(width: f64) -> Scene {
     let fall = Actor::straight(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
     Scene::new(
         format!("T21 needles of {width:.0e}"),
         [fall, slab()],
-        Expect::hit(|g| 0.75 - g),
+        Expect::hit_at(|g| 0.75 - g),
     )
 }
 
-/// Two equal plates, in which every pair of triangles touches at the same time.
+/// Returns two equal plates, of which every pair of triangles touches at the same time.
 fn parallel_plates() -> Scene {
     let falling = Actor::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
     let lying = Actor::still(parallel_plate(16), DVec3::ZERO);
-    Scene::new("plates", [falling, lying], Expect::hit(|g| 0.5 - g))
+    Scene::new("plates", [falling, lying], Expect::hit_at(|g| 0.5 - g))
 }
 
-/// T22: a faceted ball, bounded by its inscribed and circumscribed balls.
+/// Returns T22: a rotating faceted ball. Its inscribed and circumscribed balls bound the time of contact.
 fn spinning_icosphere() -> Scene {
     let (radius, height, speed) = (0.5, 2.0, 2.0);
     let ball = icosphere(radius, 2);

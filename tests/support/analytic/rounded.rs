@@ -49,7 +49,7 @@ fn without_mesh(mut shape: Shape) -> Shape {
     shape
 }
 
-/// Two balls pass each other at a distance.
+/// Returns two balls that pass each other at a distance.
 fn balls_passing() -> Scene {
     let moving = Actor::moving(
         ball(0.5),
@@ -66,40 +66,40 @@ fn balls_passing() -> Scene {
     )
 }
 
-/// Two balls meet off centre, both moving.
+/// Returns two moving balls that meet off centre.
 fn balls_head_on() -> Scene {
     let left = Actor::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
     let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
-    Scene::new("balls head-on", [left, right], Expect::hit(time))
+    Scene::new("balls head-on", [left, right], Expect::hit_at(time))
 }
 
-/// A spinning ball falls onto a box.
+/// Returns a rotating ball that falls onto a box.
 fn ball_on_slab() -> Scene {
     let falling = Actor::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
     Scene::new(
         "ball on wall",
         [falling, wall()],
-        Expect::hit(|g| (1.0 - g) / 2.0),
+        Expect::hit_at(|g| (1.0 - g) / 2.0),
     )
 }
 
-/// The end of a rotating capsule hits a wall.
+/// Returns a rotating capsule whose end hits a wall.
 fn capsule_on_wall() -> Scene {
     let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
     let turning = Actor::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
     Scene::new(
         "capsule on wall",
         [turning, wall()],
-        Expect::hit(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
+        Expect::hit_at(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
     )
 }
 
-/// A box with a rounding radius falls corner first.
+/// Returns a rounded box that falls corner first.
 fn rounded_box() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;
     let flying = Actor::straight(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
-    Scene::new("rounded box", [flying, wall()], Expect::hit(time))
+    Scene::new("rounded box", [flying, wall()], Expect::hit_at(time))
 }

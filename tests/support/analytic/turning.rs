@@ -7,11 +7,11 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// The half length and half thickness of a rod, and the distance of its corners.
+/// The half length of a rod, in units of length.
 const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
-fn reach() -> f64 {
+fn corner_distance() -> f64 {
     LENGTH.hypot(WIDTH)
 }
 
@@ -26,7 +26,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     out.extend([1.0, 1.9, 2.0, 7.5].map(|turns| upright_rod("T4", turns, 1.25)));
     out.push(pre_rotated_rod());
     for depth in [1e-3, 1e-6] {
-        out.push(upright_rod("T5", 1.0, reach() * (1.0 - depth)));
+        out.push(upright_rod("T5", 1.0, corner_distance() * (1.0 - depth)));
         out.push(grazing_miss(depth));
     }
     out.extend([10, 17, 23].map(|power| far_rod(f64::from(1u32 << power))));
@@ -38,10 +38,10 @@ pub(super) fn scenes() -> Vec<Scene> {
 /// Returns the time at which the corner of a rod rotating at `speed` first reaches `height` from the plane through the
 /// axis.
 fn corner_time(height: f64, speed: f64) -> f64 {
-    ((height / reach()).asin() - WIDTH.atan2(LENGTH)) / speed
+    ((height / corner_distance()).asin() - WIDTH.atan2(LENGTH)) / speed
 }
 
-/// T2: a rod's end comes down on a slab.
+/// Returns T2: a rod that rotates until its end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
     let spinning = Actor::turning(rod(LENGTH, WIDTH), height * DVec3::Z, PI * DVec3::Y);
@@ -49,21 +49,21 @@ fn rod_on_slab() -> Scene {
     Scene::new(
         "T2 rod on slab",
         [spinning, slab],
-        Expect::hit(move |g| corner_time(height - g, PI)),
+        Expect::hit_at(move |g| corner_time(height - g, PI)),
     )
 }
 
-/// T4: an upright rod rotates by half turns towards a wall.
+/// Returns T4: an upright rod that rotates by half turns towards a wall.
 fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     let speed = half_turns * PI;
     Scene::new(
         format!("{name} rod by {half_turns} half turns, wall at {wall:.7}"),
-        upright(speed, wall, Pose::IDENTITY),
-        Expect::hit(move |g| corner_time(wall - g, speed)),
+        upright_rod_and_wall(speed, wall, Pose::IDENTITY),
+        Expect::hit_at(move |g| corner_time(wall - g, speed)),
     )
 }
 
-fn upright(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
+fn upright_rod_and_wall(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
     let shape = cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
     let motion = Motion::new(pose, DVec3::ZERO, pose.rotation() * (speed * DVec3::Y));
     let still = Motion::still(pose);
@@ -79,9 +79,9 @@ fn upright(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
     ]
 }
 
-/// T3: the same scene with the rod's frame rotated against the world's at the start.
+/// Returns T3: T4 with the rod's frame rotated against the world's at the start.
 fn pre_rotated_rod() -> Scene {
-    let [rod, wall] = upright(PI, 1.25, Pose::IDENTITY);
+    let [rod, wall] = upright_rod_and_wall(PI, 1.25, Pose::IDENTITY);
     let turn = DQuat::from_rotation_z(FRAC_PI_2);
     let start = Pose::new(DVec3::ZERO, turn.conjugate()).expect("a pose");
     let rod = Actor {
@@ -91,32 +91,32 @@ fn pre_rotated_rod() -> Scene {
     Scene::new(
         "T3 pre-rotated rod",
         [rod, wall],
-        Expect::hit(|g| corner_time(1.25 - g, PI)),
+        Expect::hit_at(|g| corner_time(1.25 - g, PI)),
     )
 }
 
-/// T6: the rod's corner passes the wall at a small distance.
+/// Returns T6: a rod whose corner passes the wall at a small distance.
 fn grazing_miss(depth: f64) -> Scene {
-    let gap = reach() * depth;
+    let gap = corner_distance() * depth;
     Scene::new(
         format!("T6 grazing miss {depth:.0e}"),
-        upright(PI, reach() + gap, Pose::IDENTITY),
+        upright_rod_and_wall(PI, corner_distance() + gap, Pose::IDENTITY),
         Expect::Free { gap },
     )
 }
 
-/// T7: side edge on post edge, parallel.
+/// Returns T7: a rod whose side edge meets the parallel edge of a post.
 fn rod_on_post() -> Scene {
     let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
     let shape = cuboid(DVec3::new(LENGTH, width, 0.1));
     let spinning = Actor::turning(shape, DVec3::ZERO, speed * DVec3::Z);
     let post = Actor::still(post(radius, angle), DVec3::ZERO);
     let time = move |g: f64| (angle - ((width + g) / radius).asin()) / speed;
-    Scene::new("T7 rod on post", [spinning, post], Expect::hit(time))
+    Scene::new("T7 rod on post", [spinning, post], Expect::hit_at(time))
 }
 
-/// T9: a mace with a heavy head at the centre and a long arm whose end reaches the wall. Bounds that use the present
-/// pose alone do not anticipate it.
+/// Returns T9: a mace with a heavy head at the centre, and a long arm whose end reaches the wall. Bounds that use the
+/// present pose alone do not anticipate it.
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
@@ -126,51 +126,51 @@ fn swinging_mace() -> Scene {
         DVec3::ZERO,
     );
     let time = move |g: f64| (length.atan2(width) + ((1.0 - g) / reach).asin()) / speed;
-    Scene::new("T9 mace", [swinging, wall], Expect::hit(time))
+    Scene::new("T9 mace", [swinging, wall], Expect::hit_at(time))
 }
 
-/// T12: a square peg rotates in a square hole: four contacts at once.
+/// Returns T12: a square peg that rotates in a square hole, with four contacts at once.
 fn peg_in_hole() -> Scene {
     let (peg, hole) = (1.0, 1.2);
     let turning = Actor::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
     let plate = Actor::still(frame_plate(hole), DVec3::ZERO);
     let time = move |g: f64| ((hole - g) / (peg * 2.0_f64.sqrt())).asin() - FRAC_PI_4;
-    Scene::new("T12 peg in hole", [turning, plate], Expect::hit(time))
+    Scene::new("T12 peg in hole", [turning, plate], Expect::hit_at(time))
 }
 
-/// T14: two upright rods rotate towards each other, as mirror images.
+/// Returns T14: two upright rods that rotate towards each other, as mirror images.
 fn two_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
     let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
     let left = Actor::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
     let right = Actor::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
     let time = move |g: f64| corner_time(0.5 * (apart - g), speed);
-    Scene::new("T14 two rods", [left, right], Expect::hit(time))
+    Scene::new("T14 two rods", [left, right], Expect::hit_at(time))
 }
 
-/// T20: T4 far away; the offsets are powers of two, so that the scene itself is not rounded.
+/// Returns T20: T4 far from the origin. The offsets are powers of two, so that the scene itself is not rounded.
 fn far_rod(offset: f64) -> Scene {
     let pose = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
     Scene::new(
         format!("T20 rod at {offset}"),
-        upright(PI, 1.25, pose),
-        Expect::hit(|g| corner_time(1.25 - g, PI)),
+        upright_rod_and_wall(PI, 1.25, pose),
+        Expect::hit_at(|g| corner_time(1.25 - g, PI)),
     )
 }
 
-/// T20: T4 very small and very large.
+/// Returns T20: T4 scaled to very small and very large size.
 fn scaled_rod(scale: f64) -> Scene {
-    let [mut rod, mut wall] = upright(PI, 1.25, Pose::IDENTITY);
+    let [mut rod, mut wall] = upright_rod_and_wall(PI, 1.25, Pose::IDENTITY);
     rod.shape = rod.shape.scaled(scale);
     wall.shape = wall.shape.scaled(scale);
     Scene::new(
         format!("T20 rod times {scale:.0e}"),
         [rod, wall],
-        Expect::hit(move |g| corner_time(1.25 - g / scale, PI)),
+        Expect::hit_at(move |g| corner_time(1.25 - g / scale, PI)),
     )
 }
 
-/// Both bodies on one turntable, at relative rest one unit apart: free at any speed.
+/// Returns two bodies on one turntable, at relative rest one unit apart. They are free at any speed.
 fn rigidly_turning_pair() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let on_table = |x: f64| {

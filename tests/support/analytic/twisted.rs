@@ -1,4 +1,4 @@
-//! Scenes with simultaneous translation and rotation, or with other peculiarities.
+//! Scenes with simultaneous translation and rotation, or with other difficulties.
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
@@ -30,7 +30,7 @@ pub(super) fn scenes() -> Vec<Scene> {
 /// The depth of the screw's start below the nut's bottom, less one pitch.
 const LOW: f64 = 1.05;
 
-/// T18: three turns of a screw in its nut, climbing by `pitch` a turn.
+/// Returns T18: three turns of a screw in its nut, which climbs by `pitch` a turn.
 pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     let turning = Actor::moving(
         screw(fineness),
@@ -44,7 +44,7 @@ pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     Scene::new(name, [turning, still], Expect::Unknown)
 }
 
-/// T21: T1 with faces of no area, repeated faces, and the others reversed.
+/// Returns T21: T1 with faces of no area, repeated faces, and the other faces reversed.
 fn dirty_cube() -> Scene {
     let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.flipped();
     let clean = mesh.faces.clone();
@@ -56,11 +56,11 @@ fn dirty_cube() -> Scene {
     Scene::new(
         "T21 dirty cube",
         [cube, slab],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }
 
-/// T21: two cubes that share an edge, open below: no manifold.
+/// Returns T21: two cubes that share an edge and are open below, which is no manifold.
 fn two_shells() -> Scene {
     let half = DVec3::splat(0.5);
     let mut both = Shape::union([
@@ -76,12 +76,12 @@ fn two_shells() -> Scene {
     Scene::new(
         "T21 two shells",
         [falling, slab],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }
 
-/// T26: cuboids at coordinates of some thousands, one of which flies and rotates about a centre of its own; the numbers
-/// are from a bug report to parry (its issue 317).
+/// Returns T26: cuboids at coordinates of some thousands, one of which flies and rotates about a centre of its own.
+/// The numbers are from a bug report to parry (its issue 317).
 fn cuboids_in_the_distance() -> Scene {
     let flying = Motion::about(
         Pose::new(
@@ -117,7 +117,7 @@ fn cuboids_in_the_distance() -> Scene {
     )
 }
 
-/// T24: two cubes with a corner of each inside the other.
+/// Returns T24: two cubes with a corner of each inside the other.
 fn deep_overlap() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let corner = DVec3::new(0.7, 0.1, 0.2);
@@ -129,7 +129,7 @@ fn deep_overlap() -> Scene {
     )
 }
 
-/// T24: a small cube inside a big one, with separate surfaces.
+/// Returns T24: a small cube inside a big one, with separate surfaces.
 fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
     let small = Actor::turning(
         shape(cuboid(DVec3::splat(0.5)).mesh),
@@ -147,7 +147,7 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
     Scene::new(name, [small, big], gap)
 }
 
-/// T25: nothing moves.
+/// Returns T25: two bodies at rest.
 fn resting() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let bodies = [
@@ -157,7 +157,7 @@ fn resting() -> Scene {
     Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
 }
 
-/// T25: a cube falls while it rotates about the vertical by zero, by very little, or by exactly π.
+/// Returns T25: a cube that falls while it rotates about the vertical by zero, by very little, or by exactly π.
 fn slow_turn(angle: f64) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);
@@ -165,6 +165,6 @@ fn slow_turn(angle: f64) -> Scene {
     Scene::new(
         format!("T25 falling, turning by {angle:.2e}"),
         [cube, slab],
-        Expect::hit(|g| (2.5 - g) / 4.0),
+        Expect::hit_at(|g| (2.5 - g) / 4.0),
     )
 }

@@ -1,6 +1,6 @@
-//! The laws of answers to other questions.
+//! Checks answers to other questions than the first contact.
 
-use super::{Judge, Law, check_contact};
+use super::{CheckResult, Judge, check_contact};
 use crate::law;
 use crate::query::Bodies;
 use crate::referee::Finding;
@@ -8,20 +8,20 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Answer, Clearance, Contact, Outcome};
 
 impl Judge<'_> {
-    /// Checks an answer to "do they touch at all?": never missed, never false, with a contact as claimed.
+    /// Checks an answer to "do they touch at all?": it is never missed, never false, and has a contact as claimed.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
-                self.within_reach(time, answer.tolerance, &contact)?;
+                self.check_near_contact(time, answer.tolerance, &contact)?;
                 check_contact(
                     self.query,
                     time,
                     &contact,
                     bodies,
-                    self.reach(time, answer.tolerance, &contact),
+                    self.contact_distance_bound(time, answer.tolerance, &contact),
                 )
             }
             Outcome::Free { .. } | Outcome::Overlapping { .. } => self.check(answer, bodies),
@@ -30,12 +30,12 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the bounds of a least distance: never above the true one, never below the distance at the given time, and
-    /// no farther apart than the tolerance.
+    /// Checks the bounds of a least distance. They are never above the true one, never below the distance at the
+    /// given time, and no farther apart than the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
@@ -43,7 +43,7 @@ impl Judge<'_> {
                 at: Some((time, contact)),
                 ..
             } => {
-                let least = self.least();
+                let least = self.least_sample();
                 law!(
                     lower <= least + rounding,
                     "lower {lower} is above the least distance {least}"
@@ -73,15 +73,15 @@ impl Judge<'_> {
         }
     }
 
-    /// Checks the answer about a required distance: never false, and unknown only within the tolerance of the least
-    /// distance.
+    /// Checks the answer about a required distance. It is never false, and unknown only within the tolerance of the
+    /// least distance.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
-        let least = self.least();
+        let least = self.least_sample();
         let (lower, upper) = (outcome.lower(), outcome.upper());
         law!(
             lower <= least + rounding,
@@ -111,12 +111,12 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the bounds of a greatest distance: never below a sampled distance, never above that at the given time,
-    /// and no farther apart than the tolerance.
+    /// Checks the bounds of a greatest distance. They are never below a sampled distance, never above that at the
+    /// given time, and no farther apart than the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_greatest(&self, answer: &Answer) -> Law {
+    pub fn check_greatest(&self, answer: &Answer) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         let Outcome::Measured { .. } = answer.outcome else {
@@ -147,14 +147,14 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Checks the first and the last contact: none before and after them, and both within the tolerance.
+    /// Checks the first and the last contact. There is none before and after them, and both are within the tolerance.
     ///
     /// # Errors
     /// The law that the answer breaks.
-    pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> Law {
+    pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Interval { first, last } => {
-                self.never_late(first.time)?;
+                self.check_not_late(first.time)?;
                 let reach = self.config.margin;
                 let after = |&&(time, gap): &&(f64, f64)| time > last.time && gap < reach;
                 let late = self.samples.iter().find(after);
@@ -171,7 +171,7 @@ impl Judge<'_> {
                 for hit in [first, last] {
                     // Otherwise one body is inside the other.
                     if let Some(contact) = hit.contact() {
-                        self.within_reach(hit.time, answer.tolerance, &contact)?;
+                        self.check_near_contact(hit.time, answer.tolerance, &contact)?;
                     }
                 }
                 law!(
@@ -187,7 +187,7 @@ impl Judge<'_> {
     }
 
     /// Checks that the bodies are in contact at a time.
-    fn within_reach(&self, time: f64, tolerance: f64, contact: &Contact) -> Law {
+    fn check_near_contact(&self, time: f64, tolerance: f64, contact: &Contact) -> CheckResult {
         let reach = self.config.margin + tolerance + self.query.rounding();
         let in_range = (0.0..=self.query.duration).contains(&time);
         law!(in_range, "the time {time} is not within the duration");
@@ -199,9 +199,9 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Bounds the distance of two pieces in contact at a time; infinite for bodies that overlap, whose pieces may be
-    /// anywhere in a solid.
-    fn reach(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
+    /// Returns an upper bound of the distance of two pieces in contact at a time. It is infinite for bodies that
+    /// overlap, whose pieces may be anywhere in a solid.
+    fn contact_distance_bound(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
         if !self.may_overlap(time, contact) {
             self.config.margin + tolerance + self.query.rounding()
         } else {
@@ -219,8 +219,8 @@ impl Judge<'_> {
         touched || self.nested || contact.separation.lower < -self.query.rounding()
     }
 
-    /// Returns the least sampled distance.
-    fn least(&self) -> f64 {
+    /// Returns the least of the sampled distances.
+    fn least_sample(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);
         match self.finding {

@@ -1,16 +1,16 @@
-//! Convex combinations of points, without rounding.
+//! Convex combinations of points, computed without rounding.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use dashu_ratio::Relaxed;
 use std::cell::OnceCell;
 
-/// A convex combination of points with whole numbers as weights: `Σ w p / Σ w`, exactly.
+/// A convex combination of points with whole numbers as weights, kept exactly: `Σ w p / Σ w`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blend(Vec<(u32, DVec3)>);
 
 impl Blend {
-    /// Combines some points, each with its weight.
+    /// Creates the combination of points, each with its weight.
     ///
     /// # Panics
     /// If all weights are 0.
@@ -29,7 +29,7 @@ impl Blend {
         self.0.iter().map(|part| part.0).sum()
     }
 
-    /// Returns the point in floats, up to a rounding error for each part.
+    /// Returns the point in f64, up to a rounding error for each combined point.
     pub fn rounded(&self) -> DVec3 {
         let weighted = self.0.iter().map(|&(weight, p)| f64::from(weight) * p);
         weighted.sum::<DVec3>() / f64::from(self.weight())
@@ -45,27 +45,27 @@ impl Blend {
     }
 }
 
-/// Converts a finite number exactly.
+/// Converts a finite f64 to an exact fraction.
 pub(super) fn exact(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite coordinate")
 }
 
-/// A point for predicates, with fractions that are computed on first use.
-pub(super) struct Spot<'a> {
+/// A point for predicates, whose exact fractions are computed on first use.
+pub(super) struct LazyPoint<'a> {
     blend: &'a Blend,
     pub(super) near: DVec3,
-    /// The largest coordinate of the points that are combined.
+    /// The largest absolute coordinate of the points that are combined.
     pub(super) size: f64,
     exact: OnceCell<[Relaxed; 3]>,
 }
 
-/// The largest rounding error of a combination of up to hundreds of points, in units of their size.
+/// The largest rounding error of a combination of up to hundreds of points, in units of the largest coordinate.
 const ROUNDING: f64 = 1e-13;
 
-impl<'a> Spot<'a> {
+impl<'a> LazyPoint<'a> {
     pub(super) fn new(blend: &'a Blend) -> Self {
         let sizes = blend.0.iter().map(|(_, p)| p.abs().max_element());
-        Spot {
+        LazyPoint {
             blend,
             near: blend.rounded(),
             size: sizes.fold(0.0, greater),

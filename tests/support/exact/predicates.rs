@@ -1,71 +1,75 @@
-//! The side of a point relative to an edge seen along an axis, and to a triangle.
+//! Exact predicates: the side of a point relative to an edge seen along an axis, and relative to a triangle.
 
-use super::blend::{Spot, exact};
+use super::blend::{LazyPoint, exact};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
-/// The pairs of coordinates in the views along z, x and y.
+/// The pairs of coordinate indices in the views along z, x and y.
 pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Bounds on the rounding errors of determinants, in units of the power of the size of points: hundreds of times those
-/// of the terms, which are dominated by the error of the rounded point.
+/// The bounds on the rounding errors of determinants, in units of the power of the size of points. They are hundreds
+/// of times those of the terms, which are dominated by the error of the rounded point.
 const FLAT_ROUNDING: f64 = 1e-12;
 const SOLID_ROUNDING: f64 = 1e-11;
 
 /// Returns whether a point is left of (greater), right of (less) or on the line through an edge, in
 /// a view.
-pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &Spot<'_>) -> Ordering {
+pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (p − a)
     let (u, v) = (b - a, p.near - a);
     let size = size_of(&[a, b], p);
-    certain(u[x] * v[y] - u[y] * v[x], FLAT_ROUNDING * size * size).unwrap_or_else(|| {
-        let (u, v) = (between(a, b), from(a, p));
+    certain_sign(u[x] * v[y] - u[y] * v[x], FLAT_ROUNDING * size * size).unwrap_or_else(|| {
+        let (u, v) = (exact_difference(a, b), offset_from(a, p));
         (&u[x] * &v[y]).cmp(&(&u[y] * &v[x]))
     })
 }
 
 /// Returns whether a point is above (greater), below (less) or in the plane of a triangle that is
 /// counter-clockwise seen from above.
-pub(super) fn side([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> Ordering {
+pub(super) fn side([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (c − a) · (p − a)
     let height = (b - a).cross(c - a).dot(p.near - a);
     let size = size_of(&[a, b, c], p);
-    certain(height, SOLID_ROUNDING * size * size * size).unwrap_or_else(|| {
-        let (u, v, w) = (between(a, b), between(a, c), from(a, p));
+    certain_sign(height, SOLID_ROUNDING * size * size * size).unwrap_or_else(|| {
+        let (u, v, w) = (
+            exact_difference(a, b),
+            exact_difference(a, c),
+            offset_from(a, p),
+        );
         let minor = |x: usize, y: usize| &u[x] * &v[y] - &u[y] * &v[x];
         let height = minor(1, 2) * &w[0] + minor(2, 0) * &w[1] + minor(0, 1) * &w[2];
         height.cmp(&Relaxed::ZERO)
     })
 }
 
-/// Returns the sign of a rounded number, if it is certain.
-fn certain(x: f64, rounding: f64) -> Option<Ordering> {
+/// Returns the sign of a rounded number; `None` if the rounding error could change it.
+fn certain_sign(x: f64, rounding: f64) -> Option<Ordering> {
     (x.abs() > rounding + f64::MIN_POSITIVE).then(|| x.total_cmp(&0.0))
 }
 
-/// Returns the largest coordinate of some points and of those that a point combines.
-fn size_of(points: &[DVec3], p: &Spot<'_>) -> f64 {
+/// Returns the largest absolute coordinate of some points and of those that a point combines.
+fn size_of(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
     sizes.fold(p.size, greater)
 }
 
-fn between(a: DVec3, b: DVec3) -> [Relaxed; 3] {
+fn exact_difference(a: DVec3, b: DVec3) -> [Relaxed; 3] {
     [0, 1, 2].map(|k| exact(b[k]) - exact(a[k]))
 }
 
-fn from(a: DVec3, p: &Spot<'_>) -> [Relaxed; 3] {
+fn offset_from(a: DVec3, p: &LazyPoint<'_>) -> [Relaxed; 3] {
     [0, 1, 2].map(|k| &p.exact()[k] - exact(a[k]))
 }
 
 /// Returns true if a closed triangle, perhaps without area, contains a point.
-pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
+pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     let [a, b, c] = triangle;
     // A triangle without area is a segment in every view, bounded by its box.
     let beyond = |axis: usize| {
         let [x, y, z] = [a[axis], b[axis], c[axis]];
-        let within = |q: f64, order| compare(q, axis, p) == order;
+        let within = |q: f64, order| compare_coordinate(q, axis, p) == order;
         within(lesser(lesser(x, y), z), Ordering::Greater)
             || within(greater(greater(x, y), z), Ordering::Less)
     };
@@ -76,8 +80,8 @@ pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
     !(0..3).any(beyond) && side(triangle, p) == Ordering::Equal && !VIEWS.iter().any(out_of_view)
 }
 
-/// Compares a number to a coordinate of a point.
-fn compare(x: f64, axis: usize, p: &Spot<'_>) -> Ordering {
+/// Compares a number with a coordinate of a point.
+fn compare_coordinate(x: f64, axis: usize, p: &LazyPoint<'_>) -> Ordering {
     let rounding = p.rounding() + f64::EPSILON * x.abs();
-    certain(x - p.near[axis], rounding).unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))
+    certain_sign(x - p.near[axis], rounding).unwrap_or_else(|| exact(x).cmp(&p.exact()[axis]))
 }

@@ -1,4 +1,4 @@
-//! Sample points of a polytope's hull.
+//! Draws sample points of a polytope's hull.
 
 use super::blend::Blend;
 use ccd_core::Polytope;
@@ -6,26 +6,26 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// The numbers of random points to draw.
+/// The numbers of random sample points to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// The points of each facet, in addition to its mean and its edges' middles.
+    /// The number of points on each facet, in addition to its mean and its edges' middles.
     pub per_facet: usize,
-    /// The points of each polytope between pairs of its points.
+    /// The number of points of each polytope on segments between two of its corners.
     pub chords: usize,
-    /// The points of each polytope between four of its points.
+    /// The number of points of each polytope that combine four of its corners.
     pub blends: usize,
 }
 
 impl Effort {
-    /// The effort for models of a few hundred faces.
+    /// The numbers of points for models of a few hundred faces.
     pub const THOROUGH: Effort = Effort {
         per_facet: 6,
         chords: 24,
         blends: 16,
     };
 
-    /// The effort for models of thousands of faces.
+    /// The numbers of points for models of thousands of faces.
     pub const QUICK: Effort = Effort {
         per_facet: 1,
         chords: 4,
@@ -33,11 +33,12 @@ impl Effort {
     };
 }
 
-/// The sum of the weights, a power of two, so that random points stay as dyadic as the corners.
+/// The sum of the weights of a random point, a power of two, so that its coordinates stay as short in binary as those
+/// of the corners.
 const WHOLE: u32 = 64;
 
-/// Returns points of a polytope's hull: means, middles, and random ones on facets, chords and
-/// inside. The result depends only on the polytope and the seed.
+/// Returns points of a polytope's hull: means, middles, and random ones on facets, segments and inside. The result
+/// depends only on the polytope and the seed.
 pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<Blend> {
     let mut rng = Pcg64::seed_from_u64(seed);
     let points = &polytope.points;
@@ -49,15 +50,15 @@ pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<Blend> {
             let next = corners[(k + 1) % corners.len()];
             out.push(Blend::mean([corners[k], next]));
         }
-        out.extend((0..effort.per_facet).map(|_| random(&mut rng, &corners, 3)));
+        out.extend((0..effort.per_facet).map(|_| random_blend(&mut rng, &corners, 3)));
     }
-    out.extend((0..effort.chords).map(|_| random(&mut rng, points, 2)));
-    out.extend((0..effort.blends).map(|_| random(&mut rng, points, 4)));
+    out.extend((0..effort.chords).map(|_| random_blend(&mut rng, points, 2)));
+    out.extend((0..effort.blends).map(|_| random_blend(&mut rng, points, 4)));
     out
 }
 
-/// Returns a combination of some points, perhaps with repetition.
-fn random(rng: &mut Pcg64, points: &[DVec3], count: usize) -> Blend {
+/// Returns a random combination of `count` of the points, perhaps with repetition.
+fn random_blend(rng: &mut Pcg64, points: &[DVec3], count: usize) -> Blend {
     let mut rest = WHOLE;
     let mut parts: Vec<(u32, DVec3)> = (1..count)
         .map(|_| {

@@ -1,4 +1,4 @@
-//! Boxes, and shapes made of boxes.
+//! Generates boxes, and shapes made of boxes.
 
 use super::{Line, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
@@ -45,7 +45,7 @@ pub fn cuboid(half: DVec3) -> Shape {
     }
 }
 
-/// Returns a box by the coordinates of two opposite corners.
+/// Returns a box, given the coordinates of two opposite corners.
 fn between(lo: [f64; 3], hi: [f64; 3]) -> Shape {
     let (lo, hi) = (DVec3::from(lo), DVec3::from(hi));
     cuboid(0.5 * (hi - lo)).moved(0.5 * (lo + hi))
@@ -92,8 +92,8 @@ pub fn post(radius: f64, angle: f64) -> Shape {
     })
 }
 
-/// Returns a ball of radius 0.1 at the origin and an arm of half width `width` from there to `(0,
-/// −length, 0)`.
+/// Returns a mace: a ball of radius 0.1 at the origin, and an arm of half width `width` from there to `(0, −length,
+/// 0)`.
 pub fn mace(length: f64, width: f64) -> Shape {
     let arm = between([-width, -length, -width], [width, 0.0, width]);
     Shape::union([icosphere(0.1, 1), arm])
@@ -142,7 +142,7 @@ pub fn slit_plate(half_height: f64) -> Shape {
     ])
 }
 
-/// Returns a U open towards −z: a base along x, centred at the origin, and two legs `length` long.
+/// Returns a U open towards −z: a base along x, centred at the origin, and two legs of length `length`.
 pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     let (half, inner) = (0.5 * bar, 0.5 * gap);
     let outer = inner + bar;
@@ -153,8 +153,8 @@ pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     ])
 }
 
-/// Returns a base in the xy-plane, its top at z = 0, and `teeth` teeth of height 1 and width 0.4, a
-/// unit apart along x.
+/// Returns a comb: a base in the xy-plane, its top at z = 0, and `teeth` teeth of height 1 and width 0.4, a unit
+/// apart along x.
 pub fn comb(teeth: usize) -> Shape {
     let tooth = |k: usize| between([k as f64, -0.2, 0.0], [k as f64 + 0.4, 0.2, 1.0]);
     let base = between([-1.0, -0.2, -0.3], [teeth as f64 + 1.0, 0.2, 0.0]);

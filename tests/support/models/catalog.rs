@@ -1,4 +1,4 @@
-//! The solids for tests of decompositions.
+//! Lists the solids for tests of decompositions.
 
 use super::{
     Shape, blob, both, boulder, cuboid, dented_cube, divided_cube, gear, hollow, icosphere,
@@ -7,11 +7,11 @@ use super::{
 };
 use ccd_core::glam::{DQuat, DVec3};
 
-/// A solid and its name.
+/// A solid with its name for messages.
 pub struct Model {
-    /// The name of the solid.
+    /// The name of the solid in messages.
     pub name: String,
-    /// The solid.
+    /// The solid as mesh and parts.
     pub shape: Shape,
 }
 
@@ -23,7 +23,7 @@ impl Model {
         }
     }
 
-    /// Returns the solid in general position, in which rounding breaks coplanarity.
+    /// Returns the solid rotated into general position, in which rounding breaks coplanarity.
     #[must_use]
     pub fn turned(&self) -> Self {
         let turn = DQuat::from_scaled_axis(DVec3::new(0.3, -0.7, 1.1));
@@ -37,7 +37,7 @@ impl Model {
     }
 }
 
-/// Returns non-convex solids of every kind; most have up to a thousand faces.
+/// Returns non-convex solids of every kind. Most have up to a thousand faces.
 pub fn solids() -> Vec<Model> {
     let mut all = flat_solids();
     all.extend(curved_solids());
@@ -95,7 +95,7 @@ fn curved_solids() -> Vec<Model> {
     ]
 }
 
-/// Returns convex solids.
+/// Returns convex solids of several shapes.
 pub fn convex_solids() -> Vec<Model> {
     vec![
         Model::new("cube", cuboid(DVec3::ONE)),

@@ -1,5 +1,5 @@
-//! Solids of cells: sheets of four-sided cells, some of them removed, with a thickness. Their tops and bottoms are
-//! large regions of coplanar triangles, rarely convex.
+//! Generates solids of cells: sheets of four-sided cells, some of them removed, with a thickness. Their tops and
+//! bottoms are large regions of coplanar triangles, rarely convex.
 
 use super::{Line, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
@@ -24,7 +24,7 @@ pub fn gear(spokes: usize) -> Shape {
             _ => true,
         },
     }
-    .thick(at, 0.15)
+    .thicken(at, 0.15)
 }
 
 /// Returns a plate of `n × m` square holes, whose sides are as long as the bridges between them.
@@ -34,7 +34,7 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
         columns: Line::Open(2 * m + 2),
         keeps: &|i, j| i % 2 == 0 || j % 2 == 0,
     }
-    .thick(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
+    .thicken(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
 }
 
 /// Returns the L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
@@ -45,7 +45,7 @@ pub fn l_block(cells: usize) -> Shape {
         columns: Line::Open(2 * cells + 1),
         keeps: &|i, j| i < cells || j < cells,
     }
-    .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
+    .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
 /// Returns one closed plate with a slit of some width through its middle.
@@ -59,7 +59,7 @@ pub fn slotted_plate(width: f64) -> Shape {
         columns: Line::Open(4),
         keeps: &|i, j| (i, j) != (1, 1),
     }
-    .thick(|i, j| DVec2::new(x[i], y[j]), 0.25)
+    .thicken(|i, j| DVec2::new(x[i], y[j]), 0.25)
 }
 
 /// Returns two combs in one mesh, with the teeth of each between those of the other.
@@ -71,7 +71,7 @@ pub fn meshed_combs(teeth: usize) -> Shape {
         columns: Line::Open(3),
         keeps: &|i, j| j == 0 || i % 2 == 0,
     }
-    .thick(|i, j| DVec2::new(x(i), y[j]), 0.2);
+    .thicken(|i, j| DVec2::new(x(i), y[j]), 0.2);
     // A half turn about z is exact.
     let turn = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     let other = comb
@@ -90,7 +90,7 @@ pub fn divided_cube(cells: usize) -> Shape {
         columns: Line::Open(cells + 1),
         keeps: &|_, _| true,
     }
-    .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
+    .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
 /// Returns a block with random heights on its top, flat at its sides and at its bottom.
@@ -112,7 +112,7 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
-/// A grid with some cells filled.
+/// A grid of cells, some of which are filled.
 struct Sheet<'a> {
     rows: Line,
     columns: Line,
@@ -121,11 +121,11 @@ struct Sheet<'a> {
 
 impl Sheet<'_> {
     /// Returns the solid that extends by `half` to either side of a sheet in the xy-plane.
-    fn thick(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
+    fn thicken(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
-    /// Returns the solid between two sheets; seen from above, rows go to the right and columns upwards.
+    /// Returns the solid between two sheets. Seen from above, rows go to the right and columns upwards.
     fn between(
         &self,
         low: impl Fn(usize, usize) -> DVec3,
@@ -149,7 +149,7 @@ impl Sheet<'_> {
             }
         }
         let mut faces: Vec<[u32; 3]> = top.iter().map(|&[a, b, c]| [a - 1, c - 1, b - 1]).collect();
-        for [v, w] in rims(&top) {
+        for [v, w] in boundary_edges(&top) {
             faces.extend([[v - 1, w - 1, w], [v - 1, w, v]]);
         }
         faces.extend(top);
@@ -157,8 +157,8 @@ impl Sheet<'_> {
     }
 }
 
-/// Returns the directed edges of some faces without a face in the opposite direction, in order.
-fn rims(faces: &[[u32; 3]]) -> Vec<[u32; 2]> {
+/// Returns the boundary edges of some faces, in order. A boundary edge has no face in the opposite direction.
+fn boundary_edges(faces: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let edges = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
     let all: Vec<[u32; 2]> = faces.iter().flat_map(edges).collect();
     let set: std::collections::HashSet<[u32; 2]> = all.iter().copied().collect();

@@ -1,11 +1,11 @@
-//! Lumps: random and bumpy solids, dents, cavities.
+//! Generates lumps: random and bumpy solids, dents, cavities.
 
 use super::{Mesh, Shape, cuboid, icosphere};
 use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Returns a random generator with a seed.
+/// Returns a random generator that starts from a seed.
 pub(super) fn seeded_rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
@@ -45,14 +45,14 @@ pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
     Shape::closed(mesh)
 }
 
-/// Returns two solids apart from each other, in one mesh.
+/// Returns one mesh of two solids apart from each other.
 pub fn both(one: &Shape, other: &Shape) -> Shape {
     let mut mesh = one.mesh.clone();
     mesh.append(&other.mesh);
     Shape::closed(mesh)
 }
 
-/// Moves the vertices of a divided icosahedron to distances from the origin that depend on their
+/// Returns a divided icosahedron whose vertices are moved to distances from the origin that depend on their
 /// directions.
 fn star(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
     let Mesh {

@@ -1,4 +1,4 @@
-//! Round shapes: spheres, tori, knots.
+//! Generates round shapes: spheres, tori, knots.
 
 use super::{Line, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;

@@ -1,13 +1,13 @@
-//! A screw and its nut.
+//! Generates a screw and its nut.
 
 use super::{Line, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The height of the thread per turn.
+/// The height of one turn of the thread, in units of length.
 pub const PITCH: f64 = 0.5;
 
-/// The number of segments around the axis, and along it for each pitch, of the coarsest thread.
+/// The number of segments of the coarsest thread, around the axis and along it for each pitch.
 const SEGMENTS: usize = 16;
 const ROWS_PER_PITCH: usize = 6;
 

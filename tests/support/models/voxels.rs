@@ -1,12 +1,12 @@
-//! Solids of unit cubes.
+//! Generates solids of unit cubes.
 
 use super::{Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::DVec3;
 use rand::RngExt;
 use std::collections::HashMap;
 
-/// Returns a pile of cubes in a corner: columns of random heights up to `size` that decrease away from it. Its sides
-/// are coplanar regions of any outline. No two cubes touch each other at an edge.
+/// Returns a pile of cubes in a corner: columns of random heights up to `size` that decrease away from the corner.
+/// Its sides are coplanar regions of any outline. No two cubes touch each other at an edge.
 pub fn pile(size: usize, seed: u64) -> Shape {
     let mut rng = seeded_rng(seed);
     let mut heights = vec![vec![0; size]; size];

@@ -1,9 +1,10 @@
-//! Positions of a moving body's points, computed from the definition of the motion.
+//! Computes positions of a moving body's points from the definition of the motion.
 
 use crate::query::{Actor, Query};
 use ccd_core::glam::DVec3;
 
-/// The map `x(t) = R(t) R₀ (x − c) + d + v t`, relative to the start of body A's centre.
+/// The map from a body's points to positions at time t, relative to the start of body A's centre: `x(t) = R(t) R₀ (x
+/// − c) + d + v t`.
 ///
 /// Offsets are subtracted before anything is rounded at their size, and A's velocity is subtracted
 /// from both bodies, so that far and fast scenes keep their digits.
@@ -51,15 +52,15 @@ impl Placement {
     /// Returns the position of a point of the body.
     pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
         let arm = apply(self.start, point - self.centre);
-        turned(arm, time * self.spin) + self.offset + time * self.velocity
+        rotated(arm, time * self.spin) + self.offset + time * self.velocity
     }
 
-    /// Returns the origin of positions, in the world, at time 0.
+    /// Returns the point in the world that positions are relative to.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Returns the velocity relative to body A's centre.
+    /// Returns the body's velocity relative to body A's centre.
     pub fn velocity(&self) -> DVec3 {
         self.velocity
     }
@@ -69,14 +70,14 @@ impl Placement {
         self.spin.length() * self.radius
     }
 
-    /// Returns the largest distance of a point from the centre.
+    /// Returns the largest distance of a point of the body from the centre.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 }
 
-/// Rotates by Rodrigues' formula.
-fn turned(p: DVec3, turn: DVec3) -> DVec3 {
+/// Rotates a point by a rotation vector, with Rodrigues' formula.
+fn rotated(p: DVec3, turn: DVec3) -> DVec3 {
     let angle = turn.length();
     if angle == 0.0 {
         return p;
@@ -87,7 +88,7 @@ fn turned(p: DVec3, turn: DVec3) -> DVec3 {
     p + angle.sin() * n.cross(p) + 2.0 * half * half * n.cross(n.cross(p))
 }
 
-/// Returns the columns of the rotation of a unit quaternion `x y z w`.
+/// Returns the columns of the rotation matrix of a unit quaternion `x y z w`.
 fn rotation([x, y, z, w]: [f64; 4]) -> [DVec3; 3] {
     let q = DVec3::new(x, y, z);
     let column = |e: DVec3| e + 2.0 * q.cross(q.cross(e) + w * e);

@@ -1,11 +1,11 @@
-//! Distances of triangles by brute force, after a box test.
+//! Computes distances of triangles by brute force, after a box test.
 
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use std::f64::consts::PI;
 
-/// A mesh with its vertices at a time.
+/// A mesh with its vertices at the pose of a time.
 pub(super) struct PosedMesh<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
@@ -47,7 +47,7 @@ impl<'a> PosedMesh<'a> {
         self.points.first().copied()
     }
 
-    /// Returns the least distance over all pairs of faces; 0 if two intersect.
+    /// Returns the least distance over all pairs of faces; 0 if two faces intersect.
     pub(super) fn distance(&self, other: &PosedMesh<'_>) -> f64 {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (i, a) in self.group_boxes.iter().enumerate() {
@@ -101,7 +101,7 @@ pub(crate) fn distance_squared(a: &Face, b: &Face) -> f64 {
     }
     for e in edges_a {
         for f in edges_b {
-            best = lesser(best, feet_squared(e, f));
+            best = lesser(best, line_distance_squared(e, f));
         }
     }
     best
@@ -116,8 +116,9 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
 }
 
-/// Returns the squared distance of the nearest points of two edges' lines; infinite unless both are on their edges.
-fn feet_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+/// Returns the squared distance of the nearest points of two edges' lines; infinite unless both points are on their
+/// edges.
+fn line_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
     let det = uu * vv - uv * uv;
@@ -131,7 +132,7 @@ fn feet_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     f64::INFINITY
 }
 
-/// Returns the nearest point of a segment.
+/// Returns the point of a segment that is nearest to `p`.
 pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     let along = b - a;
     let t = (p - a).dot(along) / along.length_squared();
@@ -143,14 +144,14 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     }
 }
 
-/// Returns the nearest point of a triangle.
+/// Returns the point of a triangle that is nearest to `p`.
 pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     Face::new(corners).nearest(p)
 }
 
-/// A triangle, prepared for nearest points.
+/// A triangle, prepared for computing nearest points.
 pub(crate) struct Face {
-    /// The corners; the longest edge is between the first two.
+    /// The corner points. The longest edge is between the first two.
     pub(crate) corners: [DVec3; 3],
     /// The unit vectors along the longest edge and perpendicular to it. For a needle, whose normal is mostly rounding,
     /// these two are accurate to the last relevant digits.
@@ -182,7 +183,8 @@ impl Face {
         }
     }
 
-    /// Returns the nearest point: the projection onto the plane if it lies inside, else a point on an edge.
+    /// Returns the point of the triangle nearest to `p`: the projection onto the plane if it lies inside, else a
+    /// point on an edge.
     fn nearest(&self, p: DVec3) -> DVec3 {
         let [a, b, c] = self.corners;
         let (x, y) = ((p - a).dot(self.along), (p - a).dot(self.across));
@@ -224,8 +226,8 @@ fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     }
 }
 
-/// Returns true if a closed mesh winds around a point: the solid angles of its faces add up to more
-/// than half the sphere.
+/// Returns true if a closed mesh winds around a point: the solid angles of its faces add up to more than half the
+/// sphere.
 pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
     let angle = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| points[v as usize] - p);

@@ -3,7 +3,7 @@ use crate::rational::{Exact3, error_of, exact};
 use crate::worst::{Worst, share};
 use ccd_core::glam::dvec3;
 
-/// A square rod of unit cells: its volume is small compared to the products in its sum.
+/// Returns the triangles of a long square rod of unit cells. Its volume is small compared to the products in its sum.
 fn rod(cells: u32) -> Vec<[DVec3; 3]> {
     let corner = |x: u32, k: usize| {
         let (y, z) = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)][k % 4];
@@ -25,7 +25,7 @@ fn rod(cells: u32) -> Vec<[DVec3; 3]> {
 fn the_sign_of_a_long_solids_volume_is_certain() {
     let triangles = rod(20_000);
     let sign = |triangles: &mut dyn Iterator<Item = [DVec3; 3]>| {
-        SignedVolume::of(triangles, DVec3::ZERO).is_positive()
+        SignedVolume::from_triangles(triangles, DVec3::ZERO).is_positive()
     };
     let turned = |[a, b, c]: [DVec3; 3]| [a, c, b];
     let outward = sign(&mut triangles.iter().copied()).expect("a volume");
@@ -49,8 +49,8 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
     assert!(sign(&mut slanted.clone()).is_some());
 }
 
-/// The sum of a few volumes that may cancel, against fractions. The quadratic term is dominated up to ten million
-/// volumes, and is not tested here.
+/// Compares the sum of a few volumes that may cancel with exact fractions. The quadratic term of the bound is
+/// dominated up to ten million volumes, and is not tested here.
 #[test]
 fn worst_volume() {
     let found = Worst::of("volume_rounding", 6_000).search(|tape| {
@@ -67,7 +67,7 @@ fn worst_volume() {
             truth += p.minus(&near).dot(&q.minus(&p).cross(&r.minus(&p)));
         }
         // The last sum is rounded as well.
-        let error = error_of(volume.sum + volume.lost, &truth);
+        let error = error_of(volume.sum + volume.addition_errors, &truth);
         Some(share(error, volume_rounding(volume.size, volume.terms)))
     });
     found.is_within(40.0);

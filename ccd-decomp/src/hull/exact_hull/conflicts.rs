@@ -1,9 +1,9 @@
-//! Randomized incremental hulls of many points, with a conflict graph of points and visible facets `[CS89]`.
+//! Randomized incremental hulls of many points. A conflict graph records which facets a point sees `[CS89]`.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
+/// Computes the hull's triangles for points that span a volume, starting from the tetrahedron `simplex`.
 ///
 /// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
@@ -15,45 +15,45 @@ pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
 }
 
 /// Hashes an index to a number without any pattern (the finalizer of MurmurHash3).
-fn scrambled(v: u32) -> u32 {
+fn hash(v: u32) -> u32 {
     let mut h = v.wrapping_add(0x9e37_79b9);
     h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
     h = (h ^ h >> 13).wrapping_mul(0xc2b2_ae35);
     h ^ h >> 16
 }
 
-/// The largest capacity of a list that is reused.
-const SPARED: usize = 64;
+/// The largest capacity of a point list that is kept for reuse.
+const REUSED_CAPACITY: usize = 64;
 
-/// No facet or point.
+/// The index that stands for no facet and no point.
 const NONE: u32 = u32::MAX;
 
 struct Facet {
     corners: [u32; 3],
     plane: Plane,
-    /// The facets beyond its edges; the first is from its first corner to its second.
-    across: [u32; 3],
-    /// The points yet to be inserted that see the facet.
+    /// The adjacent facets. The first is across the edge from the first corner to the second.
+    adjacent: [u32; 3],
+    /// The points that see the facet and are not inserted yet.
     seen_by: Vec<u32>,
     is_there: bool,
-    /// The last point whose visibility was tested, and the result.
+    /// The last point that was tested against the facet, and whether it sees it.
     last_test: (u32, bool),
 }
 
 struct Growing<'a> {
     points: LocalPoints<'a>,
-    /// Empty lists for reuse.
+    /// Empty point lists for reuse.
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
-    /// A facet that each point sees; a removed facet or [`NONE`] if the point is inside.
+    /// By point, one facet that it sees. It is a removed facet or [`NONE`] if the point is inside the hull.
     sees: Vec<u32>,
-    /// The last facet that a point was tested with, by point.
+    /// By point, the last facet that the point was tested against.
     last_tested: Vec<u32>,
-    /// The new facet whose rim edge starts at a point, by point.
+    /// By point, the new facet whose horizon edge starts there.
     starting_at: Vec<u32>,
 }
 
-/// An edge of the rim of the visible part: its ends, the facet beyond, and the visible facet.
+/// A horizon edge, which bounds the visible part of the hull: its ends, the hidden facet, and the visible facet.
 struct RimEdge {
     ends: [u32; 2],
     beyond: u32,
@@ -63,7 +63,7 @@ struct RimEdge {
 impl<'a> Growing<'a> {
     fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        order.sort_unstable_by_key(|&v| (scrambled(v).leading_zeros(), v));
+        order.sort_unstable_by_key(|&v| (hash(v).leading_zeros(), v));
         order.reverse();
         let mut hull = Growing::new(points, simplex, &order);
         for v in order {
@@ -88,8 +88,8 @@ impl<'a> Growing<'a> {
         hull
     }
 
-    /// Adds a facet, and records which candidates see it.
-    fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
+    /// Adds a facet, and records which candidate points see it.
+    fn push(&mut self, corners: [u32; 3], adjacent: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
         let mut seen_by = self.spare.pop().unwrap_or_default();
@@ -107,7 +107,7 @@ impl<'a> Growing<'a> {
         self.facets.push(Facet {
             corners,
             plane,
-            across,
+            adjacent,
             seen_by,
             is_there: true,
             last_test: (NONE, false),
@@ -120,7 +120,7 @@ impl<'a> Growing<'a> {
         if first == NONE || !self.facets[first as usize].is_there {
             return;
         }
-        let (removed, rim) = self.remove_seen(first, v);
+        let (removed, rim) = self.remove_visible(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
             self.starting_at[edge.ends[0] as usize] = k;
@@ -133,28 +133,29 @@ impl<'a> Growing<'a> {
                 candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
             }
             // The previous facet is set once all are added.
-            let across = [edge.beyond, self.starting_at[b as usize], NONE];
-            self.push([a, b, v], across, &candidates);
+            let adjacent = [edge.beyond, self.starting_at[b as usize], NONE];
+            self.push([a, b, v], adjacent, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
-                beyond.across[place] = k;
+                beyond.adjacent[place] = k;
             }
         }
         for k in base..self.facets.len() as u32 {
-            let after = self.facets[k as usize].across[1];
-            self.facets[after as usize].across[2] = k;
+            let after = self.facets[k as usize].adjacent[1];
+            self.facets[after as usize].adjacent[2] = k;
         }
         for facet in removed {
             let mut seen_by = std::mem::take(&mut self.facets[facet as usize].seen_by);
-            if seen_by.capacity() <= SPARED {
+            if seen_by.capacity() <= REUSED_CAPACITY {
                 seen_by.clear();
                 self.spare.push(seen_by);
             }
         }
     }
 
-    /// Removes the facets that a point sees, which are connected over edges, and returns them with their rim.
-    fn remove_seen(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
+    /// Removes the facets that the point `v` sees, which are connected over edges from `first`. Returns them with
+    /// their horizon edges.
+    fn remove_visible(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_there = false;
         let mut at = 0;
@@ -162,10 +163,10 @@ impl<'a> Growing<'a> {
         while let Some(&seen) = removed.get(at) {
             at += 1;
             let Facet {
-                corners, across, ..
+                corners, adjacent, ..
             } = self.facets[seen as usize];
             for k in 0..3 {
-                let beyond = across[k];
+                let beyond = adjacent[k];
                 if !self.facets[beyond as usize].is_there {
                     continue;
                 }

@@ -3,7 +3,7 @@
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from an initial tetrahedron.
+/// Computes the hull's triangles for points that span a volume, starting from the tetrahedron `simplex`.
 ///
 /// O(n²), with hardly any memory: the fastest method for few points.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
@@ -43,7 +43,7 @@ impl<'a> Growing<'a> {
         self.facets.push(Facet { corners, plane });
     }
 
-    /// Replaces the facets that a point sees by a fan from their rim; `edges` is a buffer.
+    /// Replaces the facets that the point `v` sees by a fan from their horizon; `edges` is a buffer.
     fn insert(&mut self, v: u32, edges: &mut Vec<(u32, u32)>) {
         edges.clear();
         let points = &self.points;

@@ -6,15 +6,15 @@ use ccd_core::order::greater;
 use ccd_core::rounding::height_rounding;
 use std::cmp::Ordering;
 
-/// Points, with positions relative to the first one.
+/// A list of points, and their positions relative to the first one.
 pub(super) struct LocalPoints<'a> {
     points: &'a [DVec3],
     relative: Vec<DVec3>,
-    /// The largest relative coordinate.
+    /// The largest absolute coordinate of a relative position.
     reach: f64,
 }
 
-/// The plane of three of the points, rounded.
+/// The plane through three of the points, with rounded coefficients.
 #[derive(Clone, Copy)]
 pub(super) struct Plane {
     normal: DVec3,

@@ -3,7 +3,7 @@ use crate::exact::predicates::side;
 use ccd_core::glam::dvec3;
 use proptest::prelude::*;
 
-/// Points on a coarse grid, where many lie in one plane or on one line.
+/// Generates points on a coarse grid, where many lie in one plane or on one line.
 fn coarse() -> impl Strategy<Value = Vec<DVec3>> {
     let point = [0..4i32, 0..4i32, 0..4i32].prop_map(|x| DVec3::from_array(x.map(f64::from)));
     prop::collection::vec(point, 1..24)
@@ -44,7 +44,7 @@ proptest! {
         }
     }
 
-    /// The old and the new hull differ only within the reported box of the change.
+    /// Tests that the hulls before and after an insertion differ only within the reported box.
     #[test]
     fn changes_stay_within_their_box(points in coarse(), new in [-2.0..6.0, -2.0..6.0, -2.0..6.0]) {
         let mut points = points;
@@ -75,7 +75,7 @@ fn a_polygon_grows_to_either_side() {
         dvec3(0.5, 0.5, -1.0),
         dvec3(0.5, 0.5, 1.0),
     ];
-    let mut hull = ExactHull::polygon(&[0, 1, 2, 3]);
+    let mut hull = ExactHull::from_polygon(&[0, 1, 2, 3]);
     assert_eq!(hull.facets().len(), 4);
     let growth = hull.growth(&points, 4).unwrap();
     hull.grow(growth);

@@ -9,7 +9,7 @@ fn the_squares_of_a_box_are_polygons() {
         .map(|k| dvec3(f64::from(k % 3), f64::from(k / 3 % 3), f64::from(k / 9)))
         .collect();
     let triangles = ExactHull::facets_of(&points).unwrap();
-    let polygons = loops(&points, &triangles);
+    let polygons = merged_polygons(&points, &triangles);
     assert_eq!(polygons.len(), 6);
     for corners in polygons.iter() {
         assert_eq!(corners.len(), 4, "middles of edges are no corners");
@@ -17,8 +17,8 @@ fn the_squares_of_a_box_are_polygons() {
 }
 
 proptest! {
-    /// Every triangle is in one polygon, no two polygons are coplanar neighbours, and all of a polygon's
-    /// corners are strict.
+    /// Tests that every triangle is in one polygon, that no two adjacent polygons are coplanar, and that polygons
+    /// have no straight corners.
     #[test]
     fn polygons_are_as_large_as_can_be(cells in prop::collection::vec([0..3i32, 0..3i32, 0..3i32], 4..20)) {
         let points: Vec<DVec3> = cells.iter().map(|c| DVec3::from_array(c.map(f64::from))).collect();

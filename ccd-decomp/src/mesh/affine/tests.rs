@@ -26,7 +26,7 @@ fn maps_follow_each_other() {
     assert!(both.mirrors() && !turned.mirrors());
 }
 
-/// A determinant of products that cancel, underflow or overflow still has its sign.
+/// Tests the sign of a determinant whose products cancel, underflow or overflow.
 #[test]
 fn the_sign_of_a_mirror_is_exact() {
     let mirrors = |columns: [DVec3; 3]| {
@@ -55,7 +55,7 @@ fn ratio(x: f64) -> RBig {
 }
 
 proptest! {
-    /// The documented bound, against exact arithmetic.
+    /// Tests the documented rounding bound of an image against exact arithmetic.
     #[test]
     fn images_are_off_by_the_documented_rounding(
         rows in prop::array::uniform3(prop::array::uniform3(-1e3..1e3_f64)),

@@ -1,7 +1,7 @@
-//! The budget for expanding a file: it limits how much a few bytes can produce by repeated references.
+//! The budget for the expansion of a file: it limits how much a few bytes can produce by repeated references.
 
 use crate::mesh::error::MeshFault;
-use crate::tolerance::{REPEATED, REPEATED_AT_MOST, REPEATED_PER_BYTE, VERTEX_COST};
+use crate::tolerance::{EXPANSION_BASE, EXPANSION_MAX, EXPANSION_PER_BYTE, VERTEX_COST};
 
 /// The remaining budget of elements that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
@@ -10,24 +10,24 @@ pub(crate) struct Allowance {
     all: u64,
 }
 
-/// Returns the cost of vertices and corners.
+/// Returns the cost of an expansion to some vertices and face corners.
 pub(crate) fn cost(vertices: u64, corners: u64) -> u64 {
     vertices.saturating_mul(VERTEX_COST).saturating_add(corners)
 }
 
 impl Allowance {
-    /// Returns the allowance of a file of a number of bytes.
+    /// Returns the budget of a file with a size in bytes.
     pub(crate) fn for_file(bytes: u64) -> Self {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);
-        let repeated = REPEATED.saturating_add(bytes.saturating_mul(REPEATED_PER_BYTE));
-        let all = once.saturating_add(repeated.min(REPEATED_AT_MOST));
+        let repeated = EXPANSION_BASE.saturating_add(bytes.saturating_mul(EXPANSION_PER_BYTE));
+        let all = once.saturating_add(repeated.min(EXPANSION_MAX));
         Allowance { left: all, all }
     }
 
-    /// Spends a cost.
-    pub(crate) fn take(&mut self, cost: u64) -> Result<(), MeshFault> {
+    /// Spends a cost from the budget; returns an error if too little is left.
+    pub(crate) fn spend(&mut self, cost: u64) -> Result<(), MeshFault> {
         match self.left.checked_sub(cost) {
             Some(left) => {
                 self.left = left;

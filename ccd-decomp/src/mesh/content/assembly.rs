@@ -1,4 +1,4 @@
-//! Assemblies: scenes whose parts are placed shapes.
+//! Assemblies: scenes in which shapes are placed as parts.
 
 use super::allowance::{Allowance, cost};
 use crate::mesh::affine::AffineMap;
@@ -7,7 +7,7 @@ use crate::mesh::polygons::Polygons;
 use crate::mesh::unit::Conversion;
 use std::ops::Range;
 
-/// Objects, and the parts of a scene that place them.
+/// A list of objects, and the parts of a scene that place them.
 ///
 /// # Guarantee
 /// No object is a member of itself, directly or not. Every number names an object. Every part has a face.
@@ -15,45 +15,45 @@ use std::ops::Range;
 pub(crate) struct Assembly {
     objects: Vec<Object>,
     pub(crate) parts: Vec<Part>,
-    /// The cost of expanding each object, including its members.
+    /// By object, the cost of its expansion with all members.
     sizes: Vec<u64>,
     allowance: Allowance,
 }
 
-/// An object: a shape, and placed members.
+/// An object: a shape of its own, and members, which are other objects at given transforms.
 #[derive(Debug, Default)]
 pub(crate) struct Object {
     /// Triangles whose corners are all among its vertices; it may be empty.
     pub(crate) shape: Polygons,
-    pub(crate) members: Vec<Placed>,
+    pub(crate) members: Vec<PlacedObject>,
 }
 
-/// An object with its transform.
+/// A reference to an object, with the transform that places it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedObject {
     pub(crate) object: usize,
     pub(crate) map: AffineMap,
 }
 
-/// A part of the scene.
+/// A part of the scene, which places one object.
 #[derive(Debug)]
 pub(crate) struct Part {
     pub(crate) name: Option<String>,
-    pub(crate) placed: Placed,
+    pub(crate) placed: PlacedObject,
 }
 
-/// An object that is a member of itself, directly or not.
-pub(crate) struct Circle {
+/// The error for an object that contains itself, directly or through its members.
+pub(crate) struct Cycle {
     pub(crate) object: usize,
 }
 
 impl Assembly {
-    /// Creates an assembly; parts without faces are omitted.
+    /// Creates an assembly from objects and parts. Parts without faces are omitted.
     pub(crate) fn new(
         objects: Vec<Object>,
         mut parts: Vec<Part>,
         allowance: Allowance,
-    ) -> Result<Self, Circle> {
+    ) -> Result<Self, Cycle> {
         let order = members_first(&objects)?;
         let (mut sizes, mut has_faces) = (vec![0_u64; objects.len()], vec![false; objects.len()]);
         for k in order {
@@ -82,11 +82,11 @@ impl Assembly {
         self.check_size(parts.clone())?;
         let mut all = Polygons::default();
         let parts = self.parts[parts].iter();
-        let mut waiting: Vec<Placed> = parts.rev().map(|part| part.placed).collect();
-        while let Some(Placed { object, map }) = waiting.pop() {
+        let mut waiting: Vec<PlacedObject> = parts.rev().map(|part| part.placed).collect();
+        while let Some(PlacedObject { object, map }) = waiting.pop() {
             let Object { shape, members } = &self.objects[object];
-            add(&mut all, shape, &map, conversion);
-            waiting.extend(members.iter().rev().map(|member| Placed {
+            append_image(&mut all, shape, &map, conversion);
+            waiting.extend(members.iter().rev().map(|member| PlacedObject {
                 object: member.object,
                 map: map.after(&member.map),
             }));
@@ -94,18 +94,19 @@ impl Assembly {
         Ok(all)
     }
 
-    /// Checks that some parts together do not exceed the allowance.
+    /// Checks that the expansion of some parts does not exceed the allowance.
     pub(super) fn check_size(&self, parts: Range<usize>) -> Result<(), MeshFault> {
         let mut allowance = self.allowance;
         let mut sizes = self.parts[parts]
             .iter()
             .map(|part| self.sizes[part.placed.object]);
-        sizes.try_for_each(|size| allowance.take(size))
+        sizes.try_for_each(|size| allowance.spend(size))
     }
 }
 
-/// Appends the image of a shape. A mirroring map reverses the triangles, so that a solid stays one.
-fn add(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
+/// Appends the image of a shape under an affine map. A mirroring map reverses the triangles, so that a solid stays
+/// one.
+fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
     let first = all.vertices.len() as i64;
     let image = |&point| conversion.apply(map.apply(point));
     all.vertices.extend(shape.vertices.iter().map(image));
@@ -121,8 +122,8 @@ fn add(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conver
     }
 }
 
-/// Finds an order of the objects in which each comes after its members.
-fn members_first(objects: &[Object]) -> Result<Vec<usize>, Circle> {
+/// Sorts the objects so that each comes after its members. Returns an error if one contains itself.
+fn members_first(objects: &[Object]) -> Result<Vec<usize>, Cycle> {
     let mut owners = vec![Vec::new(); objects.len()];
     let mut waits_for = vec![0_usize; objects.len()];
     for (k, object) in objects.iter().enumerate() {
@@ -142,14 +143,14 @@ fn members_first(objects: &[Object]) -> Result<Vec<usize>, Circle> {
             }
         }
     }
-    match circle(objects, &waits_for) {
+    match find_cycle(objects, &waits_for) {
         None => Ok(order),
-        Some(object) => Err(Circle { object }),
+        Some(object) => Err(Cycle { object }),
     }
 }
 
-/// Finds an object on a cycle: follows members that are not ordered until one repeats.
-fn circle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
+/// Finds an object on a cycle: follows members without a place in the order until one repeats.
+fn find_cycle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
     let mut object = waits_for.iter().position(|&count| count > 0)?;
     let mut seen = vec![false; objects.len()];
     while !std::mem::replace(&mut seen[object], true) {

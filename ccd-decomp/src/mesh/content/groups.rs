@@ -3,17 +3,17 @@
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 
-/// The groups of a list of faces. Each face is in one, and each group has a face.
+/// The groups of a list of faces. Each face is in one group, and each group has a face.
 #[derive(Debug)]
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,
-    /// The group of each face; empty if all faces are in the first group.
+    /// By face, the number of its group; empty if all faces are in the first group.
     pub(crate) of_face: Vec<u32>,
 }
 
 impl Groups {
-    /// Returns one unnamed group of all faces.
-    pub(crate) fn one() -> Self {
+    /// Returns a single unnamed group that contains all faces.
+    pub(crate) fn single() -> Self {
         Groups {
             names: vec![None],
             of_face: Vec::new(),
@@ -26,14 +26,14 @@ impl Groups {
         Ok(Copier::new(list)?.copy(&faces.swap_remove(group)))
     }
 
-    /// Copies each group, like [`Groups::part`].
+    /// Copies the faces of each group into a list of its own, like [`Groups::part`].
     pub(super) fn all(&self, list: &Polygons) -> Result<Vec<Polygons>, MeshFault> {
         let mut copier = Copier::new(list)?;
         let faces = self.faces(list);
         Ok(faces.iter().map(|faces| copier.copy(faces)).collect())
     }
 
-    /// The faces of each group.
+    /// Returns the face numbers of each group.
     fn faces(&self, list: &Polygons) -> Vec<Vec<u32>> {
         let mut faces = vec![Vec::new(); self.names.len()];
         for face in 0..list.ends.len() {
@@ -44,10 +44,10 @@ impl Groups {
     }
 }
 
-/// Copies faces of a list and renumbers their vertices.
+/// A copier of faces from one list, which renumbers the vertices.
 struct Copier<'a> {
     list: &'a Polygons,
-    /// The number in the copy of each vertex; only entries of copied vertices are valid.
+    /// By vertex, its number in the copy. Only entries of copied vertices are valid.
     numbers: Vec<i64>,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Copier<'a> {
         let Copier { list, numbers } = self;
         let mut part = Polygons::default();
         for &face in faces {
-            part.corners.extend(list.face(face as usize));
+            part.corners.extend(list.face_corners(face as usize));
             part.ends.push(part.corners.len());
             part.face_lines.extend(list.face_lines.get(face as usize));
         }

@@ -1,4 +1,4 @@
-//! glTF 2.0, text and binary.
+//! The reader of glTF 2.0, text and binary.
 //!
 //! The crate `gltf` is not used: it rounds node transforms to f32, reads quantized positions as floats, and overflows
 //! at the lengths and counts of hostile files.
@@ -26,7 +26,7 @@ use nodes::Scene;
 use schema::{BufferList, Root};
 use std::collections::BTreeMap;
 
-/// Reads the parts of a glTF.
+/// Reads a glTF as an assembly of parts.
 pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     })
 }
 
-/// Returns the buffers that are separate files.
+/// Returns the references to buffers that are separate files.
 pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
     if bytes.is_empty() {
         return Ok(Vec::new());
@@ -77,7 +77,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         .collect())
 }
 
-/// Returns an element by its number.
+/// Returns the element of a JSON array with a given index; `kind` names the array in faults.
 fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();

@@ -1,4 +1,4 @@
-//! Wavefront OBJ.
+//! The reader of Wavefront OBJ.
 //!
 //! Without `tobj`: it numbers vertices by first use and object by object, does not say where an error is, and took
 //! more code around it than the statements `v` and `f` take.
@@ -25,18 +25,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
         match statement.split_whitespace().next().unwrap_or_default() {
             keyword @ ("v" | "f") => {
                 continues = false;
-                let statement = continued(statement, lines.by_ref().map(|(_, line)| line));
+                let statement =
+                    join_continued_lines(statement, lines.by_ref().map(|(_, line)| line));
                 if keyword == "v" {
                     file.add_vertex(&statement, number)?;
                 } else {
                     file.add_face(&statement, number)?;
                 }
             }
-            "o" => file.objects.set(name(line)),
-            "g" => file.groups.set(name(line)),
+            "o" => file.objects.set(name_after_keyword(line)),
+            "g" => file.groups.set(name_after_keyword(line)),
             "" => {}
             word if may_continue && word.parse::<f64>().is_ok() => {}
-            other => pass_over(other, number, &mut file.polygons.remarks)
+            other => skip_statement(other, number, &mut file.polygons.remarks)
                 .map_err(|fault| fault.at(format!("line {number}")))?,
         }
     }
@@ -47,8 +48,11 @@ fn without_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim()
 }
 
-/// Returns a statement with the lines that continue it: a line ends in a backslash if the next one does.
-fn continued<'a>(statement: &'a str, mut lines: impl Iterator<Item = &'a str>) -> Cow<'a, str> {
+/// Joins a statement with the lines that continue it. A line that ends in a backslash continues on the next one.
+fn join_continued_lines<'a>(
+    statement: &'a str,
+    mut lines: impl Iterator<Item = &'a str>,
+) -> Cow<'a, str> {
     let mut statement = Cow::from(statement);
     while statement.ends_with('\\') {
         let next = without_comment(lines.next().unwrap_or_default());
@@ -58,18 +62,19 @@ fn continued<'a>(statement: &'a str, mut lines: impl Iterator<Item = &'a str>) -
     statement
 }
 
-/// The content of a file, read up to some line.
+/// The state of a reader: the content of the file up to the current line.
 #[derive(Default)]
 struct Reader {
     polygons: Polygons,
     objects: Labels,
     groups: Labels,
-    /// The first corner that names no vertex before the first one: its face and its number in the file.
+    /// The first face corner with a number before the first vertex: the face, and the number in the file.
     missing: Option<(usize, i64)>,
 }
 
 impl Reader {
-    /// Adds a position. A fourth number divides it; three or more are a colour.
+    /// Adds a vertex from a `v` statement. A fourth number divides the coordinates; three or more further numbers are
+    /// a colour.
     fn add_vertex(&mut self, statement: &str, line: usize) -> Result<(), MeshFault> {
         let problem = |what| MeshFault::syntax(Some(line), format!("{statement:?} {what}"));
         let mut words = statement.split_whitespace().skip(1);
@@ -97,7 +102,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Adds a face. Negative numbers count back from the last vertex before it.
+    /// Adds a face from an `f` statement. Negative numbers count back from the last vertex before it.
     fn add_face(&mut self, statement: &str, line: usize) -> Result<(), MeshFault> {
         let polygons = &mut self.polygons;
         for corner in statement.split_whitespace().skip(1) {
@@ -118,12 +123,12 @@ impl Reader {
         polygons.ends.push(polygons.corners.len());
         polygons.face_lines.push(line);
         for labels in [&mut self.objects, &mut self.groups] {
-            labels.of_face.push(labels.now);
+            labels.of_face.push(labels.current);
         }
         Ok(())
     }
 
-    /// Checks that all corners name vertices.
+    /// Checks that all face corners name vertices, and returns the content.
     fn finish(mut self) -> Result<Content, MeshFault> {
         let polygons = &self.polygons;
         let vertices = polygons.vertices.len();
@@ -159,7 +164,8 @@ impl Reader {
     }
 }
 
-/// Returns the number of a corner's vertex: 0 if the corner names none, as `/1/2`; `None` if it is no corner.
+/// Returns the vertex number of a face corner such as `1/2/3`. It is 0 if the corner has no vertex, as in `/1/2`;
+/// `None` if the text is no corner.
 fn vertex_number(corner: &str) -> Option<i64> {
     let mut numbers = corner.split('/').map(|number| match number {
         "" => Some(0),
@@ -170,31 +176,31 @@ fn vertex_number(corner: &str) -> Option<i64> {
     (rest_is_valid && numbers.next().is_none()).then_some(vertex)
 }
 
-/// The labels of faces by one keyword.
+/// The names that one keyword, `o` or `g`, gives to faces.
 #[derive(Default)]
 struct Labels {
-    /// The number of each name, from 1, in the file's order; 0 means no name.
+    /// The number of each name, from 1, in the file's order. The number 0 means that a face has no name.
     numbers: HashMap<String, u32>,
-    now: u32,
+    current: u32,
     of_face: Vec<u32>,
 }
 
 impl Labels {
     fn set(&mut self, name: &str) {
         let next = self.numbers.len() as u32 + 1;
-        self.now = match self.numbers.get(name) {
+        self.current = match self.numbers.get(name) {
             _ if name.is_empty() => 0,
             Some(&number) => number,
             None => *self.numbers.entry(name.into()).or_insert(next),
         };
     }
 
-    /// Returns whether a face has a name.
+    /// Returns whether any face has a name.
     fn is_used(&self) -> bool {
         self.of_face.iter().any(|&label| label > 0)
     }
 
-    /// Returns the used labels as groups, numbered by their first face.
+    /// Converts the names to groups of faces, numbered by their first face.
     fn groups(self) -> Groups {
         let mut labels = vec![None; self.numbers.len() + 1];
         for (name, number) in self.numbers {
@@ -213,8 +219,9 @@ impl Labels {
     }
 }
 
-/// Returns the name after a keyword. A comment begins at a `#` after a space: names such as `lid#2` are common.
-fn name(statement: &str) -> &str {
+/// Returns the name after a keyword, without a comment. A comment begins at a `#` after a space, because names such
+/// as `lid#2` are common.
+fn name_after_keyword(statement: &str) -> &str {
     let statement = statement.trim_start();
     let name = statement.get(1..).unwrap_or_default();
     let comment = name.match_indices('#').find(|(at, _)| {
@@ -224,7 +231,8 @@ fn name(statement: &str) -> &str {
     name[..comment.map_or(name.len(), |(at, _)| at)].trim()
 }
 
-/// Statements that do not affect the shape: normals, texture coordinates, materials, curve and display settings.
+/// The keywords of statements that do not affect the shape: normals, texture coordinates, materials, curve and
+/// display settings.
 const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj \
                         ctech stech cstype deg bmat step parm trim hole scrv curv2 sp end con res";
 
@@ -232,7 +240,7 @@ const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp
 ///
 /// # Errors
 /// The statement defines faces.
-fn pass_over(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
+fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
     let unsupported = |what: &str, instead| {
         Err(MeshFault::Unsupported {
             what: what.to_owned(),

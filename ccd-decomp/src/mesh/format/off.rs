@@ -1,4 +1,4 @@
-//! Object File Format (Geomview), text.
+//! The reader of the text Object File Format (OFF, Geomview).
 
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -15,7 +15,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let Some(first) = lines.next() else {
         return Err(MeshFault::NoVertices);
     };
-    let (vertices, faces) = counts(first, &mut lines)?;
+    let (vertices, faces) = read_counts(first, &mut lines)?;
     let mut polygons = Polygons::default();
     for vertex in 0..vertices {
         let mut line = lines.need(|| format!("vertex {vertex} of {vertices}"))?;
@@ -43,8 +43,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Reads the counts of vertices and faces: on the first line, after the keyword, or on the next.
-fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
+/// Reads the counts of vertices and faces, which follow the keyword on the first line or stand on the next line.
+fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
     let keyword = line.words.clone().next().unwrap_or_default();
     if keyword.parse::<u64>().is_err() {
         let Some(prefix) = keyword.strip_suffix("OFF") else {
@@ -75,7 +75,7 @@ fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), M
     Ok((line.number(what)?, line.number(what)?))
 }
 
-/// The lines of a text, except blank ones and comments.
+/// An iterator over the lines of a text, except blank lines and comments.
 struct Lines<'a> {
     rest: std::str::Lines<'a>,
     number: usize,

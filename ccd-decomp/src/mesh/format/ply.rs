@@ -1,4 +1,4 @@
-//! PLY, binary and text, by `ply-rs-bw`: a reader of our own was longer. What the crate passes over is checked here.
+//! The reader of PLY, binary and text. It uses the crate `ply-rs-bw`, and checks what that crate ignores.
 
 use super::text;
 use crate::mesh::error::MeshFault;
@@ -60,12 +60,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     Ok(polygons)
 }
 
-/// The element of polygons.
+/// The name of the element that holds polygons.
 const FACE: &str = "face";
-/// The element of strips of triangles, as scanners write them.
+/// The name of the element that holds triangle strips, as scanners write them.
 const STRIPS: &str = "tristrips";
 
-/// Returns the triangles of a strip in one orientation: every second one is reversed. −1 begins another strip.
+/// Returns the triangles of a strip in a common orientation: every second triangle is reversed. An index of −1 begins
+/// another strip.
 fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
     let runs = strip.split(|&corner| corner == -1);
     let triangles = runs.flat_map(|run| run.array_windows().enumerate());
@@ -78,10 +79,10 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     let end = bytes.windows(END.len()).position(|window| window == END);
     match (bytes, end.map(|end| end + END.len())) {
         ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
-            let mut header = text::lines(bytes[..end].into()).into_owned();
+            let mut header = text::with_line_feeds(bytes[..end].into()).into_owned();
             let is_text = header.windows(12).any(|window| window == b"format ascii");
             if is_text {
-                header.extend_from_slice(&text::lines(bytes[end..].into()));
+                header.extend_from_slice(&text::with_line_feeds(bytes[end..].into()));
             } else {
                 header.extend_from_slice(&bytes[end..]);
             }
@@ -91,7 +92,8 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
     }
 }
 
-/// Checks that the names of elements, and of an element's properties, are unique: the library keeps only the last.
+/// Checks that the names of elements are unique, and the names of properties within each element. The library keeps
+/// only the last of equal names.
 fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
     let (mut elements, mut properties) = (HashSet::new(), HashSet::new());
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
@@ -120,7 +122,7 @@ fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
     Ok(())
 }
 
-/// Checks that nothing follows the elements.
+/// Checks that the file has no bytes after the last element.
 fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
     if rest.trim_ascii().is_empty() {
         Ok(())
@@ -131,7 +133,7 @@ fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
     }
 }
 
-/// Checks that no text line has numbers beyond its properties: the library skips them.
+/// Checks that no text line has more numbers than properties, because the library skips further numbers.
 fn check_lines(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
     let mut lines = (first..).zip(payload.split(|&byte| byte == b'\n'));
     for element in header.elements.values() {
@@ -157,8 +159,8 @@ fn check_lines(payload: &[u8], first: usize, header: &Header) -> Result<(), Mesh
     Ok(())
 }
 
-/// Checks that the header describes points and polygons, and no more elements than the file has bytes: elements without
-/// properties take no bytes.
+/// Checks that the header describes points and polygons, and announces no more elements than the file has bytes.
+/// Elements without properties take no bytes.
 fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     for element in header.elements.values() {
         if element.count > bytes {
@@ -246,14 +248,14 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
     MeshFault::syntax(line, problem)
 }
 
-/// An element of a PLY: a vertex, a face, or one that is passed over. A single type, because the library compiles
-/// its readers of all kinds of properties anew for each.
+/// An element of a PLY: a vertex, a face, or one that is skipped. One type stands for all, because the library
+/// compiles its readers anew for each type.
 struct Element {
     point: DVec3,
     corners: Vec<i64>,
 }
 
-/// The names of the property of a face that lists its corners.
+/// The names of the face property that lists the vertex indices of the corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 impl PropertyAccess for Element {

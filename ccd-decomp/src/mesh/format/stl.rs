@@ -1,4 +1,4 @@
-//! STL, binary and text.
+//! The reader of STL, binary and text.
 //!
 //! Without `stl_io`: it stops at the end of the first solid, and refuses solids without a name and normals that
 //! are not finite.
@@ -12,7 +12,7 @@ use std::collections::HashMap;
 const HEADER_BYTES: usize = 80;
 const COUNT_BYTES: usize = 4;
 const FACET_BYTES: usize = 50;
-/// The bytes of the normal, before the corners of a facet.
+/// The size of a facet's normal in bytes. It precedes the corners.
 const NORMAL_BYTES: usize = 12;
 
 /// Reads the facets of an STL and welds their corners.
@@ -20,10 +20,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
     }
-    if is_whole(bytes) {
+    if has_announced_length(bytes) {
         return parse_binary(bytes);
     }
-    let plain = text::plain(bytes);
+    let plain = text::utf8_with_line_feeds(bytes);
     if is_text(&plain) {
         parse_text(&String::from_utf8_lossy(&plain).to_ascii_lowercase())
     } else {
@@ -31,28 +31,29 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Returns whether a file has the length of a binary one with the number of facets that it announces.
-fn is_whole(bytes: &[u8]) -> bool {
-    announced(bytes).is_some_and(|facets| {
+/// Returns whether a binary file has the length that its number of facets requires.
+fn has_announced_length(bytes: &[u8]) -> bool {
+    facet_count(bytes).is_some_and(|facets| {
         (bytes.len() - HEADER_BYTES - COUNT_BYTES) as u64 == facets as u64 * FACET_BYTES as u64
     })
 }
 
-/// Returns whether a file is text. Many programs begin a binary file with `solid`, too; only text has no zero byte.
+/// Returns whether a file is text: it begins with `solid` and has no zero byte. Many programs begin a binary file
+/// with `solid`, too.
 fn is_text(plain: &[u8]) -> bool {
     let first = plain.trim_ascii_start();
     let solid = first.len() >= 5 && first[..5].eq_ignore_ascii_case(b"solid");
     solid && !plain.contains(&0)
 }
 
-/// Reads the number of facets that a binary file announces.
-fn announced(bytes: &[u8]) -> Option<u32> {
+/// Reads the number of facets from the header of a binary file.
+fn facet_count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER_BYTES..HEADER_BYTES + COUNT_BYTES)?;
     Some(u32::from_le_bytes(count.try_into().ok()?))
 }
 
 fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
-    let Some(facets) = announced(bytes) else {
+    let Some(facets) = facet_count(bytes) else {
         let missing = "the header of 84 bytes".into();
         return Err(MeshFault::Truncated { missing });
     };
@@ -76,7 +77,7 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     Ok(facets.polygons)
 }
 
-/// The statements of a facet, one on each line.
+/// The keywords of the statements of a facet, one statement on each line.
 const FACET: [&[&str]; 7] = [
     &["facet", "normal"],
     &["outer", "loop"],
@@ -87,7 +88,7 @@ const FACET: [&[&str]; 7] = [
     &["endfacet"],
 ];
 
-/// Reads a text of one or more solids, in lower case.
+/// Reads a text of one or more solids. The text is in lower case.
 fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     let mut facets = Facets::default();
     // The number of statements of the current facet that were read.
@@ -136,7 +137,7 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     Err(MeshFault::Truncated { missing })
 }
 
-/// Facets whose corners at exactly the same point are one vertex.
+/// Facets under construction. Corners at exactly the same point become one vertex.
 #[derive(Default)]
 struct Facets {
     polygons: Polygons,

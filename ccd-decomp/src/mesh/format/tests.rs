@@ -9,8 +9,8 @@ mod unread;
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// Everything else that an OBJ may have: carriage returns, normals, relative indices, objects,
-/// materials, a continued line, colours, a weight, and a byte that is no UTF-8.
+/// An OBJ with optional content: carriage returns, normals, relative indices, objects, materials, a continued line,
+/// colours, a weight, and a byte that is no UTF-8.
 const RICH_OBJ: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r\nv 1 0 0 0.5 0.5 0.5\r\n\
     v 0 1 0 # up\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl red\r\nf 1/1/1 -1/-1/-1 2/1/1\r\ng second\r\nl 1 2\r\n\
     v 0 0 2 2\r\nf 1//1 2//1 \\\r\n  4//1\r\nusemtl blue\r\nf 2/1 3/1 4/1\r\ns off\r\nf +3 1 -1\r\n";
@@ -33,7 +33,7 @@ const OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0 0\n0 1 0 0 
 const POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
 const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
-/// A binary STL whose header begins like a text.
+/// Returns a binary STL whose header begins like a text.
 fn binary_stl() -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes[..10].copy_from_slice(b"solid bin\n");
@@ -75,7 +75,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
     bytes
 }
 
-/// The tetrahedron of the other formats as glTF, in both forms.
+/// Returns the tetrahedron of the other formats as a glTF.
 #[cfg(feature = "gltf")]
 fn gltf() -> crate::test_files::Gltf {
     let mut gltf = crate::test_files::Gltf::new();
@@ -92,7 +92,7 @@ fn gltf() -> crate::test_files::Gltf {
     gltf
 }
 
-/// The same as 3MF.
+/// Returns the tetrahedron of the other formats as a 3MF.
 #[cfg(feature = "3mf")]
 fn threemf() -> Vec<u8> {
     use crate::test_files::{model, object, package};
@@ -127,7 +127,7 @@ fn read(format: Format, bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     TriangleMesh::from_reader(format, bytes).map_err(|error| error.fault)
 }
 
-/// The corners of all triangles, independent of the numbers of the vertices.
+/// Returns the corner points of all triangles, independent of the numbering of the vertices.
 fn corners(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
     let point = |v: u32| mesh.vertices()[v as usize];
     mesh.faces().iter().map(|face| face.map(point)).collect()
@@ -198,7 +198,7 @@ fn a_pointer_of_git_lfs_is_recognised() {
     }
 }
 
-/// A build without a format names the feature to build it with.
+/// Tests that reading a format that is not built names the Cargo feature to enable.
 #[test]
 fn formats_that_are_not_built_are_named() {
     for (format, feature, is_built) in [

@@ -1,16 +1,16 @@
-//! Decoding of texts: encodings and line endings.
+//! Decodes texts: character encodings and line endings.
 
 use std::borrow::Cow;
 
 /// Converts a text to UTF-8 with line feeds, without a byte order mark.
 ///
 /// UTF-16 is recognised by its mark. Invalid UTF-8 is kept: names, comments and binary formats may hold it.
-pub(super) fn plain(bytes: &[u8]) -> Cow<'_, [u8]> {
-    lines(decoded(bytes))
+pub(super) fn utf8_with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
+    with_line_feeds(utf8(bytes))
 }
 
 /// Converts a text to UTF-8 and removes the byte order mark, which would hide the first keyword.
-pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
+pub(super) fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     let from_units = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes.as_chunks().0.iter().map(|&pair| unit(pair)).collect();
         Cow::from(String::from_utf16_lossy(&units).into_bytes())
@@ -24,7 +24,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 /// Replaces every carriage return without a following line feed by a line feed.
-pub(super) fn lines(mut text: Cow<'_, [u8]>) -> Cow<'_, [u8]> {
+pub(super) fn with_line_feeds(mut text: Cow<'_, [u8]>) -> Cow<'_, [u8]> {
     let alone = |text: &[u8], at: usize| text[at] == b'\r' && text.get(at + 1) != Some(&b'\n');
     if (0..text.len()).any(|at| alone(&text, at)) {
         let text = text.to_mut();

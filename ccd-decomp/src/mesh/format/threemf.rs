@@ -1,4 +1,4 @@
-//! 3MF: models in XML, packed in a zip.
+//! The reader of 3MF: models in XML, packed in a zip archive.
 //!
 //! The crates for 3MF are not used: none limits the unpacked size, and `threemf` does not distinguish the models of a
 //! package.
@@ -10,17 +10,17 @@ mod xml;
 
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::Allowance;
-use crate::mesh::content::assembly::{Assembly, Object, Part, Placed};
+use crate::mesh::content::assembly::{Assembly, Object, Part, PlacedObject};
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, Quote};
 use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
-use model::{Model, Shape, Use};
+use model::{Model, ObjectRef, Shape};
 use package::Package;
 use std::collections::BTreeMap;
 
-/// Reads the parts of a 3MF.
+/// Reads a 3MF package as an assembly of parts.
 pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     if bytes.is_empty() {
         return Err(MeshFault::NoVertices);
@@ -53,15 +53,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     })
 }
 
-/// The models of a package: the root model first, then those that it refers to.
+/// The models of a package: the root model first, then the models that it refers to.
 struct Models<'a> {
     package: Package<'a>,
     list: Vec<Named>,
-    /// The number of each model by its path.
+    /// The number of each model in the package, by its path.
     numbers: BTreeMap<String, usize>,
-    /// The objects of all models, by model number and object id.
+    /// The assembly's object number, by model number and object id in that model.
     known: BTreeMap<(usize, u32), usize>,
-    /// The model of each object, and its index there.
+    /// The model number and the index there of each object of the assembly.
     places: Vec<(usize, usize)>,
 }
 
@@ -71,9 +71,9 @@ struct Named {
 }
 
 impl<'a> Models<'a> {
-    /// Reads the root model and all models that it needs.
+    /// Reads the root model and all models that it refers to.
     fn read(mut package: Package<'a>) -> Result<Self, MeshFault> {
-        let first = package.first_model()?;
+        let first = package.root_model_path()?;
         let mut models = Models {
             package,
             list: Vec::new(),
@@ -81,11 +81,11 @@ impl<'a> Models<'a> {
             known: BTreeMap::new(),
             places: Vec::new(),
         };
-        models.number(&first)?;
+        models.model_number(&first)?;
         let mut next = 0;
         while let Some(Named { model, .. }) = models.list.get(next) {
             for path in model.paths() {
-                models.number(&path)?;
+                models.model_number(&path)?;
             }
             next += 1;
         }
@@ -94,9 +94,9 @@ impl<'a> Models<'a> {
         Ok(models)
     }
 
-    /// Returns the number of a model, and reads it if necessary.
-    fn number(&mut self, path: &str) -> Result<usize, MeshFault> {
-        let key = package::normalized(path);
+    /// Returns the number of the model at a path, and reads the model on the first call.
+    fn model_number(&mut self, path: &str) -> Result<usize, MeshFault> {
+        let key = package::normalized_path(path);
         if let Some(&number) = self.numbers.get(&key) {
             return Ok(number);
         }
@@ -135,17 +135,17 @@ impl<'a> Models<'a> {
         }
     }
 
-    /// Returns the build items of the root model, as parts.
+    /// Returns the parts of the assembly: the build items of the root model.
     fn parts(&self) -> Result<Vec<Part>, MeshFault> {
         let items = &self.list[0].model.items;
         if items.is_empty() {
             let problem = "has no items in its build: nothing of it is to be made".into();
             return Err(MeshFault::syntax(None, problem));
         }
-        let part = |(k, item): (usize, &Use)| {
-            let found = self.find(0, item);
+        let part = |(k, item): (usize, &ObjectRef)| {
+            let found = self.find_object(0, item);
             let object = found.map_err(|fault| fault.at(format!("item {k} of the build")))?;
-            let placed = Placed {
+            let placed = PlacedObject {
                 object,
                 map: item.map,
             };
@@ -157,11 +157,11 @@ impl<'a> Models<'a> {
         items.iter().enumerate().map(part).collect()
     }
 
-    /// Returns the object that an item or component refers to.
-    fn find(&self, from: usize, used: &Use) -> Result<usize, MeshFault> {
+    /// Returns the object number that a build item or component of the model `from` refers to.
+    fn find_object(&self, from: usize, used: &ObjectRef) -> Result<usize, MeshFault> {
         let model = match &used.path {
             None => Some(&from),
-            Some(path) => self.numbers.get(&package::normalized(path)),
+            Some(path) => self.numbers.get(&package::normalized_path(path)),
         };
         let object = model.and_then(|&model| self.known.get(&(model, used.object)));
         object.copied().ok_or_else(|| {
@@ -170,7 +170,7 @@ impl<'a> Models<'a> {
         })
     }
 
-    /// Returns all objects, with the shapes moved out of the models.
+    /// Returns all objects of the assembly, with the shapes moved out of the models.
     fn objects(&mut self) -> Result<Vec<Object>, MeshFault> {
         let mut objects = Vec::with_capacity(self.places.len());
         for number in 0..self.places.len() {
@@ -192,16 +192,16 @@ impl<'a> Models<'a> {
         Ok(objects)
     }
 
-    fn members(&self, number: usize) -> Result<Vec<Placed>, MeshFault> {
+    fn members(&self, number: usize) -> Result<Vec<PlacedObject>, MeshFault> {
         let (model, place) = self.places[number];
         let Shape::Components(components) = &self.list[model].model.objects[place].shape else {
             return Ok(Vec::new());
         };
-        let member = |(k, component): (usize, &Use)| {
-            let found = self.find(model, component);
+        let member = |(k, component): (usize, &ObjectRef)| {
+            let found = self.find_object(model, component);
             let at = |fault: MeshFault| fault.at(format!("{}, component {k}", self.place(number)));
             let map: AffineMap = component.map;
-            Ok(Placed {
+            Ok(PlacedObject {
                 object: found.map_err(at)?,
                 map,
             })
@@ -230,7 +230,7 @@ impl<'a> Models<'a> {
         Ok(seen.iter().filter(|seen| !**seen).count())
     }
 
-    /// Returns the name of an object for messages.
+    /// Returns the name of an object of the assembly for messages.
     fn place(&self, number: usize) -> String {
         let (model, place) = self.places[number];
         let Named { path, model } = &self.list[model];

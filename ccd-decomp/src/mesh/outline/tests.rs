@@ -11,7 +11,7 @@ fn turn(p: DVec3, q: DVec3, r: DVec3) -> f64 {
     orient2d(a, b, c)
 }
 
-/// Returns whether two edges of an outline that are not neighbours meet: all pairs, exactly.
+/// Returns whether two edges of an outline that are not neighbours meet. Tests all pairs exactly.
 fn meets_itself(points: &[DVec3]) -> bool {
     let n = points.len();
     let at = |k: usize| points[k % n];
@@ -31,8 +31,8 @@ fn meets_itself(points: &[DVec3]) -> bool {
     (0..n).any(folded) || (0..n).any(|k| (k + 2..n).any(|l| (l + 1) % n != k && meet(k, l)))
 }
 
-/// Random outlines are triangulated if and only if they do not intersect themselves; the areas of the triangles add up
-/// to the outline's.
+/// Tests that random outlines are triangulated if and only if they do not intersect themselves. The areas of the
+/// triangles add up to the outline's area.
 #[test]
 fn outlines_are_filled_unless_they_meet_themselves() {
     let radii = prop::collection::vec((0.5..4.0_f64, -4..=4_i32, -4..=4_i32), 4..12);
@@ -113,7 +113,8 @@ fn outlines_without_an_inside_are_not_filled() {
     assert_eq!(fill(&fine), None);
 }
 
-/// Outlines of many corners on or near a line, or in convex position, for which a sweep takes minutes.
+/// Tests the time for outlines of many corners on or near a line, or in convex position, for which a sweep takes
+/// minutes.
 #[test]
 fn outlines_of_many_corners_take_no_longer_than_others() {
     let count = 60_000;

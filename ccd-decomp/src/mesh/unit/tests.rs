@@ -30,7 +30,7 @@ fn lengths_are_those_of_the_units() {
     }
 }
 
-/// The exact length of a coordinate in another unit.
+/// Returns a coordinate in another unit as an exact fraction.
 fn exact(x: f64, from: Unit, to: Unit) -> RBig {
     let ratio = RBig::from(from.micrometres()) / RBig::from(to.micrometres());
     RBig::try_from(x).unwrap() * ratio
@@ -70,7 +70,7 @@ proptest! {
         prop_assert!(error(x, from, to) <= allowed);
     }
 
-    /// The floats of a glTF stay exact towards smaller metric units.
+    /// Tests that the f32 coordinates of a glTF are converted exactly to smaller metric units.
     #[test]
     fn floats_are_exact_towards_smaller_units(x in -1e6..1e6_f32, to in 0..4_usize) {
         prop_assert!(error(x.into(), Unit::Metre, METRIC[to]).is_zero());

@@ -1,12 +1,12 @@
 use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::bounding_solid;
-use crate::test_meshes::{block, cubes, joined, placed, tetrahedron, turned};
+use crate::test_meshes::{block, cubes, merged_meshes, placed, reversed_faces, tetrahedron};
 use ccd_core::Origin;
 use ccd_core::glam::dvec3;
 
 fn polytope(mesh: &TriangleMesh) -> Result<Polytope, DecomposeError> {
-    as_polytope(&bounding_solid(mesh)?)
+    convex_polytope(&bounding_solid(mesh)?)
 }
 
 #[test]
@@ -20,7 +20,7 @@ fn a_block_has_eight_corners_and_six_sides() {
 
 #[test]
 fn faces_keep_their_numbers() {
-    let mesh = turned(&tetrahedron());
+    let mesh = reversed_faces(&tetrahedron());
     let polytope = polytope(&mesh).unwrap();
     let mut faces: Vec<Origin> = polytope.facets.iter().map(|f| f.origin).collect();
     faces.sort_by_key(|origin| format!("{origin:?}"));
@@ -39,7 +39,7 @@ fn reflex_edges_are_named() {
     assert!(ends.contains(&dvec3(1.0, 0.0, 1.0)) && ends.contains(&dvec3(1.0, 1.0, 1.0)));
 
     let one = tetrahedron();
-    let two = joined(&[&one, &placed(&one, 1.0, dvec3(5.0, 0.0, 0.0))]);
+    let two = merged_meshes(&[&one, &placed(&one, 1.0, dvec3(5.0, 0.0, 0.0))]);
     assert_eq!(
         polytope(&two),
         Err(DecomposeError::NotInOnePart { parts: 2 })

@@ -1,10 +1,10 @@
-//! Growing patches: polygons and their hull.
+//! A convex patch under construction, which grows polygon by polygon.
 
 use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
-use crate::hull::polygons::loops;
+use crate::hull::polygons::merged_polygons;
 use crate::search::region::Region;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::Manifold;
@@ -14,18 +14,18 @@ use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Polygons of a mesh on the boundary of their hull, which is within the solid.
+/// A set of polygons of a mesh and their hull. The hull lies inside the solid, and all polygons are on its boundary.
 pub(super) struct GrowingPatch {
     flats: Vec<u32>,
     hull: ExactHull,
     has_volume: bool,
 }
 
-/// The result of adding a polygon.
+/// The result of an attempt to add a polygon to a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Join {
     Joined,
-    /// The polygon can never join.
+    /// The polygon can never join the patch.
     Refused,
     /// The polygon is coplanar with a patch that has no volume yet.
     InPlane,
@@ -35,17 +35,17 @@ impl GrowingPatch {
     pub(super) fn new(flats: &Flats, seed: u32) -> Self {
         GrowingPatch {
             flats: vec![seed],
-            hull: ExactHull::polygon(&flats.get(seed).corners),
+            hull: ExactHull::from_polygon(&flats.get(seed).corners),
             has_volume: false,
         }
     }
 
-    /// Returns the number of polygons.
+    /// Returns the number of polygons in the patch.
     pub(super) fn len(&self) -> usize {
         self.flats.len()
     }
 
-    /// Returns the polygons, in the order in which they joined.
+    /// Returns the polygons of the patch, in the order in which they joined.
     pub(super) fn flats(&self) -> &[u32] {
         &self.flats
     }
@@ -54,10 +54,10 @@ impl GrowingPatch {
         &self.hull
     }
 
-    /// Returns the facets of the hull, without coplanar neighbours; a flat hull has two.
+    /// Returns the facets of the hull, with coplanar triangles merged; a flat hull has two facets.
     pub(super) fn facets(&self, points: &[DVec3]) -> Loops {
         if self.has_volume {
-            return loops(points, self.hull.facets());
+            return merged_polygons(points, self.hull.facets());
         }
         let mut front = self.hull.corners().to_vec();
         let least = (0..front.len()).min_by_key(|&k| front[k]);
@@ -81,7 +81,7 @@ impl GrowingPatch {
         }
         let plane = |f: u32| manifold.faces()[flats.get(f).faces[0] as usize];
         // The hull so far must lie behind the polygon, …
-        match self.highest_over(points, plane(flat)) {
+        match self.side_of_highest_corner(points, plane(flat)) {
             Ordering::Greater => return Join::Refused,
             Ordering::Equal if !self.has_volume && self.lies_in(points, plane(flat)) => {
                 return Join::InPlane;
@@ -105,7 +105,7 @@ impl GrowingPatch {
         }
         // … and the new hull within the solid.
         work.spend(new.len() * self.hull.facets().len());
-        let (hull, changed) = self.grown(points, &new);
+        let (hull, changed) = self.hull_with(points, &new);
         if let Some(changed) = changed {
             let obstacle = Obstacle::new(points, &hull);
             let is_apart = |face: u32| {
@@ -129,8 +129,8 @@ impl GrowingPatch {
         Join::Joined
     }
 
-    /// Returns the side of a plane on which the highest corner of the hull is.
-    fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
+    /// Compares the highest corner of the hull above a plane to the plane: in front, on or behind.
+    fn side_of_highest_corner(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;
         for &v in corners {
@@ -155,13 +155,14 @@ impl GrowingPatch {
         }
     }
 
-    /// Returns the hull with the points `new` added, and the bounding box of what changed.
-    fn grown(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
+    /// Returns the hull with the points `new` added, and the bounding box of the change; `None` if the hull is
+    /// unchanged.
+    fn hull_with(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;
         for &v in new {
             if let Some(growth) = hull.growth(points, v) {
-                let more = hull.changed(points, &growth);
+                let more = hull.changed_bounds(points, &growth);
                 changed = Some(changed.map_or(more, |bounds| bounds.union(more)));
                 hull.grow(growth);
             }

@@ -1,22 +1,22 @@
-//! Tests whether a triangle enters the interior of a hull.
+//! Tests exactly whether triangles enter the interior of a hull.
 
 use crate::exact::predicates::side_of;
-use crate::half_edges::{Edges, Use};
+use crate::half_edges::{EdgeUse, Edges};
 use crate::hull::exact_hull::ExactHull;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// A hull to test triangles of the same mesh against.
+/// A convex hull with volume, prepared for tests whether triangles of the same mesh enter it.
 pub(super) struct Obstacle<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
-    /// The corners of all facets with their facets, sorted by corner.
-    meeting: OnceCell<Vec<(u32, u32)>>,
+    /// Pairs of a corner and an adjacent facet, sorted by corner.
+    corner_facets: OnceCell<Vec<(u32, u32)>>,
 }
 
-/// An edge of a hull with the facets on either side.
+/// An edge of a hull, with the facets on both sides.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     ends: [u32; 2],
@@ -24,13 +24,13 @@ struct Edge {
 }
 
 impl<'a> Obstacle<'a> {
-    /// Creates the test of a hull with volume.
+    /// Prepares the tests for a hull with volume.
     pub(super) fn new(points: &'a [DVec3], hull: &'a ExactHull) -> Self {
         Obstacle {
             points,
             hull,
             edges: OnceCell::new(),
-            meeting: OnceCell::new(),
+            corner_facets: OnceCell::new(),
         }
     }
 
@@ -51,7 +51,7 @@ impl<'a> Obstacle<'a> {
 
     /// Returns whether the triangle is in front of a facet at one of its corners.
     fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
-        let meeting = self.meeting.get_or_init(|| {
+        let meeting = self.corner_facets.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());
             let corners = facets.flat_map(|(k, facet)| facet.map(|v| (v, k)));
             let mut meeting: Vec<(u32, u32)> = corners.collect();
@@ -105,7 +105,7 @@ impl<'a> Obstacle<'a> {
     fn edges(&self) -> &[Edge] {
         self.edges.get_or_init(|| {
             let edges = Edges::new(self.hull.facets());
-            let edge = |(ends, uses): ([u32; 2], &[Use])| match *uses {
+            let edge = |(ends, uses): ([u32; 2], &[EdgeUse])| match *uses {
                 [one, other] => Some(Edge {
                     ends,
                     facets: [one.face(), other.face()],

@@ -1,33 +1,33 @@
-//! The order in which patches begin and grow.
+//! The order in which patches start and grow.
 
 use crate::solid::flats::Flats;
 use crate::solid::manifold::{Dihedral, Manifold};
 use std::collections::VecDeque;
 
-/// The order in which patches begin and grow.
+/// The order in which patches start at polygons, and grow to adjacent ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Order {
-    /// Patches begin at the polygons farthest from reflex edges and grow breadth first.
+    /// Patches start at the polygons farthest from reflex edges, and grow breadth first.
     #[default]
     Cresting,
-    /// Patches begin in the mesh's order, and grow breadth first.
+    /// Patches start in the mesh's order, and grow breadth first.
     BreadthFirst,
-    /// Patches begin in the mesh's order, and grow depth first.
+    /// Patches start in the mesh's order, and grow depth first.
     DepthFirst,
 }
 
-/// Returns all polygons in the order in which they seed patches.
+/// Returns all polygons in the order in which they may start a patch.
 pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == Order::Cresting {
-        let height = heights(manifold, flats);
+        let height = steps_to_reflex(manifold, flats);
         seeds.sort_by_key(|&flat| std::cmp::Reverse(height[flat as usize]));
     }
     seeds
 }
 
-/// Returns the number of steps from each polygon to one with a reflex edge; `u32::MAX` if there is none.
-fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
+/// Returns, for each polygon, the number of steps to a polygon with a reflex edge; `u32::MAX` if there is none.
+fn steps_to_reflex(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();
     for flat in 0..flats.len() as u32 {
@@ -52,7 +52,7 @@ fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     height
 }
 
-/// The polygons that a patch may grow into next.
+/// The queue of polygons that a growing patch is to try next.
 pub(super) struct Frontier {
     order: Order,
     waiting: VecDeque<u32>,

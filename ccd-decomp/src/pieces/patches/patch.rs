@@ -1,4 +1,4 @@
-//! Finished patches: polytopes with their faces of the mesh.
+//! Finished patches: polytopes whose facets name the faces of the mesh.
 
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
@@ -9,14 +9,14 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Origin, Polytope};
 use std::cmp::Ordering;
 
-/// A convex part of a mesh's surface, and its hull.
+/// A convex part of a mesh's surface, and its convex hull.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// The triangles, as indices into [`TriangleMesh::faces`](crate::TriangleMesh::faces), in ascending
+    /// The triangles of the patch, as indices into [`TriangleMesh::faces`](crate::TriangleMesh::faces), in ascending
     /// order.
     pub faces: Vec<u32>,
-    /// The hull. Its points are vertices of the mesh, with their numbers. Facets name their faces of the mesh; other
-    /// facets are virtual.
+    /// The convex hull of the triangles. Its points are vertices of the mesh, with their numbers. Facets name their
+    /// faces of the mesh; other facets are virtual.
     pub polytope: Polytope,
 }
 
@@ -31,7 +31,7 @@ impl Patch {
         let facets = region.facets(manifold.mesh().vertices());
         let facets = facets
             .iter()
-            .map(|corners| covered(manifold, &members, corners));
+            .map(|corners| covered_facet(manifold, &members, corners));
         let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
         Patch { faces, polytope }
     }
@@ -43,8 +43,8 @@ impl Patch {
     }
 }
 
-/// Returns a facet of a patch's hull with the faces that lie in it.
-fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
+/// Returns a facet of a patch's hull with the numbers of the mesh faces that lie in it.
+fn covered_facet(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> CoveredFacet {
     let at = |v: u32| manifold.point(v);
     let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
     let triangle = [corners[0], corners[1], corners[2]];

@@ -2,7 +2,8 @@ use super::*;
 use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, joined, notched, placed, prism, star, teeth, tetrahedron, turned,
+    block, cubes, merged_meshes, placed, prism, prism_under_prism, reversed_faces, star, teeth,
+    tetrahedron,
 };
 use ccd_core::Origin;
 use ccd_core::glam::DVec3;
@@ -10,7 +11,7 @@ use rstest::rstest;
 
 const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
 
-/// Checks that every triangle is in exactly one patch, and that the facets name their faces.
+/// Checks that every triangle is in exactly one patch, and that the facets name the faces that lie in them.
 fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
     let mut seen = vec![0; mesh.faces().len()];
     for patch in &decomposition.patches {
@@ -66,7 +67,7 @@ fn a_step_is_a_few_patches() {
 fn the_walls_of_a_cavity_are_flat_patches() {
     let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
     let inner = placed(&cubes(&block([1, 1, 1])), 2.0, DVec3::ONE);
-    let hollow = joined(&[&outer, &turned(&inner)]);
+    let hollow = merged_meshes(&[&outer, &reversed_faces(&inner)]);
     for order in ORDERS {
         let decomposition = decompose(&hollow, order).unwrap();
         check(&hollow, &decomposition);
@@ -95,7 +96,7 @@ fn the_same_mesh_gives_the_same_patches() {
     }
 }
 
-/// The number of times that a surface winds about a point, by the solid angles of its triangles.
+/// Returns the winding number of a surface about a point, by the solid angles of its triangles.
 fn winding(mesh: &TriangleMesh, point: DVec3) -> f64 {
     let angle = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| mesh.vertices()[v as usize] - point);
@@ -106,7 +107,7 @@ fn winding(mesh: &TriangleMesh, point: DVec3) -> f64 {
     mesh.faces().iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
 
-/// Points in a piece, spread evenly.
+/// Returns evenly spread points inside a piece, given its corners.
 fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     (1..=200).map(|k| {
         let weight = |corner: usize| {
@@ -120,9 +121,9 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// The number of patches is pinned: more patches for the same solid are a regression.
+/// Tests the exact number of patches of several solids: more patches are a regression.
 #[rstest]
-#[case::notched(notched(12), 2)]
+#[case::prism_under_prism(prism_under_prism(12), 2)]
 #[case::star(star(9, 0.4), 4)]
 #[case::teeth(prism(&teeth(7)), 7)]
 #[case::stairs(cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]), 4)]
@@ -148,7 +149,7 @@ fn patches_are_few_and_within_the_solid(#[case] mesh: TriangleMesh, #[case] coun
     assert!(thick > 3, "{thick}");
 }
 
-/// A patch stops at the maximum number of polygons: the flank of a cone on a disc.
+/// Tests that a patch stops at the maximum number of polygons, on the flank of a cone on a disc.
 #[test]
 fn patches_are_capped() {
     let count = 4 * PATCH_POLYGONS as u32;
@@ -192,7 +193,7 @@ fn patches_are_capped() {
     assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
 }
 
-/// All patches meet in both apices, yet the work is linear in their number.
+/// Tests that the work is linear in the number of patches, all of which meet in two apices.
 #[test]
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
@@ -206,12 +207,13 @@ fn patches_of_slivers_take_linear_work() {
     }
 }
 
-/// The work is bounded for any number of corners of a polygon, and of slivers of a surface.
+/// Tests that the work per face is bounded for any number of corners of a polygon, and of slivers of a surface.
 #[test]
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {
-        for mesh in [prism(&teeth(count)), notched(count)] {
-            let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        for mesh in [prism(&teeth(count)), prism_under_prism(count)] {
+            let manifold =
+                Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
             let work = Work::unbounded();
             let flats = Flats::new(&manifold);
             let found = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();

@@ -1,4 +1,4 @@
-//! The points of each part, whose hulls together cover a solid.
+//! Computes points for each part, such that the hulls of all parts together cover the solid.
 //!
 //! Take the hull of the part of a solid in a box. A corner of it is on the solid's surface, or a corner of the
 //! box: through any other point a straight line continues in the solid and the box both ways. Therefore the
@@ -15,25 +15,25 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use rayon::prelude::*;
 
-/// The content of a voxel.
+/// The relation of a voxel to the solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Content {
-    /// The content is not known yet.
+pub(super) enum VoxelClass {
+    /// The voxel is not classified yet.
     Unknown,
-    /// The cube meets the surface.
+    /// The voxel meets the surface.
     Surface,
-    /// The cube is in the solid.
+    /// The voxel lies inside the solid.
     Full,
-    /// The cube is outside the solid.
+    /// The voxel lies outside the solid.
     Nothing,
 }
 
-/// Returns points of each part whose hull, enlarged by the rounding of cuts, contains the solid within the voxels of
-/// the part.
+/// Returns points for each part. Their hull, enlarged by the rounding of cuts, contains the solid within the voxels
+/// of the part.
 pub(super) fn points_by_part(
     target: &Target<'_>,
     voxels: &Voxels,
-    contents: &[Content],
+    contents: &[VoxelClass],
     mut labels: Vec<u32>,
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
@@ -41,50 +41,50 @@ pub(super) fn points_by_part(
     let near = on_edge(target.farthest_coordinate());
     let triangles: Vec<_> = target.triangles().collect();
     let pieces: Vec<_> = triangles
-        .par_chunks(SHARE)
-        .map(|triangles| pieces(triangles, voxels, &labels, near))
+        .par_chunks(TRIANGLES_PER_TASK)
+        .map(|triangles| cut_triangles(triangles, voxels, &labels, near))
         .collect();
     for (part, point) in pieces.into_iter().flatten() {
         parts[part as usize].push(point);
     }
     for (label, content) in labels.iter_mut().zip(contents) {
-        if *content == Content::Nothing {
+        if *content == VoxelClass::Nothing {
             *label = NO_PART;
         }
     }
     add_corners(target, voxels, contents, &labels, &mut parts);
-    parts.into_par_iter().map(each_once).collect()
+    parts.into_par_iter().map(remove_duplicates).collect()
 }
 
 /// The label of a voxel outside the solid.
 const NO_PART: u32 = u32::MAX;
 
-/// The number of triangles in a task.
-const SHARE: usize = 1024;
+/// The number of triangles in a parallel task.
+const TRIANGLES_PER_TASK: usize = 1024;
 
-/// Computes the content of every cube.
-pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
+/// Classifies every voxel as on the surface, inside or outside.
+pub(super) fn classify_voxels(target: &Target<'_>, voxels: &Voxels) -> Vec<VoxelClass> {
     let triangles: Vec<_> = target.triangles().collect();
     let met = |triangles: &[[DVec3; 3]]| {
         let mut cells = Vec::new();
         for &triangle in triangles {
-            voxels.for_each_met(triangle, |cell| cells.push(cell));
+            voxels.for_each_voxel_met(triangle, |cell| cells.push(cell));
         }
         cells.sort_unstable();
         cells.dedup();
         cells
     };
-    let met: Vec<_> = triangles.par_chunks(SHARE).map(met).collect();
-    let mut contents = vec![Content::Unknown; voxels.len()];
+    let met: Vec<_> = triangles.par_chunks(TRIANGLES_PER_TASK).map(met).collect();
+    let mut contents = vec![VoxelClass::Unknown; voxels.len()];
     for cell in met.into_iter().flatten() {
-        contents[cell] = Content::Surface;
+        contents[cell] = VoxelClass::Surface;
     }
-    fill(target, voxels, &mut contents);
+    classify_remaining(target, voxels, &mut contents);
     contents
 }
 
-/// Cuts some triangles at voxels, and returns the corners with the numbers of their parts.
-fn pieces(
+/// Cuts triangles at the voxels of different parts. Returns the corners of the polygons, each with its part number.
+fn cut_triangles(
     triangles: &[[DVec3; 3]],
     voxels: &Voxels,
     labels: &[u32],
@@ -98,7 +98,7 @@ fn pieces(
         of_one.sort_unstable_by_key(|&(part, _)| part);
         for of_part in of_one.chunk_by(|one, next| one.0 == next.0) {
             let points = of_part.iter().map(|&(_, point)| point).collect();
-            let kept = without_between(points, triangle, near);
+            let kept = remove_between(points, triangle, near);
             all.extend(kept.into_iter().map(|point| (of_part[0].0, point)));
         }
         of_one.clear();
@@ -106,8 +106,8 @@ fn pieces(
     all
 }
 
-/// Removes points that are between two others on an edge of the triangle, up to rounding.
-fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
+/// Removes points on an edge of the triangle that are between two others, up to rounding.
+fn remove_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
     for [from, to] in [[a, b], [b, c], [c, a]] {
         let Some(along) = unit(to - from) else {
             continue;
@@ -122,30 +122,30 @@ fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> 
     points
 }
 
-/// Removes duplicates.
-pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
+/// Removes duplicate points.
+pub(super) fn remove_duplicates(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points.sort_unstable_by(|&p, &q| lexicographic(p, q));
     points.dedup();
     points
 }
 
-/// Classifies the remaining voxels: those connected without meeting the surface are all full or all empty.
-fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
+/// Classifies the voxels that do not meet the surface: connected ones are all inside or all outside.
+fn classify_remaining(target: &Target<'_>, voxels: &Voxels, contents: &mut [VoxelClass]) {
     let mut stack = Vec::new();
     for seed in 0..contents.len() {
-        if contents[seed] != Content::Unknown {
+        if contents[seed] != VoxelClass::Unknown {
             continue;
         }
         let content = if target.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded()) {
-            Content::Full
+            VoxelClass::Full
         } else {
-            Content::Nothing
+            VoxelClass::Nothing
         };
         contents[seed] = content;
         stack.push(seed);
         while let Some(cell) = stack.pop() {
             for next in voxels.neighbours(voxels.cell(cell)) {
-                if contents[next] == Content::Unknown {
+                if contents[next] == VoxelClass::Unknown {
                     contents[next] = content;
                     stack.push(next);
                 }
@@ -154,11 +154,11 @@ fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     }
 }
 
-/// Adds voxel corners in the solid to their parts, except corners inside one part.
+/// Adds the voxel corners in the solid to the parts of the adjacent voxels, except corners inside one part.
 fn add_corners(
     target: &Target<'_>,
     voxels: &Voxels,
-    contents: &[Content],
+    contents: &[VoxelClass],
     labels: &[u32],
     parts: &mut [Vec<DVec3>],
 ) {
@@ -173,7 +173,7 @@ fn add_corners(
                 }
                 let corner = voxels.corner([i, j, k]);
                 let has = |content| around.iter().any(|&cell| contents[cell] == content);
-                let inside = match (has(Content::Full), has(Content::Nothing)) {
+                let inside = match (has(VoxelClass::Full), has(VoxelClass::Nothing)) {
                     (true, _) => true,
                     (_, true) => false,
                     _ => target.winds_about(corner, &Work::unbounded()),
@@ -189,7 +189,7 @@ fn add_corners(
     }
 }
 
-/// Iterates over the voxels, up to eight, at a corner.
+/// Iterates over the voxels around a grid corner, up to eight.
 fn cells_around(voxels: &Voxels, corner: Cell) -> impl Iterator<Item = usize> {
     let counts = voxels.counts();
     (0..8_usize).filter_map(move |k| {

@@ -1,4 +1,4 @@
-//! An upper bound on how far hulls extend beyond a solid, by branch and bound.
+//! Computes an upper bound on how far hulls extend beyond a solid, by branch and bound.
 
 mod part_planes;
 mod under;
@@ -19,8 +19,8 @@ use std::collections::BinaryHeap;
 /// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
 /// [`under`] gives a better bound. Boxes around the parts are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
-pub(super) fn bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
-    let floor = EXCESS_FLOOR * target.reach();
+pub(super) fn excess_bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
+    let floor = EXCESS_FLOOR * target.half_diagonal();
     let parts: Vec<PartPlanes<'_>> = parts
         .iter()
         .map(|part| PartPlanes::new(part, target))
@@ -29,72 +29,72 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
         target,
         parts: &parts,
         taken: 0,
-        found: 0.0,
+        largest_distance: 0.0,
         heap: BinaryHeap::new(),
     };
     for part in 0..parts.len() {
-        search.begin(part);
+        search.examine_part(part);
     }
     while search.split_worst(floor) {}
     let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
-    greater(open, search.found)
+    greater(open, search.largest_distance)
 }
 
-/// The approximate number of corners of a part that are examined.
-const CORNERS: usize = 256;
+/// The approximate number of corners of a part whose distances are computed first.
+const SAMPLED_CORNERS: usize = 256;
 
 /// The number of boxes that are split in parallel.
 const BATCH: usize = 16;
 
-/// The number of planes that cost as much as a triangle.
-const PLANES_A_STEP: usize = 16;
+/// The number of plane tests that cost as much as a triangle test, one step of work.
+const PLANES_PER_STEP: usize = 16;
 
 struct Search<'a> {
     target: &'a Target<'a>,
     parts: &'a [PartPlanes<'a>],
-    /// The number of steps taken.
+    /// The number of steps of work spent.
     taken: u64,
-    /// The largest distance found.
-    found: f64,
-    heap: BinaryHeap<Cell>,
+    /// The largest distance from the solid to a point of a part that was found.
+    largest_distance: f64,
+    heap: BinaryHeap<BoundedBox>,
 }
 
-/// A box, with a bound on the distance from the solid to the part within the box.
+/// A box with an upper bound on the distance from the solid to the part within the box.
 #[derive(Clone, Debug)]
-struct Cell {
+struct BoundedBox {
     bound: f64,
     part: usize,
     bounds: [DVec3; 2],
-    /// The planes of the part that the box is not entirely behind.
+    /// The facet planes of the part that do not have the whole box behind them.
     planes: Vec<u32>,
 }
 
-/// The result of examining a box.
+/// The result of the examination of a box.
 #[derive(Default)]
 struct Examined {
-    /// The distance of the centre, if that is in the part.
+    /// The distance from the solid to the box's centre, if the centre is in the part.
     distance: f64,
-    /// The box; `None` if it cannot exceed the largest known distance.
-    cell: Option<Cell>,
+    /// The examined box; `None` if no point of the part in it exceeds the largest known distance.
+    cell: Option<BoundedBox>,
     taken: u64,
 }
 
 impl Search<'_> {
-    /// Examines some corners of a part, and its bounding box.
-    fn begin(&mut self, number: usize) {
+    /// Examines some corners of a part, then its bounding box.
+    fn examine_part(&mut self, number: usize) {
         let PartPlanes {
             part,
             planes,
             bounds,
             ..
         } = &self.parts[number];
-        let stride = part.points.len().div_ceil(CORNERS);
+        let stride = part.points.len().div_ceil(SAMPLED_CORNERS);
         for &point in part.points.iter().step_by(stride) {
             if let Location::Outside { distance } = self.target.locate(point, &Work::unbounded()) {
-                self.found = greater(self.found, distance);
+                self.largest_distance = greater(self.largest_distance, distance);
             }
         }
-        let whole = Cell {
+        let whole = BoundedBox {
             bound: f64::INFINITY,
             part: number,
             bounds: [bounds.lo, bounds.hi],
@@ -107,8 +107,11 @@ impl Search<'_> {
     /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
     /// found, the work is spent, or too many boxes wait.
     fn split_worst(&mut self, floor: f64) -> bool {
-        let target = greater(EXCESS_RATIO * self.found, self.found + floor);
-        let worst: Vec<Cell> = (0..BATCH)
+        let target = greater(
+            EXCESS_RATIO * self.largest_distance,
+            self.largest_distance + floor,
+        );
+        let worst: Vec<BoundedBox> = (0..BATCH)
             .map_while(|_| {
                 let is_worth_it = self.heap.peek()?.bound > target;
                 is_worth_it.then(|| self.heap.pop()).flatten()
@@ -130,20 +133,20 @@ impl Search<'_> {
 
     fn note(&mut self, examined: Examined) {
         self.taken += examined.taken;
-        self.found = greater(self.found, examined.distance);
+        self.largest_distance = greater(self.largest_distance, examined.distance);
         self.heap.extend(examined.cell);
     }
 
-    /// Examines a box within an examined one.
-    fn examine(&self, within: &Cell, bounds: [DVec3; 2]) -> Examined {
+    /// Computes the bound of the box `bounds`, which lies within the examined box `within`.
+    fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> Examined {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack();
-        work.spend(1 + planes.len() / PLANES_A_STEP);
+        work.spend(1 + planes.len() / PLANES_PER_STEP);
         let mut examined = Examined::default();
-        if let Some(meeting) = part.meets(centre, half, planes) {
+        if let Some(meeting) = part.overlap(centre, half, planes) {
             let near = match target.locate(centre, work) {
                 Location::Inside { depth } => reach - depth,
                 Location::Outside { distance } => {
@@ -155,13 +158,13 @@ impl Search<'_> {
             };
             let planes = meeting.planes;
             let above = planes.iter().map(|&k| part.planes[k as usize]);
-            let under = || under::excess(target, above, [centre, half], work);
-            let is_known = |bound: f64| bound <= self.found;
+            let under = || under::excess_above_surface(target, above, [centre, half], work);
+            let is_known = |bound: f64| bound <= self.largest_distance;
             let mut bound = lesser(near, within.bound);
             if !is_known(bound) {
                 bound = under().map_or(bound, |under| lesser(under, bound));
             }
-            examined.cell = (!is_known(bound)).then_some(Cell {
+            examined.cell = (!is_known(bound)).then_some(BoundedBox {
                 bound,
                 part: within.part,
                 bounds,
@@ -173,7 +176,7 @@ impl Search<'_> {
     }
 }
 
-/// Splits a box into eight at its middle.
+/// Splits a box into eight at its centre.
 fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
     let middle = (lo + hi) / 2.0;
     std::array::from_fn(|k| {
@@ -185,9 +188,9 @@ fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
     })
 }
 
-impl Ord for Cell {
+impl Ord for BoundedBox {
     fn cmp(&self, other: &Self) -> Ordering {
-        let place = |cell: &Cell| cell.bounds[0].to_array();
+        let place = |cell: &BoundedBox| cell.bounds[0].to_array();
         let ties = || {
             let (p, q) = (place(self), place(other));
             let along = |axis: usize| p[axis].total_cmp(&q[axis]);
@@ -200,16 +203,16 @@ impl Ord for Cell {
     }
 }
 
-impl PartialOrd for Cell {
+impl PartialOrd for BoundedBox {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Cell {
+impl PartialEq for BoundedBox {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Cell {}
+impl Eq for BoundedBox {}

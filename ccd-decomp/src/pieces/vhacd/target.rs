@@ -1,4 +1,4 @@
-//! The target of an approximation, with distance queries.
+//! The solid or surface to approximate, with distance queries.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{side, turn_along};
@@ -15,7 +15,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::Triangle;
 use std::cmp::Ordering;
 
-/// The solid to approximate, or the surface if the mesh is open.
+/// The solid to approximate, or the surface if the mesh is open; with data for distance queries.
 pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: BoxTree,
@@ -24,7 +24,7 @@ pub(super) struct Target<'a> {
     bounds: [DVec3; 2],
 }
 
-/// The location of a point relative to the target.
+/// The location of a point relative to the solid or surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Location {
     /// The point is in the solid, at least `depth` below the surface.
@@ -62,12 +62,12 @@ impl<'a> Target<'a> {
         self.closed
     }
 
-    /// Returns 1 if the normals point out of the solid, −1 if they point into it.
+    /// Returns 1 if the mesh's normals point out of the solid, −1 if they point into it.
     pub(super) fn orientation(&self) -> f64 {
         if self.inside_out { -1.0 } else { 1.0 }
     }
 
-    /// Returns the triangles whose boxes meet a box; `None` if there are more than `most`.
+    /// Returns the triangles whose bounding boxes meet a box; `None` if there are more than `most`.
     pub(super) fn triangles_in(
         &self,
         [lo, hi]: [DVec3; 2],
@@ -82,13 +82,13 @@ impl<'a> Target<'a> {
         all.then_some(found)
     }
 
-    /// Returns the bounding box.
+    /// Returns the lower and the upper corner of the mesh's bounding box.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
         self.bounds
     }
 
-    /// Returns half the diagonal of the bounding box.
-    pub(super) fn reach(&self) -> f64 {
+    /// Returns half the diagonal of the mesh's bounding box.
+    pub(super) fn half_diagonal(&self) -> f64 {
         (self.bounds[1] - self.bounds[0]).length() / 2.0
     }
 
@@ -97,14 +97,14 @@ impl<'a> Target<'a> {
         lo.abs().max(hi.abs()).max_element()
     }
 
-    /// Returns a bound on the rounding error of distances.
+    /// Returns a bound on the rounding error of distances to the mesh.
     pub(super) fn slack(&self) -> f64 {
-        NEAREST_SLACK * self.reach()
+        NEAREST_SLACK * self.half_diagonal()
     }
 
-    /// Locates a point.
+    /// Computes the location of a point relative to the target.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
-        let (found, reached) = self.nearest(point, work);
+        let (found, reached) = self.distance_bounds(point, work);
         if self.winds_about(point, work) {
             Location::Inside {
                 depth: greater(0.0, lesser(found, reached) - self.slack()),
@@ -116,9 +116,10 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Returns a lower bound of the distance to the surface, up to the slack, and the distance to a point that is
-    /// certainly on a triangle: the library's projection with clamped weights, which may be wrong for needles.
-    fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
+    /// Returns bounds of the distance from a point to the surface. The first is a lower bound up to the slack. The
+    /// second is the distance to a point that is certainly on a triangle: the library's projection with clamped
+    /// weights, which may be wrong for needles.
+    fn distance_bounds(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = vector(point);
         let project = |corners: [DVec3; 3]| {
             let [a, b, c] = corners.map(vector);
@@ -154,8 +155,8 @@ impl<'a> Target<'a> {
         (if found.is_nan() { 0.0 } else { found }, far(reached))
     }
 
-    /// Returns whether the mesh winds about a point, by exact predicates. A point on the surface counts as a point next
-    /// to it. An open mesh winds about no point.
+    /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the
+    /// surface counts as a point next to it. An open mesh winds about no point.
     pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
         if !self.closed {
             return false;
@@ -171,7 +172,7 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Returns a lower bound of the distance of a point from a needle: the distance from its longest side, less its height.
+/// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.
 /// Returns `None` for other triangles.
 fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     let longer = |one: &(DVec3, DVec3, DVec3), other: &(DVec3, DVec3, DVec3)| {
@@ -191,7 +192,8 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     })
 }
 
-/// Returns how a ray from a point along z crosses a triangle: 1 to the front, −1 to the back, 0 if it misses.
+/// Returns how the ray from a point along z crosses a triangle: 1 from back to front, −1 from front to back, 0 if it
+/// misses.
 ///
 /// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
 /// triangles at an edge.

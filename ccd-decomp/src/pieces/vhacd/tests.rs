@@ -66,8 +66,8 @@ fn torus(around: u32, across: u32, thickness: f64) -> TriangleMesh {
     mesh(&points, &faces.collect::<Vec<_>>())
 }
 
-/// An L of size two by two with legs of width one, and height 1.
-fn angle() -> TriangleMesh {
+/// Returns an L of size two by two and height 1, with legs of width 1.
+fn l_shape() -> TriangleMesh {
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
     prism(&outline.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0)))
 }
@@ -86,7 +86,7 @@ fn sheet() -> TriangleMesh {
     )
 }
 
-/// Pseudo-random numbers in 0..1 by a linear congruence.
+/// Returns a generator of pseudo-random numbers in 0..1, by a linear congruence.
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -97,8 +97,8 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// Returns a point of the hull of some points.
-fn mix(points: &[DVec3], mut next: impl FnMut() -> f64) -> DVec3 {
+/// Returns a random convex combination of some points.
+fn random_combination(points: &[DVec3], mut next: impl FnMut() -> f64) -> DVec3 {
     let weights: Vec<f64> = points.iter().map(|_| -(1.0 - next()).ln()).collect();
     let sum: f64 = weights.iter().sum();
     points.iter().zip(weights).map(|(&p, w)| w / sum * p).sum()
@@ -111,8 +111,8 @@ fn triangles(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// Returns whether a mesh winds about a point, by the solid angles of its triangles.
-fn is_seen_around(mesh: &TriangleMesh, point: DVec3) -> bool {
+/// Returns whether the winding number of a mesh about a point is not 0, by the solid angles of its triangles.
+fn has_winding(mesh: &TriangleMesh, point: DVec3) -> bool {
     let angle = |t: [DVec3; 3]| {
         let [a, b, c] = t.map(|p| p - point);
         let (la, lb, lc) = (a.length(), b.length(), c.length());
@@ -144,7 +144,7 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Returns whether a point is in a polytope, or at most `way` from it.
+/// Returns whether a point is in a polytope, or at most the distance `way` from it.
 fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     let at = |v: u32| polytope.points[v as usize];
     let fan = |f: &Facet| -> Vec<_> {
@@ -165,7 +165,7 @@ fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdE
 }
 
 #[rstest]
-#[case::prism(angle(), 4)]
+#[case::prism(l_shape(), 4)]
 #[case::star(crate::test_meshes::star(300, 0.5), 16)]
 #[case::comb(crate::test_meshes::comb(&[5.0; 40]), 8)]
 #[case::torus(torus(24, 12, 0.3), 8)]
@@ -188,11 +188,16 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     let [lo, hi] = Target::new(&mesh, &Topology::of(&mesh)).bounds();
     let mut samples: Vec<DVec3> = triangles(&mesh)
         .iter()
-        .flat_map(|t| [mix(t, &mut next), mix(t, &mut next)])
+        .flat_map(|t| {
+            [
+                random_combination(t, &mut next),
+                random_combination(t, &mut next),
+            ]
+        })
         .collect();
     let in_box = (0..2000).map(|_| lo + (hi - lo) * DVec3::new(next(), next(), next()));
     let in_box: Vec<DVec3> = in_box
-        .filter(|&p| closed && is_seen_around(&mesh, p))
+        .filter(|&p| closed && has_winding(&mesh, p))
         .collect();
     samples.extend(in_box);
     for point in samples {
@@ -201,9 +206,11 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     }
     let mut farthest = 0.0_f64;
     for polytope in &found.polytopes {
-        let mixed: Vec<DVec3> = (0..60).map(|_| mix(&polytope.points, &mut next)).collect();
+        let mixed: Vec<DVec3> = (0..60)
+            .map(|_| random_combination(&polytope.points, &mut next))
+            .collect();
         for &point in polytope.points.iter().chain(&mixed) {
-            if !(closed && is_seen_around(&mesh, point)) {
+            if !(closed && has_winding(&mesh, point)) {
                 farthest = greater(farthest, distance(&triangles(&mesh), point));
             }
         }
@@ -225,12 +232,12 @@ fn far_off() -> TriangleMesh {
     mesh(&moved, torus.faces())
 }
 
-/// One hull fills the hole of a torus, whose farthest points are at its two mouths; a cavity is filled, whose farthest
-/// point is its centre.
+/// Tests the reported excess of a single hull. It fills the hole of a torus, whose farthest points are at the two
+/// mouths, or a cavity, whose farthest point is its centre.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
 #[case::cavity(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
-#[case::prism(angle(), 0.5)]
+#[case::prism(l_shape(), 0.5)]
 fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
     let found = approximated(&mesh, 1).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
@@ -297,9 +304,9 @@ fn refusals() {
     );
 }
 
-/// Lattice points are in line with edges and corners of these meshes.
+/// Tests the locations of lattice points, which are in line with edges and corners of the meshes.
 #[rstest]
-#[case::prism(angle())]
+#[case::prism(l_shape())]
 #[case::torus(torus(8, 4, 0.5))]
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
@@ -313,7 +320,7 @@ fn places(#[case] mesh: TriangleMesh) {
         }
         assert_eq!(
             target.winds_about(point, &Work::unbounded()),
-            is_seen_around(&mesh, point),
+            has_winding(&mesh, point),
             "{point}"
         );
         match target.locate(point, &Work::unbounded()) {
@@ -323,7 +330,7 @@ fn places(#[case] mesh: TriangleMesh) {
     }
 }
 
-/// A convex solid is one hull, for any aspect of triangles and any number of hulls.
+/// Tests that a convex solid becomes one hull, for any aspect of triangles and any number of hulls.
 #[test]
 fn a_convex_solid_is_one_hull() {
     let cones = crate::test_meshes::star(400, 1.0);

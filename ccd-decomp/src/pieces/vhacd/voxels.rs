@@ -1,33 +1,33 @@
-//! The voxel grid of a mesh.
+//! The voxel grid of a mesh, and cuts of triangles at voxels.
 
 use super::target::Target;
-use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
+use crate::tolerance::{self, MAX_VOXEL_TESTS, voxel_resolution};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
-/// A grid of voxels between planes at stored coordinates, so that neighbours share planes exactly.
+/// A voxel grid. Its planes are at stored coordinates, so that adjacent voxels share planes exactly.
 pub(super) struct Voxels {
     planes: [Vec<f64>; 3],
     /// The lower corner of the mesh, which is the centre of the first voxel.
     origin: DVec3,
-    /// The size of a voxel.
+    /// The side length of a voxel.
     step: f64,
     resolution: u32,
     /// The margin by which voxels are widened for cuts, so that rounding loses nothing.
     margin: f64,
 }
 
-/// A voxel, by its index along each axis.
+/// The indices of a voxel along each axis.
 pub(super) type Cell = [usize; 3];
 
 impl Voxels {
-    /// Creates the grid for a number of hulls, coarser if large triangles meet too many voxels; `None` if coordinates
-    /// are too coarse for any grid.
+    /// Creates the grid for a number of hulls. It is coarser if large triangles meet too many voxels; `None` if
+    /// coordinates are too coarse for any grid.
     pub(super) fn new(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
-        while resolution >= tolerance::LEAST_RESOLUTION {
+        while resolution >= tolerance::MIN_RESOLUTION {
             let voxels = Voxels::with_resolution(target, resolution)?;
             if voxels.is_affordable(target) {
                 return Some(voxels);
@@ -42,7 +42,7 @@ impl Voxels {
         let step = (hi - lo).max_element() / f64::from(resolution - 1);
         let margin = tolerance::clip_rounding(target.farthest_coordinate());
         // Written so that NaN fails.
-        if !(step > tolerance::COARSE_VOXELS * margin) {
+        if !(step > tolerance::MIN_VOXEL_SIZE * margin) {
             return None;
         }
         let planes = [0, 1, 2].map(|axis| {
@@ -60,16 +60,21 @@ impl Voxels {
     }
 
     fn is_affordable(&self, target: &Target<'_>) -> bool {
-        let boxed = |t| self.ranges(t).map(|r| r.count()).iter().product::<usize>();
-        target.triangles().map(boxed).sum::<usize>() <= VOXELS_TESTED
+        let boxed = |t| {
+            self.voxel_ranges(t)
+                .map(|r| r.count())
+                .iter()
+                .product::<usize>()
+        };
+        target.triangles().map(boxed).sum::<usize>() <= MAX_VOXEL_TESTS
     }
 
     pub(super) fn resolution(&self) -> u32 {
         self.resolution
     }
 
-    /// Converts a point to grid units: 0 is the centre of the first voxel.
-    pub(super) fn in_steps(&self, point: DVec3) -> DVec3 {
+    /// Converts a point to grid units. The origin is the centre of the first voxel.
+    pub(super) fn in_grid_units(&self, point: DVec3) -> DVec3 {
         (point - self.origin) / self.step
     }
 
@@ -91,7 +96,7 @@ impl Voxels {
         [index / z / y, index / z % y, index % z]
     }
 
-    /// Iterates over the voxels that share a face with one.
+    /// Iterates over the voxels that share a face with the voxel `cell`.
     pub(super) fn neighbours(&self, cell: Cell) -> impl Iterator<Item = usize> {
         let counts = self.counts();
         (0..6).filter_map(move |k| {
@@ -104,13 +109,13 @@ impl Voxels {
         })
     }
 
-    /// Returns the intersection of three planes.
+    /// Returns the intersection point of three grid planes, by their indices.
     pub(super) fn corner(&self, [i, j, k]: Cell) -> DVec3 {
         DVec3::new(self.planes[0][i], self.planes[1][j], self.planes[2][k])
     }
 
-    /// Returns the range of voxels that the box of a triangle may meet, slightly widened.
-    fn ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
+    /// Returns the range of voxels along each axis that a triangle's bounding box may meet, slightly widened.
+    fn voxel_ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
         let counts = self.counts();
         [0, 1, 2].map(|axis| {
             let place = |p: DVec3| (p[axis] - self.origin[axis]) / self.step + 0.5;
@@ -123,16 +128,16 @@ impl Voxels {
         })
     }
 
-    /// Calls `visit` for every voxel that a triangle meets.
-    pub(super) fn for_each_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
-        let [xs, ys, zs] = self.ranges(triangle);
+    /// Calls `visit` with the index of every voxel that a triangle meets.
+    pub(super) fn for_each_voxel_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
+        let [xs, ys, zs] = self.voxel_ranges(triangle);
         let (mut slab, mut beam, mut part) = (Vec::new(), Vec::new(), Vec::new());
         for i in xs {
-            self.cut(&triangle, 0, i..=i, &mut slab);
+            self.clip_to_layers(&triangle, 0, i..=i, &mut slab);
             for j in ys.clone() {
-                self.cut(&slab, 1, j..=j, &mut beam);
+                self.clip_to_layers(&slab, 1, j..=j, &mut beam);
                 for k in zs.clone() {
-                    self.cut(&beam, 2, k..=k, &mut part);
+                    self.clip_to_layers(&beam, 2, k..=k, &mut part);
                     if !part.is_empty() {
                         visit(self.index([i, j, k]));
                     }
@@ -141,8 +146,8 @@ impl Voxels {
         }
     }
 
-    /// Cuts a triangle where labels change, and calls `visit` with each label and a polygon whose hull, enlarged by the
-    /// margin, contains the triangle within its voxels.
+    /// Cuts a triangle where part labels change. Calls `visit` with each label and a polygon, whose hull, enlarged by
+    /// the margin, contains the triangle within the label's voxels.
     ///
     /// Cuts make corners that are nearly collinear. Blocks of voxels are therefore halved only while their labels
     /// differ.
@@ -152,7 +157,7 @@ impl Voxels {
         labels: &[u32],
         mut visit: impl FnMut(u32, &[DVec3]),
     ) {
-        let mut stack = vec![(self.ranges(triangle), triangle.to_vec())];
+        let mut stack = vec![(self.voxel_ranges(triangle), triangle.to_vec())];
         // Terminates: blocks are halved, and a single voxel has one label.
         while let Some((block, polygon)) = stack.pop() {
             if polygon.is_empty() {
@@ -177,7 +182,7 @@ impl Voxels {
             let middle = start + (end - start) / 2;
             for half in [middle + 1..=end, start..=middle] {
                 let (mut piece, mut block) = (Vec::new(), block.clone());
-                self.cut(&polygon, axis, half.clone(), &mut piece);
+                self.clip_to_layers(&polygon, axis, half.clone(), &mut piece);
                 block[axis] = half;
                 stack.push((block, piece));
             }
@@ -185,7 +190,7 @@ impl Voxels {
     }
 
     /// Clips a polygon to some layers of voxels, widened by the margin.
-    fn cut(
+    fn clip_to_layers(
         &self,
         polygon: &[DVec3],
         axis: usize,
@@ -196,24 +201,24 @@ impl Voxels {
         let lo = planes[*layers.start()] - self.margin;
         let hi = planes[*layers.end() + 1] + self.margin;
         let mut above = Vec::with_capacity(polygon.len() + 1);
-        cut_at(polygon, axis, |x| x >= lo, lo, &mut above);
-        cut_at(&above, axis, |x| x <= hi, hi, part);
+        clip_to_half_space(polygon, axis, |x| x >= lo, lo, &mut above);
+        clip_to_half_space(&above, axis, |x| x <= hi, hi, part);
     }
 }
 
 /// Clips a triangle to a box.
-pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
+pub(super) fn clip_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
     let mut rest = Vec::new();
     part.clear();
     part.extend(triangle);
     for axis in 0..3 {
-        cut_at(part, axis, |x| x >= lo[axis], lo[axis], &mut rest);
-        cut_at(&rest, axis, |x| x <= hi[axis], hi[axis], part);
+        clip_to_half_space(part, axis, |x| x >= lo[axis], lo[axis], &mut rest);
+        clip_to_half_space(&rest, axis, |x| x <= hi[axis], hi[axis], part);
     }
 }
 
 /// Clips a convex polygon to one side of a plane (Sutherland and Hodgman).
-fn cut_at(
+fn clip_to_half_space(
     polygon: &[DVec3],
     axis: usize,
     keeps: impl Fn(f64) -> bool,

@@ -1,7 +1,7 @@
 use super::*;
 use crate::solid::bounding_solid;
 use crate::solid::manifold::Dihedral;
-use crate::test_meshes::{block, cubes, joined, placed, tetrahedron};
+use crate::test_meshes::{block, cubes, merged_meshes, placed, tetrahedron};
 use ccd_core::glam::DVec3;
 
 fn why(mesh: &TriangleMesh) -> Why {
@@ -21,7 +21,8 @@ fn convex_solids_are_hulls() {
     assert_eq!(why(&cubes(&block([3, 3, 3]))), Why::Convex);
 }
 
-/// Large planar parts become patches if they have many triangles, and stay triangles if few.
+/// Tests that a solid with large planar parts becomes patches if these have many triangles, and stays triangles if
+/// they have few.
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
@@ -45,14 +46,14 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = bounding_solid(&mesh).unwrap();
-    let plane = Merger::merged(&manifold).largest_plane();
+    let plane = RegionMerger::merged(&manifold).largest_planar_region();
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
 }
 
-/// The largest planar part by a walk over polygons.
-fn largest_slowly(manifold: &Manifold<'_>) -> PlanarRegion {
-    let flats = Merger::merged(manifold).finish();
+/// Returns the largest planar part, by a walk over adjacent coplanar polygons.
+fn largest_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
+    let flats = RegionMerger::merged(manifold).into_flats();
     let mut seen = vec![false; flats.len()];
     let mut largest = PlanarRegion::default();
     for seed in 0..flats.len() as u32 {
@@ -88,15 +89,15 @@ fn the_largest_plane_is_that_of_a_walk() {
     ];
     for mesh in &solids {
         let manifold = bounding_solid(mesh).unwrap();
-        let plane = Merger::merged(&manifold).largest_plane();
-        assert_eq!(plane, largest_slowly(&manifold));
+        let plane = RegionMerger::merged(&manifold).largest_planar_region();
+        assert_eq!(plane, largest_by_walk(&manifold));
     }
 }
 
 #[test]
 fn meshes_without_a_solid_stay_triangles() {
     let one = tetrahedron();
-    let pierced = joined(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
+    let pierced = merged_meshes(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
     assert!(matches!(
         why(&pierced),
         Why::TrianglesFaster(_) | Why::NothingElse(_)
@@ -120,7 +121,7 @@ fn slow_decompositions_stay_triangles() {
     }
 }
 
-/// Meshes whose edges pair up, but that bound no solid: merging must end.
+/// Tests that merging ends for meshes whose edges pair up, but that bound no solid.
 #[test]
 fn folded_meshes_stay_triangles() {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
@@ -131,8 +132,8 @@ fn folded_meshes_stay_triangles() {
     for mesh in [
         &flat,
         &two,
-        &joined(&[&solid, &flat]),
-        &joined(&[&solid, &two]),
+        &merged_meshes(&[&solid, &flat]),
+        &merged_meshes(&[&solid, &two]),
     ] {
         assert!(matches!(
             why(mesh),

@@ -1,4 +1,4 @@
-//! Box tests against exact fractions, in the worst cases that a search finds.
+//! Compares box tests with exact fractions, in the worst cases that a search finds.
 
 use super::{Extent, OrientedBox};
 use crate::rational::{Exact3, exact};
@@ -10,7 +10,7 @@ use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use dashu_ratio::Relaxed;
 
-/// A box about a triangle, and three points; all far from the origin, or not.
+/// Draws a box around a triangle, and three points; all may be far from the origin.
 fn setting(tape: &mut Tape) -> (OrientedBox, [DVec3; 3]) {
     let scale = tape.size(-300..=39);
     let middle = DVec3::from(tape.vector(-8..=0));
@@ -21,10 +21,10 @@ fn setting(tape: &mut Tape) -> (OrientedBox, [DVec3; 3]) {
         face: 0,
     };
     let points = [point(), point(), point()];
-    (OrientedBox::about(&[element]), points)
+    (OrientedBox::around(&[element]), points)
 }
 
-/// The exact extent of a box along a direction from its centre.
+/// Returns the exact extent of a box along a direction, from its centre.
 fn reach(of: &OrientedBox, direction: DVec3) -> Relaxed {
     let along = Exact3::of(direction);
     let absolute = |x: Relaxed| if x < Relaxed::ZERO { -x } else { x };
@@ -35,7 +35,7 @@ fn reach(of: &OrientedBox, direction: DVec3) -> Relaxed {
     axes.fold(slack, |sum, x| sum + x)
 }
 
-/// The error of the separation of a shape and the box along a direction.
+/// Searches for the largest error of the interval test between a shape and a box.
 #[test]
 fn worst_extent() {
     let found = Worst::of("box_rounding, an extent", 10_000).search(|tape| {
@@ -44,7 +44,7 @@ fn worst_extent() {
         let extent = Extent::along(&points, direction);
         // The same as `Extent::misses`.
         let along = extent.direction.dot(of.centre - extent.base);
-        let apart = along - of.depth(extent.direction) - extent.hi;
+        let apart = along - of.support(extent.direction) - extent.hi;
         let exactly = Exact3::of(direction);
         let ahead = |p: &DVec3| exactly.dot(&Exact3::of(of.centre).minus(&Exact3::of(*p)));
         let least = points
@@ -59,7 +59,7 @@ fn worst_extent() {
     found.is_within(200.0);
 }
 
-/// A point beside a box, along an axis of the box.
+/// Searches for the largest error of the test that separates a point from a box along an axis of the box.
 #[test]
 fn worst_beside() {
     let found = Worst::of("box_rounding, beside a box", 10_000).search(|tape| {

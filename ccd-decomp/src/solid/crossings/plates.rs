@@ -1,4 +1,4 @@
-//! Plates: convex polygons of many slivers, whose triangles are tested only if another face enters the polygon.
+//! Plates: convex polygons of many slivers. Their triangles are tested only if another face enters the polygon.
 
 use crate::bounds::{Bounds, BoundsTree};
 use crate::exact::predicates::{Projection, side};
@@ -18,9 +18,9 @@ use std::cmp::Ordering;
 pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
-    /// The plate of every face, or [`NONE`].
+    /// By face, its plate, or [`NONE`].
     plate_of: Vec<u32>,
-    /// The boxes of the plates.
+    /// The axis-aligned boxes of the plates.
     bounds: BoundsTree,
     /// The faces outside all plates.
     rest: Group,
@@ -28,15 +28,15 @@ pub(super) struct Plates<'a, 'm> {
 
 const NONE: u32 = u32::MAX;
 
-/// A convex polygon: triangles, plane, and rim.
+/// A convex polygon of a mesh: its triangles, plane, and boundary.
 struct Plate {
     faces: Vec<u32>,
     plane: [DVec3; 3],
     projection: Projection,
-    /// The vertices of the rim with their neighbours on it, in ascending order.
+    /// The boundary vertices, in ascending order, each with its neighbours on the boundary.
     rim: Vec<RimVertex>,
     bounds: Bounds,
-    /// The boxes of the triangles, created on demand.
+    /// The search trees over the polygon's triangles, created on demand.
     group: OnceCell<Group>,
 }
 
@@ -47,18 +47,18 @@ struct RimVertex {
     after: u32,
 }
 
-/// Faces with their boxes.
+/// Some faces of a mesh, with search trees over them.
 struct Group {
     faces: Vec<u32>,
     boxes: TriangleBoxes,
 }
 
-/// The approximate number of predicates that separate a face from a polygon.
-const BESIDE: usize = 4;
+/// The approximate number of exact predicates that separate a face from a polygon.
+const STEPS_PER_PLATE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
-    /// Finds the plates; `None` if no polygon has a large fan, so that the boxes of all triangles suffice. O(n log n),
-    /// the time of [`Flats::new`].
+    /// Finds the plates of a surface; `None` if no polygon has a large fan, so that the boxes of all triangles
+    /// suffice. O(n log n), the time of [`Flats::new`].
     pub(super) fn find(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
@@ -96,8 +96,8 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Calls `holds` for the faces that may intersect a face, until it returns false or the work is spent. Each pair is
-    /// reported for at least one of its faces: faces of lower number may be omitted.
+    /// Calls `holds` for the faces that may intersect a face, until it returns false or the work is spent. Each pair
+    /// is reported for at least one of its faces: faces of lower number may be omitted.
     pub(super) fn all_meeting(
         &self,
         face: u32,
@@ -118,10 +118,10 @@ impl<'a, 'm> Plates<'a, 'm> {
             if number == own {
                 return true;
             }
-            if !work.spend(BESIDE) {
+            if !work.spend(STEPS_PER_PLATE) {
                 return false;
             }
-            if self.is_beside(face, number) {
+            if self.is_separated_from_plate(face, number) {
                 return true;
             }
             let plate = &self.plates[number as usize];
@@ -136,11 +136,11 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Returns whether a face shares at most a common corner or edge of the rim with a plate.
+    /// Returns whether a face and a plate share at most a corner or an edge of the plate's boundary.
     ///
     /// The part of the face in the plate's plane is then outside the plate's box, or beyond a line along the rim with
     /// only a shared corner or edge on that line.
-    fn is_beside(&self, face: u32, number: u32) -> bool {
+    fn is_separated_from_plate(&self, face: u32, number: u32) -> bool {
         let plate = &self.plates[number as usize];
         let (corners, points) = (
             self.manifold.faces()[face as usize],
@@ -178,7 +178,7 @@ impl<'a, 'm> Plates<'a, 'm> {
     }
 }
 
-/// Returns whether many of these faces share a vertex.
+/// Returns whether many of these faces have a common vertex.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     if faces.len() < FAN_TRIANGLES as usize {
         return false;
@@ -211,7 +211,7 @@ impl Plate {
         })
     }
 
-    /// Returns a rim vertex with its neighbours; `None` if the vertex is not on the rim.
+    /// Returns a boundary vertex with its neighbours; `None` if the vertex is not on the boundary.
     fn rim_vertex(&self, vertex: u32) -> Option<RimVertex> {
         let found = self
             .rim
@@ -221,7 +221,7 @@ impl Plate {
 }
 
 impl Group {
-    /// O(n log n) in the number of these faces.
+    /// Builds the search trees in O(n log n) in the number of faces.
     fn new(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
         let corners = faces.iter().map(|&f| manifold.faces()[f as usize]);
         let mut vertices: Vec<u32> = corners.clone().flatten().collect();

@@ -4,8 +4,10 @@ use crate::solid::error::DecomposeError;
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
 use crate::solid::{bounding_solid, check_solid};
-use crate::test_meshes::{comb, cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
-use crate::tolerance::CROSSINGS;
+use crate::test_meshes::{
+    comb, cubes, merged_meshes, mesh, placed, prism, prism_under_prism, teeth, tetrahedron,
+};
+use crate::tolerance::MAX_CROSSINGS;
 use crate::work::Work;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use proptest::prelude::*;
@@ -13,10 +15,10 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
-/// Returns whether two tetrahedra are reported to meet.
+/// Returns whether a tetrahedron and its copy moved by `offset` are reported to intersect.
 fn meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
-    let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);
+    let both = merged_meshes(&[&solid, &placed(&solid, 1.0, offset)]);
     match bounding_solid(&both).map(|_| ()) {
         Ok(()) => false,
         Err(DecomposeError::SelfIntersecting { pairs }) => {
@@ -42,20 +44,20 @@ fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
     assert_eq!(meet(offset), expected);
 }
 
-/// Two tetrahedra that share only a corner do not intersect.
+/// Tests that two tetrahedra that share only a corner do not intersect.
 #[test]
 fn a_shared_corner_is_no_intersection() {
     assert!(!meet(DVec3::X));
     let solid = tetrahedron();
     let inside = placed(&solid, 0.5, DVec3::ZERO);
-    let nested = joined(&[&solid, &inside]);
+    let nested = merged_meshes(&[&solid, &inside]);
     assert!(matches!(
         bounding_solid(&nested).err(),
         Some(DecomposeError::SelfIntersecting { .. } | DecomposeError::NotManifold { .. })
     ));
 }
 
-/// A thin fin folded flat onto itself.
+/// Tests that a thin fin folded flat onto itself is reported as an intersection.
 #[test]
 fn a_fold_is_found() {
     let vertices = vec![
@@ -97,7 +99,7 @@ fn stairs_do_not_meet_themselves() {
     assert!(bounding_solid(&stairs).is_ok());
 }
 
-/// The work grows with the number of triangles, not with the square of those about one vertex.
+/// Tests that the work grows with the number of triangles, not with the square of those about one vertex.
 #[test]
 fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     for corners in [50, 500, 5_000] {
@@ -106,16 +108,16 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
             dvec3(angle.cos(), angle.sin(), 0.0)
         };
         let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
-        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
         let work = Work::with_steps(100 * mesh.faces().len() as u64);
         assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
     }
 }
 
-/// The steps of work that checking a mesh takes, per face.
+/// Returns the steps of work per face that checking a mesh takes.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
-    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
+    let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
     let too_few = Work::with_steps(100);
     assert_eq!(
@@ -127,20 +129,20 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     work.taken() / mesh.faces().len() as u64
 }
 
-/// A solid of slivers that is not star-shaped: each sliver is near a few others.
+/// Tests the work for a solid of slivers that is not star-shaped. Each sliver is near a few others.
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
         let leaning = steps_per_face(&prism(&teeth(count)));
-        let step = steps_per_face(&notched(count));
+        let step = steps_per_face(&prism_under_prism(count));
         let upright = steps_per_face(&comb(&vec![5.0; count as usize]));
         let steps = [leaning, step, upright];
         assert!(steps.iter().all(|&steps| steps < 400), "{count}: {steps:?}");
     }
 }
 
-/// Prisms over outlines on a grid, so that corners coincide and edges lie in lines, and over rough
-/// circles; large enough for fans.
+/// Returns a prism over an outline, on a grid, so that corners coincide and edges lie in lines, or over a rough
+/// circle. It is large enough for fans.
 fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
         let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;
@@ -157,7 +159,7 @@ fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     mesh(turned.collect(), flat.faces())
 }
 
-/// The pairs are those of a test of every pair.
+/// Tests that the reported intersections are those of a test of every pair of faces.
 #[test]
 fn crossings_are_those_of_all_pairs() {
     let radii = |n| prop::collection::vec((1..=3_i32, 0.9..1.1_f64), n);
@@ -171,7 +173,7 @@ fn crossings_are_those_of_all_pairs() {
     for _ in 0..150 {
         let (radii, on_grid, turn) = given.new_tree(&mut runner).unwrap().current();
         let mesh = rough_prism(&radii, on_grid, turn);
-        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
         let faces = 0..mesh.faces().len() as u32;
@@ -179,13 +181,13 @@ fn crossings_are_those_of_all_pairs() {
             .clone()
             .flat_map(|f| faces.clone().map(move |g| (f, g)));
         let all: Vec<_> = pairs
-            .filter(|&(f, g)| f < g && super::cross(&manifold, f, g))
+            .filter(|&(f, g)| f < g && super::faces_cross(&manifold, f, g))
             .collect();
         let found = super::crossings(&manifold, &Work::unbounded()).unwrap();
-        if all.len() < CROSSINGS {
+        if all.len() < MAX_CROSSINGS {
             assert_eq!(found, all);
         } else {
-            assert_eq!(found.len(), CROSSINGS);
+            assert_eq!(found.len(), MAX_CROSSINGS);
         }
         whole += u32::from(all.is_empty());
         crossed += u32::from(!all.is_empty());
@@ -205,5 +207,5 @@ fn crossings_are_counted_up_to_a_thousand() {
     let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&mesh).map(|_| ()) else {
         panic!("overlapping fans");
     };
-    assert_eq!(pairs.count(), CROSSINGS);
+    assert_eq!(pairs.count(), MAX_CROSSINGS);
 }

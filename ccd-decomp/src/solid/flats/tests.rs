@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::topology::Topology;
 use crate::solid::{bounding_solid, check_solid};
-use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron};
+use crate::test_meshes::{block, cubes, merged_meshes, mesh, placed, tetrahedron};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -57,7 +57,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
     assert!((16..=24).contains(&flats.len()), "{}", flats.len());
 }
 
-/// Merges rows first, then rectangles, in any order of the faces.
+/// Tests that a grid merges to rows first, then to rectangles, in any order of the faces.
 #[test]
 fn a_grid_with_a_hole_is_a_few_rectangles() {
     let cells = block([9, 9, 1]).into_iter().filter(|c| *c != [4, 5, 0]);
@@ -78,7 +78,8 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
     }
 }
 
-/// Nothing is merged over a fold: triangles back to back, or a flat tetrahedron, each next to a solid.
+/// Tests that no polygons are merged over a fold: triangles back to back, or a flat tetrahedron, each next to a
+/// solid.
 #[test]
 fn folds_are_no_polygons() {
     let back_to_back = mesh(
@@ -88,7 +89,7 @@ fn folds_are_no_polygons() {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
     let flat = mesh(corners, &[[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]]);
     let beside =
-        |part: &TriangleMesh| joined(&[&placed(&tetrahedron(), 1.0, 5.0 * DVec3::X), part]);
+        |part: &TriangleMesh| merged_meshes(&[&placed(&tetrahedron(), 1.0, 5.0 * DVec3::X), part]);
     let cases = [
         (back_to_back.clone(), 2),
         (flat.clone(), 2),
@@ -96,7 +97,7 @@ fn folds_are_no_polygons() {
         (beside(&flat), 6),
     ];
     for (mesh, polygons) in cases {
-        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
         assert_eq!(Flats::new(&manifold).len(), polygons);
         assert!(check_solid(&manifold, &Work::unbounded()).is_err());
     }

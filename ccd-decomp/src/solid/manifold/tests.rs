@@ -1,6 +1,6 @@
 use super::*;
 use crate::solid::bounding_solid;
-use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron, turned};
+use crate::test_meshes::{block, cubes, merged_meshes, mesh, placed, reversed_faces, tetrahedron};
 
 fn refusal(mesh: &TriangleMesh) -> String {
     bounding_solid(mesh)
@@ -36,7 +36,7 @@ fn edges_of_a_step_bend_both_ways() {
 
 #[test]
 fn a_mesh_that_is_inside_out_is_turned() {
-    let mesh = turned(&tetrahedron());
+    let mesh = reversed_faces(&tetrahedron());
     let manifold = bounding_solid(&mesh).unwrap();
     assert!((0..12).all(|h| manifold.dihedral(h) == Dihedral::Convex));
 }
@@ -65,10 +65,10 @@ fn faults_name_the_elements() {
         vec![DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z],
         solid.faces(),
     );
-    let along_an_edge = joined(&[&solid, &other]);
+    let along_an_edge = merged_meshes(&[&solid, &other]);
     assert!(refusal(&along_an_edge).contains("shared by closed parts: 1 (e0-1)"));
 
-    let pierced = joined(&[&solid, &placed(&solid, 1.0, DVec3::splat(0.2))]);
+    let pierced = merged_meshes(&[&solid, &placed(&solid, 1.0, DVec3::splat(0.2))]);
     assert!(
         refusal(&pierced).contains("faces that intersect: "),
         "{}",

@@ -1,13 +1,13 @@
-//! The shells of a closed mesh: its smallest closed parts.
+//! Splits a closed mesh into shells, its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side, too_fine};
-use crate::half_edges::{Edges, Use};
+use crate::half_edges::{EdgeUse, Edges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Returns the part of each face.
+/// Returns the number of the closed part of each face.
 ///
 /// Parts are connected over edges of two faces. At an edge of more faces, open parts are connected across the material
 /// between them, so that solids that share a face stay separate.
@@ -22,8 +22,8 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     }
     if !is_manifold {
         for (ends, uses) in edges.iter().filter(|(_, uses)| uses.len() > 2) {
-            let open = open_at(uses, &mut parts);
-            for (one, other) in across_material(mesh, ends, &open) {
+            let open = open_half_edges(uses, &mut parts);
+            for (one, other) in faces_of_wedges(mesh, ends, &open) {
                 parts.join(one, other);
             }
         }
@@ -31,9 +31,11 @@ pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     parts.numbers()
 }
 
-/// Returns the faces at an edge of parts that are open there: with more uses in one direction than in the other.
-fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
-    let mut of_parts: Vec<(u32, Use)> = edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
+/// Returns the half-edges on one edge of the parts that are open there. An open part has more half-edges in one
+/// direction than in the other.
+fn open_half_edges(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
+    let mut of_parts: Vec<(u32, EdgeUse)> =
+        edge.iter().map(|&u| (parts.root(u.face()), u)).collect();
     of_parts.sort_by_key(|of| of.0);
     of_parts
         .chunk_by(|one, next| one.0 == next.0)
@@ -43,8 +45,9 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
         .collect()
 }
 
-/// Pairs the faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all are paired.
-fn across_material(mesh: &TriangleMesh, ends: [u32; 2], edge: &[Use]) -> Vec<(u32, u32)> {
+/// Returns the pairs of faces at an edge that bound the same wedge of material. If the faces cannot be ordered, all
+/// are paired.
+fn faces_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Vec<(u32, u32)> {
     let Some(around) = AngularOrder::new(mesh, ends, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face(), pair[1].face())).collect();
@@ -76,21 +79,21 @@ fn across_material(mesh: &TriangleMesh, ends: [u32; 2], edge: &[Use]) -> Vec<(u3
     pairs
 }
 
-/// The angular order of faces around an edge, starting at one of them: counter-clockwise, with the edge pointing at the
+/// The order of faces around an edge by angle, counter-clockwise from the first face, with the edge pointing at the
 /// viewer.
 struct AngularOrder<'m> {
     mesh: &'m TriangleMesh,
-    /// The welded end vertices, the smaller first.
+    /// The welded end vertices of the edge, the smaller first.
     ends: [u32; 2],
     first: DVec3,
-    /// The projection of the first face's plane.
+    /// The projection of the first face's plane to a coordinate plane.
     projection: Projection,
 }
 
 impl<'m> AngularOrder<'m> {
-    /// Starts at the first face. Returns `None` if a face is degenerate or a coordinate is too near to 0 for exact
-    /// predicates.
-    fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[Use]) -> Option<Self> {
+    /// Creates the order, starting at the first face. Returns `None` if a face is degenerate or a coordinate is too
+    /// near to 0 for exact predicates.
+    fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Self> {
         let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
         let first = *apexes.first()?;
@@ -107,12 +110,12 @@ impl<'m> AngularOrder<'m> {
         })
     }
 
-    fn order(&self, one: Use, other: Use) -> Ordering {
+    fn order(&self, one: EdgeUse, other: EdgeUse) -> Ordering {
         let [v, w] = self.points();
         let [one, other] = [one, other].map(|of| apex(self.mesh, self.ends, of));
         let by_turn = || side([v, w, other], one);
-        self.quarter(one)
-            .cmp(&self.quarter(other))
+        self.angle_class(one)
+            .cmp(&self.angle_class(other))
             .then_with(by_turn)
     }
 
@@ -120,9 +123,9 @@ impl<'m> AngularOrder<'m> {
         self.ends.map(|v| self.mesh.vertices()[v as usize])
     }
 
-    /// Returns the angular class of a point: at the first face (0), before half a turn (1), at half a turn (2), or
-    /// after (3).
-    fn quarter(&self, point: DVec3) -> u32 {
+    /// Returns the class of a point's angle from the first face: 0 for no angle, 1 below half a turn, 2 for half a
+    /// turn, 3 above.
+    fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
         match side([v, w, self.first], point) {
@@ -134,8 +137,8 @@ impl<'m> AngularOrder<'m> {
     }
 }
 
-/// Returns the corner opposite to an edge of a face that uses it.
-fn apex(mesh: &TriangleMesh, ends: [u32; 2], of: Use) -> DVec3 {
+/// Returns the corner of a face that is opposite to the edge with the given ends.
+fn apex(mesh: &TriangleMesh, ends: [u32; 2], of: EdgeUse) -> DVec3 {
     let face = of.face();
     let mut at = mesh.welded_face(face).into_iter().zip(mesh.triangle(face));
     let off = at.find(|(v, _)| !ends.contains(v));

@@ -1,6 +1,6 @@
-//! Shells within shells of random orientation, compared with windings counted one shell at a time.
+//! Compares the nesting of randomly oriented shells with winding numbers of one shell at a time.
 
-use super::around_middle;
+use super::centre_and_sides;
 use crate::rational::Exact3;
 use crate::test_meshes::CUBE;
 use crate::tolerance::FACE_ROUNDING;
@@ -10,7 +10,7 @@ use ccd_core::Volume;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::lesser;
 
-/// Cubes by middle, half the side and whether they are inside out, as one mesh.
+/// Returns cubes as one mesh, by their centre, half side length, and whether they are inside out.
 fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     for &(middle, half, inward) in cubes {
@@ -51,7 +51,7 @@ fn shells_side_by_side_are_each_turned_outward() {
     assert!((volume - 28.0).abs() < 1e-12, "{volume}");
 }
 
-/// Shells of any orientation bound a solid, a cavity, a solid, a cavity.
+/// Tests that nested shells of any orientation bound a solid and a cavity in turn.
 #[test]
 fn nested_shells_alternate() {
     for flips in 0..16u32 {
@@ -110,7 +110,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     );
 }
 
-/// Cubes that share an edge, one of them inside out: every edge has equally many faces in both directions.
+/// Tests cubes that share an edge, one of them inside out: every edge has equally many faces in both directions.
 #[test]
 fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
@@ -122,7 +122,7 @@ fn shells_that_share_an_edge_are_distinguished() {
     }
 }
 
-/// Random cubes of a lattice, each closed, that share faces, edges and corners: all are solids.
+/// Tests random cubes of a lattice that share faces, edges and corners. Each is closed, and all are solids.
 #[test]
 fn shells_that_share_faces_are_distinguished() {
     let mut shared = 0;
@@ -147,8 +147,8 @@ fn shells_that_share_faces_are_distinguished() {
     assert!(shared > 40, "{shared}");
 }
 
-/// The points on both sides of a face are at nearly the intended distance, also for needles of an aspect of a million
-/// and far from the origin.
+/// Searches for the largest error of the points on both sides of a face, for needles of an aspect of a million and
+/// far from the origin.
 #[test]
 fn worst_middle() {
     let found = Worst::of("FACE_ROUNDING", 10_000).search(|tape| {
@@ -159,7 +159,8 @@ fn worst_middle() {
         let [a, b, c] = face;
         let size = a.distance(b) + a.distance(c);
         let area = (b - a).cross(c - a).length();
-        let (middle, across) = around_middle(face, size).filter(|_| area > 1e-6 * size * size)?;
+        let (middle, across) =
+            centre_and_sides(face, size).filter(|_| area > 1e-6 * size * size)?;
         let [a, b, c] = face.map(Exact3::of);
         let normal = b.minus(&a).cross(&c.minus(&a));
         // The rounding here is far below the tested error.

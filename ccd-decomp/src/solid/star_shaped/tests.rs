@@ -2,16 +2,21 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
-use crate::test_meshes::{block, cubes, joined, mesh, placed, star, tetrahedron, turned};
+use crate::test_meshes::{
+    block, cubes, merged_meshes, mesh, placed, reversed_faces, star, tetrahedron,
+};
 
 fn is_seen(mesh: &TriangleMesh) -> bool {
-    is_star_shaped(&Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap())
+    is_star_shaped(&Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap())
 }
 
 #[test]
 fn convex_and_star_shaped_solids_are_recognised() {
     assert!(is_seen(&tetrahedron()));
-    assert!(is_seen(&turned(&tetrahedron())), "turned by the manifold");
+    assert!(
+        is_seen(&reversed_faces(&tetrahedron())),
+        "turned by the manifold"
+    );
     assert!(is_seen(&cubes(&block([3, 2, 1]))));
     assert!(is_seen(&star(40, 0.5)));
 }
@@ -19,7 +24,7 @@ fn convex_and_star_shaped_solids_are_recognised() {
 #[test]
 fn others_are_not() {
     let one = tetrahedron();
-    let around = joined(&[&one, &placed(&one, 3.0, DVec3::splat(-0.3))]);
+    let around = merged_meshes(&[&one, &placed(&one, 3.0, DVec3::splat(-0.3))]);
     assert!(!is_seen(&around), "a surface seen through another one");
     assert!(!is_seen(&cubes(&[
         [0, 0, 0],
@@ -32,7 +37,7 @@ fn others_are_not() {
     assert!(!is_seen(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
 }
 
-/// A cone that winds twice around its axis: every face outward, every edge convex.
+/// Tests a cone that winds twice around its axis: every face is outward, and every edge convex.
 #[test]
 fn a_surface_that_winds_twice_is_not_star_shaped() {
     let turns = 10;

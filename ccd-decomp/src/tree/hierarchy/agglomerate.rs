@@ -1,11 +1,11 @@
-//! Agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass, until one node is
-//! left (`[PLOC18]`).
+//! Builds a tree by agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass,
+//! until one node is left (`[PLOC18]`).
 
 use super::nodes::{Below, Cuboid, Node};
 use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
-/// Scratch memory of agglomerations.
+/// The scratch memory of agglomerations, for reuse.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
     leaves: Vec<Node>,
@@ -17,7 +17,7 @@ pub(super) struct Workspace {
     tree: Vec<Node>,
 }
 
-/// Builds a tree over leaves: the root first, then pairs of siblings, parents before children.
+/// Builds a tree over leaves. The root comes first, then pairs of siblings, parents before children.
 ///
 /// # Complexity
 /// O(n log n) if a constant share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as for boxes
@@ -38,7 +38,7 @@ pub(super) fn agglomerate(
     tree.resize(2 * workspace.leaves.len() - 1, first);
     // The tree is filled from its end.
     let mut free = tree.len();
-    along_curve(&workspace.leaves, &mut workspace.order, row);
+    sort_along_curve(&workspace.leaves, &mut workspace.order, row);
     for pass in 0.. {
         if row.len() == 1 {
             break;
@@ -70,7 +70,7 @@ pub(super) fn agglomerate(
     tree
 }
 
-/// Finds for every node in a row the neighbour with the smallest joint box, the last of equals.
+/// Finds the best neighbour of every node in a row: the one with the smallest joint box, the last of equals.
 fn best_neighbours(
     row: &[Node],
     reach: usize,
@@ -99,27 +99,27 @@ fn best_neighbours(
     }
 }
 
-/// Sorts leaves by the Morton codes of their centres.
-fn along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>) {
+/// Sorts leaves by the Morton codes of their box centres.
+fn sort_along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>) {
     let all = leaves
         .iter()
         .fold(Cuboid::EMPTY, |all, leaf| all.union(leaf.cuboid));
     order.clear();
     let codes = leaves.iter().zip(0..);
-    order.extend(codes.map(|(leaf, index)| (morton(all.place(leaf.cuboid)), index)));
+    order.extend(codes.map(|(leaf, index)| (morton(all.relative_position(leaf.cuboid)), index)));
     order.sort_unstable_by_key(|&(code, _)| code);
     row.clear();
     row.extend(order.iter().map(|&(_, index)| leaves[index as usize]));
 }
 
-/// Interleaves the 21 leading bits of three coordinates in the unit interval.
+/// Returns the Morton code of a point: the interleaved 21 leading bits of its coordinates in the unit interval.
 fn morton(point: DVec3) -> u64 {
     let cell = point * f64::from(1 << 21);
-    spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2
+    spread_bits(cell.x as u32) | spread_bits(cell.y as u32) << 1 | spread_bits(cell.z as u32) << 2
 }
 
 /// Moves bit k of 21 bits to position 3 k.
-fn spread(bits: u32) -> u64 {
+fn spread_bits(bits: u32) -> u64 {
     let mut x = u64::from(bits) & 0x1f_ffff;
     x = (x | x << 32) & 0x001f_0000_0000_ffff;
     x = (x | x << 16) & 0x001f_0000_ff00_00ff;

@@ -1,8 +1,8 @@
-//! Nodes of a binary tree under construction, in pairs of siblings.
+//! The nodes of a binary tree under construction, in pairs of siblings.
 
 use ccd_core::glam::{DVec3, Vec3A};
 
-/// An axis-aligned box in single precision.
+/// An axis-aligned box in f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cuboid {
     pub(super) lo: Vec3A,
@@ -53,30 +53,30 @@ impl Cuboid {
         (size.x + size.y) * size.z + size.x * size.y
     }
 
-    /// Returns the relative position of a box's centre in this box, from 0 to 1 along every axis.
-    pub(super) fn place(self, inner: Self) -> DVec3 {
+    /// Returns the position of the centre of the box `inner` in this box, from 0 to 1 along every axis.
+    pub(super) fn relative_position(self, inner: Self) -> DVec3 {
         let scale = self.extent().as_dvec3().recip();
         inner.centre().as_dvec3() * scale - self.lo.as_dvec3() * scale
     }
 }
 
-/// A node of the tree. The children of an inner node are adjacent, the first at an odd index.
+/// A node of the binary tree. The children of an inner node are adjacent, the first at an odd index.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) cuboid: Cuboid,
     pub(super) below: Below,
 }
 
-/// The content of a node.
+/// The content of a node: a piece or two children.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
     Piece(u32),
-    /// Two nodes, the first at this index.
+    /// An inner node, by the index of its first child. The second child follows it.
     Children(u32),
 }
 
 impl Below {
-    /// Returns the index of the piece, or of the first child.
+    /// Returns the index of the leaf's piece, or of the first child.
     pub(super) fn index(self) -> u32 {
         match self {
             Below::Piece(index) | Below::Children(index) => index,
@@ -93,7 +93,7 @@ impl Node {
     }
 }
 
-/// Returns the sibling of a node. The root, node 0, has none.
+/// Returns the index of a node's sibling. The root, node 0, has none.
 pub(super) fn sibling(node: u32) -> u32 {
     ((node - 1) ^ 1) + 1
 }

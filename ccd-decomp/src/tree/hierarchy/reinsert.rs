@@ -1,13 +1,14 @@
-//! Reinsertion: moves the largest subtrees to where they minimise the total area of boxes (`[REINSERT18]`).
+//! Improves a tree by reinsertion: moves the largest subtrees to where they minimise the total area of boxes
+//! (`[REINSERT18]`).
 
 use super::nodes::{Below, Node, sibling};
 use crate::tolerance::REINSERTED_SHARE;
 use rayon::prelude::*;
 
-/// The number of subtrees in a task; smaller tasks cost more than they gain.
-const SHARE: usize = 32;
+/// The number of subtrees in a parallel task. Smaller tasks cost more than they gain.
+const SUBTREES_PER_TASK: usize = 32;
 
-/// Improves a tree in rounds, each with fewer nodes, nearer to the root.
+/// Improves a tree in several rounds. Each round has fewer nodes, nearer to the root.
 pub(super) fn reinsert(nodes: &mut [Node]) {
     if nodes.len() < 2 {
         return;
@@ -22,11 +23,11 @@ pub(super) fn reinsert(nodes: &mut [Node]) {
 struct Tree<'a> {
     nodes: &'a mut [Node],
     parents: Vec<u32>,
-    /// Whether a node was changed in this round.
+    /// By node, whether it was changed in this round.
     touched: Vec<bool>,
 }
 
-/// A move: the subtree, its new sibling, and the reduction of the total area.
+/// A possible move: the subtree, its new sibling, and the reduction of the total area.
 struct Move {
     from: u32,
     to: u32,
@@ -48,7 +49,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Searches better places for the largest nodes, and makes the best moves that do not conflict.
+    /// Finds the best places for the `count` largest nodes, and makes the best moves that do not conflict.
     fn improve(&mut self, count: usize) {
         // The first nodes are near the root, and most of the largest are among them.
         let first = self.nodes.len().min(2 * (count + 1));
@@ -60,7 +61,7 @@ impl<'a> Tree<'a> {
         }
         largest.sort_unstable_by(by_area);
         // The tree is not changed until all places are found, so that the search is parallel.
-        let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SHARE))
+        let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SUBTREES_PER_TASK))
             .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
             .flatten_iter()
             .collect();
@@ -73,13 +74,13 @@ impl<'a> Tree<'a> {
                 for node in changed {
                     self.touched[node] = true;
                 }
-                self.make(from, to);
+                self.apply(from, to);
             }
         }
     }
 
-    /// Finds the best place for a subtree: climbs to the root, and searches every subtree beside the path. A branch is
-    /// pruned if its boxes grow by more than the best gain.
+    /// Finds the best place for a subtree. The search climbs to the root, and searches every subtree beside the path.
+    /// A branch is pruned if its boxes grow by more than the best gain.
     fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Move> {
         let cuboid = self.nodes[from as usize].cuboid;
         let area = cuboid.half_area();
@@ -126,8 +127,8 @@ impl<'a> Tree<'a> {
         (best.gain > 0.0).then_some(best)
     }
 
-    /// Makes a subtree the sibling of a node; its old sibling replaces its old parent.
-    fn make(&mut self, from: u32, to: u32) {
+    /// Makes a subtree the sibling of the node `to`. Its old sibling replaces its old parent.
+    fn apply(&mut self, from: u32, to: u32) {
         let (beside, parent) = (sibling(from), self.parents[from as usize]);
         // A sibling is never chosen: it gains nothing, because a box is exactly the union of its children's.
         debug_assert_ne!(to, beside);

@@ -14,7 +14,7 @@ fn corner(size: f64) -> [DVec3; 3] {
     [DVec3::ZERO, size * DVec3::X, size * DVec3::Y]
 }
 
-/// The pieces of the leaves, sorted, and the depth of the deepest leaf.
+/// Returns the pieces of the leaves, sorted, and the depth of the deepest leaf.
 fn leaves(hierarchy: &Hierarchy) -> (Vec<u32>, usize) {
     let (mut leaves, mut deepest) = (Vec::new(), 0);
     let mut stack = vec![(0, 0)];

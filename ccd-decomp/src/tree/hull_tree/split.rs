@@ -1,14 +1,14 @@
-//! Splits pieces in two.
+//! Splits the pieces of a hull tree node in two.
 
 use crate::hull::exact_hull::ExactHull;
-use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
+use crate::tolerance::{EIGEN_ROUNDS, MIN_CHILD_SHARE, SPREAD_PIECES};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-/// The centres of all pieces, as means of their points.
+/// The centres of all pieces, each the mean of the piece's points.
 pub(super) struct Splitter {
     centres: Vec<DVec3>,
 }
@@ -21,12 +21,12 @@ impl Splitter {
         }
     }
 
-    /// Partitions at least two pieces, and returns the size of the first side.
+    /// Partitions at least two pieces into two sets, and returns the size of the first.
     pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
         if pieces.len() == 2 {
             return 1;
         }
-        let axis = self.longest(pieces);
+        let axis = self.direction_of_largest_spread(pieces);
         let height = |&piece: &u32| (axis.dot(self.centres[piece as usize]), piece);
         let mut heights: Vec<(f64, u32)> = pieces.iter().map(height).collect();
         heights.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -35,7 +35,7 @@ impl Splitter {
         }
         let middle = 0.5 * (heights[0].0 + heights[heights.len() - 1].0);
         let below = heights.partition_point(|&(height, _)| height < middle);
-        let least = greater(1.0, LEAST_SHARE * pieces.len() as f64);
+        let least = greater(1.0, MIN_CHILD_SHARE * pieces.len() as f64);
         if (below.min(pieces.len() - below) as f64) < least {
             pieces.len() / 2
         } else {
@@ -43,8 +43,8 @@ impl Splitter {
         }
     }
 
-    /// Returns the unit vector along which the surface of the hull of the centres spreads most.
-    fn longest(&self, pieces: &[u32]) -> DVec3 {
+    /// Returns the unit vector along which the surface of the hull of the piece centres spreads most.
+    fn direction_of_largest_spread(&self, pieces: &[u32]) -> DVec3 {
         // A sample is enough.
         let stride = pieces.len().div_ceil(SPREAD_PIECES);
         let some = pieces.iter().step_by(stride);
@@ -58,15 +58,15 @@ impl Splitter {
         // Scaled to avoid underflow.
         let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
         let spread = match ExactHull::facets_of(&unit) {
-            Some(triangles) => of_surface(&unit, &triangles),
+            Some(triangles) => second_moments(&unit, &triangles),
             None => of_points(&unit),
         };
-        principal(spread).unwrap_or(DVec3::X)
+        principal_axis(spread).unwrap_or(DVec3::X)
     }
 }
 
-/// Computes the second moments of a surface about its centroid.
-fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
+/// Returns the second moments of a surface of triangles about its centroid.
+fn second_moments(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
     let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
     for corners in triangles {
         let [p, q, r] = corners.map(|v| points[v as usize]);
@@ -75,24 +75,25 @@ fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
         area += weight;
         first += weight * middle;
         // The second moments of a triangle: those of its corners plus 9 times that of its middle, over 12.
-        let corners = square(p) + square(q) + square(r) + 9.0 * square(middle);
+        let corners =
+            outer_product(p) + outer_product(q) + outer_product(r) + 9.0 * outer_product(middle);
         second += weight / 12.0 * corners;
     }
-    second - square(first / area) * area
+    second - outer_product(first / area) * area
 }
 
 fn of_points(points: &[DVec3]) -> Matrix3<f64> {
-    points.iter().map(|&p| square(p)).sum()
+    points.iter().map(|&p| outer_product(p)).sum()
 }
 
-/// `p pᵀ`
-fn square(p: DVec3) -> Matrix3<f64> {
+/// Returns the outer product `p pᵀ` of a vector with itself.
+fn outer_product(p: DVec3) -> Matrix3<f64> {
     let p = Vector3::from(p.to_array());
     p * p.transpose()
 }
 
-/// Returns the unit eigenvector of the largest eigenvalue.
-fn principal(matrix: Matrix3<f64>) -> Option<DVec3> {
+/// Returns the unit eigenvector of a symmetric matrix for the largest eigenvalue.
+fn principal_axis(matrix: Matrix3<f64>) -> Option<DVec3> {
     let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
     unit(DVec3::new(axis[0], axis[1], axis[2]))

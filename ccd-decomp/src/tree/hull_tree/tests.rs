@@ -1,4 +1,4 @@
-//! Trees over pieces of every shape: hulls contain their pieces, and mark the facets of pieces.
+//! Tests hull trees over pieces of every shape: hulls contain their pieces, and mark the facets of pieces.
 
 use super::*;
 use crate::exact::predicates::side;
@@ -16,7 +16,7 @@ fn point() -> impl Strategy<Value = DVec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
-/// Points, needles, plates and lumps.
+/// Generates a piece: points, a needle, a plate or a lump.
 fn piece() -> impl Strategy<Value = Polytope> {
     let span = prop_oneof![
         Just(DVec3::ONE),
@@ -34,7 +34,7 @@ fn piece() -> impl Strategy<Value = Polytope> {
     })
 }
 
-/// The hull of points, with virtual facets.
+/// Returns the hull of points as a polytope of virtual facets.
 fn polytope(points: &[DVec3]) -> Polytope {
     let hull = hull(points).unwrap();
     let facet = |corners: &[u32]| ccd_core::Facet {
@@ -48,7 +48,7 @@ fn polytope(points: &[DVec3]) -> Polytope {
     }
 }
 
-/// The leaves below every node.
+/// Returns the leaves below the node `at`.
 fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     match tree.hierarchy().nodes()[at] {
         HierarchyNode::Leaf(_) => vec![at],
@@ -59,7 +59,7 @@ fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     }
 }
 
-/// Returns whether a hull contains a point up to `slack`, by testing every facet.
+/// Returns whether a hull contains a point up to the distance `slack`, by a test of every facet.
 fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     let beyond = hull.facets.iter().map(|corners| {
         let at = |k: usize| hull.points[corners[k] as usize];
@@ -146,14 +146,13 @@ proptest! {
     }
 }
 
-/// Returns whether a point is so near to a common edge of two plates that rounding decides to which it
-/// belongs.
+/// Returns whether a point is so near to a common edge of two plates that rounding decides which of them contains it.
 fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
     let near = |&&leaf: &&usize| holds(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1
 }
 
-/// Blocks side by side, a grid of 4 by 2, no two of their steps alike.
+/// Returns blocks on a grid of 4 by 2, `gap` apart along x. The sides of a block differ in length.
 fn wall(gap: f64) -> Vec<Polytope> {
     let size = DVec3::new(1.0, 0.75, 0.5);
     let corner = |k: u32| size * DVec3::new((k & 1).into(), (k >> 1 & 1).into(), (k >> 2).into());

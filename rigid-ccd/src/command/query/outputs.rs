@@ -80,7 +80,7 @@ impl OpenedTables {
             && let Some(finished) = &earlier
             && finished.checkpoint.finished
         {
-            if places.is_finished(finished, recorded)? {
+            if places.rename_finished(finished, recorded)? {
                 return Ok(OpenedTables::Finished(finished.checkpoint));
             }
             places = ClaimedFiles::claim(args)?;
@@ -126,8 +126,8 @@ impl ClaimedFiles {
         }
     }
 
-    /// Returns whether the tables of a finished run exist; renames those that still have a temporary name.
-    fn is_finished(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
+    /// Renames the tables of a finished run that still have a temporary name. Returns whether all of them exist.
+    fn rename_finished(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
         let Checkpoint {
             results, contacts, ..
         } = run.checkpoint;

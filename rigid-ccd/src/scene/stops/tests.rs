@@ -6,9 +6,9 @@ use crate::scene::tests::random_throw;
 use crate::trajectory::Ballistic;
 use crate::{Body, HitKind, Pose, Solver};
 use ccd_core::Outcome;
-use ccd_core::Settings;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
+use ccd_core::{Settings, Stretch, Trajectory};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::HashSet;
@@ -378,4 +378,46 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
         crossed += through.difference(&at_start).count();
     }
     assert!(stopped > 100 && crossed > 50, "{stopped} {crossed}");
+}
+
+/// A motion whose true poses are known up to a shift only.
+struct Blurred {
+    motion: Motion,
+    shift: f64,
+}
+
+impl Trajectory for Blurred {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let mut stretch = self.motion.stretch(from, to)?;
+        stretch.stray.shift += self.shift;
+        Ok(stretch)
+    }
+}
+
+/// Tests that a body stops as far from one that has stopped as the pose of that one may be off.
+#[test]
+fn stopped_bodies_are_as_blurred_as_moving_ones() {
+    let (ball, wall) = (
+        Body::sphere(0.2).unwrap(),
+        Body::cuboid([0.1, 2.0, 2.0]).unwrap(),
+    );
+    let moving = |from: [f64; 3], velocity: [f64; 3]| {
+        Motion::new(Pose::at(from).unwrap(), velocity, [0.0; 3]).unwrap()
+    };
+    let blurred = Blurred {
+        motion: moving([0.0; 3], [4.0, 0.0, 0.0]),
+        shift: 0.05,
+    };
+    let falling = moving([1.64, 3.0, 0.0], [0.0, -2.0, 0.0]);
+    let mut scene = Scene::new();
+    let wall = scene.add_fixed(&wall, Pose::at([2.0, 0.0, 0.0]).unwrap());
+    let [first, second] = [scene.add(&ball, &blurred), scene.add(&ball, falling)];
+    let stops = scene.stops(2.0).unwrap();
+    assert_eq!(
+        [first, second].map(|body| stops[body].by),
+        [Some(wall), Some(first)]
+    );
+    let at = |motion: &Motion, body: usize| motion.pose(stops[body].time).translation();
+    let gap = at(&blurred.motion, first).distance(at(&falling, second)) - 0.4;
+    assert!((0.05..0.06).contains(&gap), "{gap}");
 }

@@ -1,4 +1,4 @@
-//! Draws random inputs.
+//! Draws random numbers, points and rotations.
 
 use crate::raw_motion::RawPose;
 use crate::vector::Vector;
@@ -9,19 +9,19 @@ use std::ops::Range;
 pub struct Draw(Pcg64);
 
 impl Draw {
-    /// Creates one stream per query, so that each query can be run alone.
+    /// Creates the random stream of one query, so that each query can be run alone.
     pub fn new(seed: u64, index: u64) -> Self {
         Draw(Pcg64::seed_from_u64(
             seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index,
         ))
     }
 
-    pub fn within(&mut self, range: Range<f64>) -> f64 {
+    pub fn uniform(&mut self, range: Range<f64>) -> f64 {
         range.start + (range.end - range.start) * self.0.random::<f64>()
     }
 
-    pub fn log(&mut self, range: Range<f64>) -> f64 {
-        10f64.powf(self.within(range.start.log10()..range.end.log10()))
+    pub fn log_uniform(&mut self, range: Range<f64>) -> f64 {
+        10f64.powf(self.uniform(range.start.log10()..range.end.log10()))
     }
 
     pub fn count(&mut self, range: Range<usize>) -> usize {
@@ -36,9 +36,9 @@ impl Draw {
         of[self.count(0..of.len())]
     }
 
-    /// Returns a point in the cube from −1 to 1.
+    /// Returns a random point in the cube from −1 to 1 along each axis.
     pub fn point(&mut self) -> [f64; 3] {
-        [(); 3].map(|()| self.within(-1.0..1.0))
+        [(); 3].map(|()| self.uniform(-1.0..1.0))
     }
 
     pub fn direction(&mut self) -> [f64; 3] {
@@ -51,9 +51,9 @@ impl Draw {
         }
     }
 
-    /// Returns a quaternion of any length.
+    /// Returns a random quaternion, not of unit length.
     pub fn quaternion(&mut self) -> [f64; 4] {
-        [(); 4].map(|()| self.within(-1.0..1.0))
+        [(); 4].map(|()| self.uniform(-1.0..1.0))
     }
 
     pub fn pose(&mut self, position: [f64; 3]) -> RawPose {
@@ -69,10 +69,10 @@ impl Draw {
     }
 }
 
-pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub fn add_arrays(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     (Vector(a) + Vector(b)).0
 }
 
-pub fn times(a: [f64; 3], s: f64) -> [f64; 3] {
+pub fn scale_array(a: [f64; 3], s: f64) -> [f64; 3] {
     (Vector(a) * s).0
 }

@@ -1,4 +1,4 @@
-//! Families of queries, one for each kind of difficulty, with parameters over many magnitudes.
+//! The families of random queries, one for each kind of difficulty, with parameters over many magnitudes.
 
 mod budget;
 mod far;
@@ -12,7 +12,7 @@ mod shells;
 mod turns;
 
 use crate::case::{Case, Expect, Shape};
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use ccd_core::Settings;
 use clap::ValueEnum;
@@ -23,21 +23,21 @@ pub enum Family {
     Needles,
     /// End poses and centres of rotation far from the origin, and tight tolerances.
     Far,
-    /// Closed parts side by side and nested, oriented outward or inward.
+    /// Closed parts next to each other and nested, oriented outward or inward.
     Shells,
-    /// Margins from a thousandth of the bodies to a hundred times their size.
+    /// Margins from a thousandth of the size of the bodies to a hundred times their size.
     Margins,
-    /// Every small budget.
+    /// Budgets too small for most queries.
     Budget,
     /// Bodies in contact at the start that are released under `StartPolicy::Leave`.
     Leave,
-    /// Turns of up to a thousand radians.
+    /// Rotations of up to a thousand radians.
     Turns,
-    /// Bodies of very different size.
+    /// Bodies of very different sizes.
     Scales,
-    /// Faces that fall flat on each other.
+    /// Faces that move flat onto each other.
     Flat,
-    /// Convex pieces of 4 to 2,000 points.
+    /// Convex pieces of 4 to 2,000 points each.
     Hulls,
 }
 
@@ -58,19 +58,19 @@ impl Family {
     }
 }
 
-/// Returns a case of two shapes that pass each other halfway, or meet: their centres come within about the sum of their
-/// radii. Both move, and turn by up to `turn` over a duration of 1.
-fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
+/// Returns a case of two shapes that pass each other halfway, or meet. Their centres come within about the sum of
+/// their radii. Both move, and rotate by up to `turn` over a duration of 1.
+fn passing_case(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());
-    let travel = reach * draw.within(1.0..4.0);
-    let miss = times(aside, reach * draw.within(0.0..0.9));
-    let common = times(draw.point(), reach);
-    let spin = |draw: &mut Draw| times(draw.direction(), turn * draw.within(0.2..1.0));
-    let half = times(way, 0.5 * travel);
+    let travel = reach * draw.uniform(1.0..4.0);
+    let miss = scale_array(aside, reach * draw.uniform(0.0..0.9));
+    let common = scale_array(draw.point(), reach);
+    let spin = |draw: &mut Draw| scale_array(draw.direction(), turn * draw.uniform(0.2..1.0));
+    let half = scale_array(way, 0.5 * travel);
     let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
-        let start = draw.pose(plus(times(half, -side), at));
-        let moved = plus(times(half, 2.0 * side), common);
+        let start = draw.pose(add_arrays(scale_array(half, -side), at));
+        let moved = add_arrays(scale_array(half, 2.0 * side), common);
         RawMotion::velocities(start, moved, spin(draw))
     };
     let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
@@ -83,14 +83,14 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Cas
     }
 }
 
-/// Returns a body at rest at the origin.
-fn still() -> RawMotion {
+/// Returns the motion of a body at rest at the origin.
+fn motion_at_rest() -> RawMotion {
     RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
-fn tolerance(draw: &mut Draw) -> Settings {
+fn random_tolerance(draw: &mut Draw) -> Settings {
     Settings {
-        tolerance: draw.log(1e-9..1e-2),
+        tolerance: draw.log_uniform(1e-9..1e-2),
         ..Settings::DEFAULT
     }
 }

@@ -87,7 +87,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs a family. Returns true if anything failed.
+/// Runs all queries of a family. Returns true if any answer was wrong.
 fn run(family: Family, args: &Args) -> bool {
     let numbers = match args.only {
         Some(one) => one..one + 1,
@@ -109,7 +109,7 @@ fn run(family: Family, args: &Args) -> bool {
         if let Ok(mut tally) = tally.lock() {
             for failure in tally.add(number, &trial, args.print) {
                 let case = if args.shrink {
-                    trial::shrunk(&trial.case, failure)
+                    trial::shrink(&trial.case, failure)
                 } else {
                     trial.case.clone()
                 };
@@ -125,7 +125,7 @@ fn run(family: Family, args: &Args) -> bool {
     if asked >= 1000 {
         tally.assert_representative();
     }
-    tally.failed()
+    tally.has_failures()
 }
 
 /// Writes the query of a trial as a seed of the fuzz target `query`, with a method chosen by its number.

@@ -1,16 +1,16 @@
-//! Generated meshes around the origin, of size about 1.
+//! Generates meshes around the origin, of size about 1.
 
 use crate::case::{Form, Shape};
-use crate::draw::{Draw, times};
+use crate::draw::{Draw, scale_array};
 use crate::vector::Vector;
 
-/// Returns random triangles.
+/// Returns a mesh of `count` random triangles.
 pub fn soup(draw: &mut Draw, count: usize) -> Shape {
     let mut shape = Shape::default();
     for k in 0..count as u32 {
-        let (at, size) = (draw.point(), draw.log(0.05..1.0));
+        let (at, size) = (draw.point(), draw.log_uniform(0.05..1.0));
         for _ in 0..3 {
-            let corner = times(draw.point(), size);
+            let corner = scale_array(draw.point(), size);
             shape.vertices.push((Vector(at) * 0.7 + Vector(corner)).0);
         }
         shape.faces.push([3 * k, 3 * k + 1, 3 * k + 2]);
@@ -26,7 +26,7 @@ fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: Form) -> Shape {
     }
 }
 
-/// Returns a tetrahedron, oriented outward as the other shapes.
+/// Returns a random tetrahedron, oriented outward.
 pub fn tetrahedron(draw: &mut Draw) -> Shape {
     let corners = [(); 4].map(|()| Vector(draw.point()));
     let [a, b, c, d] = corners;
@@ -47,7 +47,7 @@ pub fn cuboid(half: [f64; 3]) -> Shape {
     Shape::cuboid(half)
 }
 
-/// Returns a tube around the z axis, of quads that are not flat: closed, and hollow in the middle.
+/// Returns a closed tube around the z axis, of quadrilaterals that are not flat, with an open middle.
 pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
     let turn = |k: u32, n: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
@@ -68,8 +68,8 @@ pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
 /// Returns a bipyramid: corners around an axis and two poles, convex or star-shaped.
 pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
     let mut vertices = vec![
-        [0.0, 0.0, draw.within(0.2..1.0)],
-        [0.0, 0.0, -draw.within(0.2..1.0)],
+        [0.0, 0.0, draw.uniform(0.2..1.0)],
+        [0.0, 0.0, -draw.uniform(0.2..1.0)],
     ];
     let mut faces = Vec::new();
     for k in 0..corners {
@@ -89,7 +89,7 @@ pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
 
 /// Returns the hull of points on a stretched sphere, built facet by facet.
 pub fn hull(draw: &mut Draw, count: usize) -> Shape {
-    let stretch = [(); 3].map(|()| draw.log(0.2..1.0));
+    let stretch = [(); 3].map(|()| draw.log_uniform(0.2..1.0));
     let point = |draw: &mut Draw| {
         let v = draw.direction();
         [v[0] * stretch[0], v[1] * stretch[1], v[2] * stretch[2]]
@@ -116,29 +116,29 @@ pub fn hull(draw: &mut Draw, count: usize) -> Shape {
     shape(vertices, faces, Form::Points)
 }
 
-/// Returns any of the above shapes, with up to about 30 triangles.
-pub fn any(draw: &mut Draw) -> Shape {
+/// Returns a random shape of this module, with up to about 30 triangles.
+pub fn any_shape(draw: &mut Draw) -> Shape {
     match draw.count(0..7) {
         0 | 1 => {
             let count = draw.count(1..9);
             soup(draw, count)
         }
-        2 => solid(draw),
+        2 => closed_shape(draw),
         3 => {
             let (around, across) = (draw.count(3..6) as u32, draw.count(3..5) as u32);
-            let thickness = draw.within(0.05..0.45);
+            let thickness = draw.uniform(0.05..0.45);
             ring(around, across, thickness)
         }
-        _ => solid(draw),
+        _ => closed_shape(draw),
     }
 }
 
-/// Returns a closed shape.
-pub fn solid(draw: &mut Draw) -> Shape {
+/// Returns a random closed shape.
+pub fn closed_shape(draw: &mut Draw) -> Shape {
     match draw.count(0..4) {
         0 => tetrahedron(draw),
         1 => {
-            let half = [(); 3].map(|()| draw.log(0.05..1.0));
+            let half = [(); 3].map(|()| draw.log_uniform(0.05..1.0));
             cuboid(half)
         }
         2 => {
@@ -146,7 +146,7 @@ pub fn solid(draw: &mut Draw) -> Shape {
             bipyramid(draw, corners, 1.0)
         }
         _ => {
-            let (corners, waist) = (2 * draw.count(2..6) as u32, draw.within(0.2..0.6));
+            let (corners, waist) = (2 * draw.count(2..6) as u32, draw.uniform(0.2..0.6));
             bipyramid(draw, corners, waist)
         }
     }

@@ -1,4 +1,4 @@
-//! Counts outcomes.
+//! Counts the outcomes of trials.
 
 use crate::judge::Fault;
 use crate::trial::{Failure, Trial};
@@ -12,11 +12,11 @@ pub struct Tally {
     queries: u64,
     answers: u64,
     by_method: BTreeMap<String, u64>,
-    /// The counts of statuses, for the default method.
+    /// The number of answers by status, for the default method.
     statuses: BTreeMap<String, u64>,
-    /// The counts of reasons, for all methods.
+    /// The number of unresolved answers by reason, for all methods.
     unresolved: BTreeMap<String, u64>,
-    /// The first query of every reason.
+    /// The number of the first query with each reason.
     examples: BTreeMap<String, u64>,
     refused: BTreeMap<String, u64>,
     faults: BTreeMap<Fault, u64>,
@@ -25,12 +25,12 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Counts a trial. Returns its failures that are among the first of their kind.
+    /// Counts the outcome of a trial. Returns its failures that are among the first of their kind.
     pub fn add<'t>(&mut self, number: u64, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
         self.queries += 1;
         self.answers += trial.outcomes.len() as u64;
         self.sampled += u64::from(!trial.proven);
-        for (kind, method) in &trial.asked {
+        for (kind, method) in &trial.methods {
             *self
                 .by_method
                 .entry(format!("{kind} {method}"))
@@ -39,7 +39,7 @@ impl Tally {
         if let Some(outcome) = trial.outcomes.first() {
             *self.statuses.entry(status(outcome).to_owned()).or_default() += 1;
         }
-        for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.asked) {
+        for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.methods) {
             if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
                 self.examples.entry(format!("{reason:?}")).or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
@@ -64,7 +64,7 @@ impl Tally {
         first
     }
 
-    pub fn failed(&self) -> bool {
+    pub fn has_failures(&self) -> bool {
         !self.faults.is_empty()
     }
 
@@ -121,7 +121,7 @@ impl fmt::Display for Tally {
             let all: Vec<String> = map.iter().map(|(k, n)| format!("{k}: {n}")).collect();
             writeln!(f, "  {name}: {}", all.join("; "))?;
         }
-        if self.failed() {
+        if self.has_failures() {
             write!(f, "  FAULTS: {:?}", self.faults)
         } else {
             write!(f, "  no fault")

@@ -1,26 +1,26 @@
-//! One query of a family: drawn, and answered by several methods, with a time limit.
+//! Draws one query of a family, and answers it by several methods, with a time limit.
 
 use crate::case::{Case, Form};
 use crate::draw::Draw;
 use crate::engine::{Kind, Method};
 use crate::families::Family;
 use crate::judge::Fault;
-pub use ccd_fuzz::trial::{Failure, Trial, ask, shrunk};
+pub use ccd_fuzz::trial::{Failure, Trial, run_methods, shrink};
 use std::collections::HashMap;
 use std::process;
 use std::sync::{Arc, Mutex};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
-/// The time after which a query counts as a hang.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// The time after which a query counts as hanging.
+const HANG_TIME: Duration = Duration::from_secs(20);
 
 pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
     let mut draw = Draw::new(seed, number);
     let case = family.draw(&mut draw);
     let asked = methods(&mut draw, &case);
     watch.begin(number);
-    let trial = ask(case, asked);
+    let trial = run_methods(case, asked);
     watch.end();
     trial
 }
@@ -44,7 +44,11 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
             draw.pick(&[Method::Direct, Method::Gjk, Method::Vmarch]),
         ));
     }
-    let turn: f64 = case.courses.iter().map(|c| c.turn(case.duration)).sum();
+    let turn: f64 = case
+        .courses
+        .iter()
+        .map(|c| c.rotation_angle(case.duration))
+        .sum();
     if small && turn < 20.0 && draw.chance(0.15) {
         asked.push((draw.pick(&[Kind::Triangles, pieces]), Method::Naive));
     }
@@ -55,14 +59,14 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     asked
 }
 
-/// Returns the text of a failure, with the command that repeats its query.
+/// Returns the report of a failure, with the command that repeats its query.
 pub fn report(failure: &Failure, family: Family, seed: u64, number: u64, case: &Case) -> String {
     let name = format!("{family:?}").to_lowercase();
     let command = format!("fuzz --family {name} --seed {seed} --only {number}");
     failure.report(&command, case)
 }
 
-/// Watches all threads, and ends the program if one of them hangs.
+/// A watchdog over all threads, which ends the program if one of them hangs.
 #[derive(Clone)]
 pub struct Watch(Arc<Mutex<HashMap<ThreadId, (u64, Instant)>>>);
 
@@ -74,7 +78,7 @@ impl Watch {
             while let Some(all) = all.upgrade() {
                 let late = all.lock().ok().and_then(|all| {
                     all.values()
-                        .find(|(_, since)| since.elapsed() > PATIENCE)
+                        .find(|(_, since)| since.elapsed() > HANG_TIME)
                         .map(|&(n, _)| n)
                 });
                 drop(all);

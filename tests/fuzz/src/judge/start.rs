@@ -1,17 +1,17 @@
-//! The state of the bodies at the start: their distance, and whether one is inside the other.
+//! Determines the state of the bodies at the start: their distance, and whether one is inside the other.
 
 use crate::double::Double;
 use crate::referee::Scene;
-use crate::solid::{Solid, Where, clearance, points_near};
+use crate::solid::{PointLocation, Solid, distance_to_surface, points_beside_triangles};
 use crate::vector::Vector;
 use ccd_core::Volume;
 
-/// The known facts about the start.
+/// The facts about the bodies at the start, as far as they are known.
 pub(super) struct Start {
     pub(super) distance: f64,
-    /// Triangles penetrate deeper than rounding explains, or one body is inside the other.
+    /// Whether triangles penetrate deeper than rounding explains, or one body is inside the other.
     pub(super) overlaps: bool,
-    /// An answer may report one body inside the other.
+    /// Whether an answer may report one body inside the other.
     pub(super) may_contain: bool,
 }
 
@@ -25,50 +25,52 @@ impl Start {
         let distance = scene.distance(0.0);
         // At a smaller distance, inside and outside depend on rounding.
         let touching = distance <= rounding;
-        let deep = touching && scene.depth(0.0) > rounding;
+        let deep = touching && scene.penetration_depth(0.0) > rounding;
         let inside = if touching {
-            shared_inside(placed, volumes, rounding)
+            find_shared_inner_point(placed, volumes, rounding)
         } else {
-            contained(placed, volumes)
+            containment(placed, volumes)
         };
         Start {
             distance,
-            overlaps: deep || inside == Where::Inside,
-            may_contain: touching || inside != Where::Outside,
+            overlaps: deep || inside == PointLocation::Inside,
+            may_contain: touching || inside != PointLocation::Outside,
         }
     }
 }
 
-/// Locates the parts of each body relative to the other, if the surfaces are apart.
-fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
-    let mut doubtful = Where::Outside;
+/// Locates the parts of each body relative to the other body, given that the surfaces are apart.
+fn containment(placed: &[Solid; 2], volumes: [Volume; 2]) -> PointLocation {
+    let mut doubtful = PointLocation::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
         for corner in placed[1 - outer].corners() {
             match placed[outer].locate(corner) {
-                Where::Inside => return Where::Inside,
-                Where::Outside => {}
-                Where::Doubtful | Where::Unknown => doubtful = Where::Doubtful,
+                PointLocation::Inside => return PointLocation::Inside,
+                PointLocation::Outside => {}
+                PointLocation::Doubtful | PointLocation::Unknown => {
+                    doubtful = PointLocation::Doubtful;
+                }
             }
         }
     }
     doubtful
 }
 
-/// Searches for a point well inside one body and on, or inside, the other, if they touch.
-fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
+/// Searches for a point well inside one body, and on or inside the other, given that the bodies touch.
+fn find_shared_inner_point(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> PointLocation {
     let well_inside = |p: Vector<Double>, solid: &Solid| {
-        solid.locate(p) == Where::Inside && clearance(p, &solid.triangles) > far
+        solid.locate(p) == PointLocation::Inside && distance_to_surface(p, &solid.triangles) > far
     };
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
         let inner = &placed[1 - outer];
         let mut points: Vec<_> = inner.triangles.iter().map(|t| t[0]).collect();
         if volumes[1 - outer] == Volume::Solid {
-            let near = points_near(&inner.triangles).into_iter();
+            let near = points_beside_triangles(&inner.triangles).into_iter();
             points.extend(near.filter(|&p| well_inside(p, inner)));
         }
         if points.into_iter().any(|p| well_inside(p, &placed[outer])) {
-            return Where::Inside;
+            return PointLocation::Inside;
         }
     }
-    Where::Outside
+    PointLocation::Outside
 }

@@ -1,17 +1,18 @@
-//! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
+//! Searches for the first contact by conservative advancement over all pairs of triangles, in f64, checked in
+//! [`Double`].
 
-use super::{Ball, Evidence, Limit, NOISE, Scene};
+use super::{Ball, CHECKED_BELOW, Evidence, Limit, Scene};
 use crate::double::Double;
-use crate::nearest::{Triangle, depth, distance};
+use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::Snapshot;
 use crate::vector::{Number, larger, smaller};
 
-/// The largest number of steps of one pair, and of all pairs, before the rest is sampled.
+/// The maximum number of steps of one pair, and of all pairs, before the rest of the time is sampled.
 const PAIR_STEPS: usize = 300;
 const ALL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
-/// Searches for the first time at which two bodies are too near.
+/// The search for the first time at which two bodies are nearer than allowed.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     limit: Limit,
@@ -22,14 +23,14 @@ pub(super) struct Search<'a> {
     proven: bool,
 }
 
-/// A gap, its closing rate, and a bound on the change of the rate.
-struct Near {
+/// The gap of two balls, its closing rate, and a bound on the change of the rate.
+struct GapRate {
     gap: f64,
     rate: f64,
     bend: f64,
 }
 
-/// Solves gap = rate τ + bend τ²/2, in the form without cancellation.
+/// Returns the time until which a gap stays open: solves gap = rate τ + bend τ²/2, in the form without cancellation.
 fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
     (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
 }
@@ -49,29 +50,29 @@ impl<'a> Search<'a> {
 
     pub(super) fn run(mut self) -> (Option<Evidence>, bool) {
         let [a, b] = &self.scene.sides;
-        let begin = self.balls_meet(a.reach + b.reach);
-        let begin = self.together(begin);
+        let begin = self.centre_balls_apart_until(a.reach + b.reach);
+        let begin = self.bodies_apart_until(begin);
         if !(begin < self.until) {
             return (None, true);
         }
         for (i, p) in a.balls.iter().enumerate() {
-            let begin = self.balls_apart([p, &b.whole], begin);
+            let begin = self.balls_apart_until([p, &b.whole], begin);
             if !(begin < self.until) {
                 continue;
             }
             for j in 0..b.balls.len() {
-                self.pair(i, j, begin);
+                self.search_pair(i, j, begin);
             }
         }
         (self.found, self.proven)
     }
 
     /// Returns a time until which balls around the two centres of rotation are certainly apart.
-    fn balls_meet(&self, reaches: f64) -> f64 {
+    fn centre_balls_apart_until(&self, reaches: f64) -> f64 {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).rounded();
         let v = (b.track.velocity - a.track.velocity).rounded();
-        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + NOISE * self.scene.scale;
+        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + CHECKED_BELOW * self.scene.scale;
         let (square, along) = (v.dot(v), way.dot(v));
         let excess = way.dot(way) - kept * kept;
         let root = along * along - square * excess;
@@ -88,16 +89,16 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn pair(&mut self, i: usize, j: usize, begin: f64) {
+    fn search_pair(&mut self, i: usize, j: usize, begin: f64) {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
             self.steps += 1;
             if self.steps > ALL_STEPS {
                 break;
             }
-            let Near { gap, rate, bend } = self.measure(i, j, t);
-            if !(gap > NOISE * self.scene.scale) {
-                if self.judge(i, j, t) {
+            let GapRate { gap, rate, bend } = self.measure(i, j, t);
+            if !(gap > CHECKED_BELOW * self.scene.scale) {
+                if self.is_below_threshold(i, j, t) {
                     return;
                 }
                 break;
@@ -112,23 +113,23 @@ impl<'a> Search<'a> {
         for k in 0..=SAMPLES {
             let t = t + left * (k as f64 / SAMPLES as f64);
             let gap = self.measure(i, j, t).gap;
-            if !(gap > NOISE * self.scene.scale) && self.judge(i, j, t) {
+            if !(gap > CHECKED_BELOW * self.scene.scale) && self.is_below_threshold(i, j, t) {
                 return;
             }
         }
     }
 
-    /// Returns a time after `begin` until which the bodies are well apart, for all pairs together.
-    fn together(&self, begin: f64) -> f64 {
+    /// Returns a time after `begin` until which the bodies are well apart, by a bound for all pairs together.
+    fn bodies_apart_until(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
-            let [a, b] = [0, 1].map(|side| self.scene.placed(side, t));
-            let near = self.scene.nearest(&a, &b);
+            let [a, b] = [0, 1].map(|side| self.scene.triangles_at(side, t));
+            let near = self.scene.near_pairs(&a, &b);
             let least = near
                 .iter()
                 .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
-            let Near { rate, bend, .. } = self.near(whole, &self.scene.snapshots(t));
+            let GapRate { rate, bend, .. } = self.ball_gap(whole, &self.scene.snapshots(t));
             let tau = free_time(least - self.threshold, rate, bend);
             // A hundred more such steps would not reach the end, so it is faster pair by pair.
             if !(tau > 0.003 * (self.until - t)) {
@@ -143,11 +144,12 @@ impl<'a> Search<'a> {
     }
 
     /// Returns a time after `begin` until which two balls are well apart.
-    fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
+    fn balls_apart_until(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
-            let Near { gap, rate, bend } = self.near([p, q], &self.scene.snapshots(t));
-            if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > NOISE * self.scene.scale) {
+            let GapRate { gap, rate, bend } = self.ball_gap([p, q], &self.scene.snapshots(t));
+            if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > CHECKED_BELOW * self.scene.scale)
+            {
                 break;
             }
             t += free_time(gap, rate, bend);
@@ -158,35 +160,36 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// Returns the gap of two balls above the threshold, its closing rate, and a bound on the change of the rate.
-    fn near(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> Near {
+    /// Returns by how much the gap of two balls exceeds the threshold, its closing rate, and a bound on the change of
+    /// the rate.
+    fn ball_gap(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapRate {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;
-        let middles = [snapshots[0].arm(p.middle), snapshots[1].arm(q.middle)];
+        let middles = [snapshots[0].arm_of(p.middle), snapshots[1].arm_of(q.middle)];
         let apart = (middles[1] + between - middles[0]).length().rounded();
         let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
         let velocity =
             a.track.velocity_of(middles[0].rounded()) - b.track.velocity_of(middles[1].rounded());
         let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
         let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
-        Near {
+        GapRate {
             gap: apart - p.radius - q.radius - self.threshold,
             rate,
             bend,
         }
     }
 
-    fn measure(&self, i: usize, j: usize, t: f64) -> Near {
+    fn measure(&self, i: usize, j: usize, t: f64) -> GapRate {
         let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
         let snapshots = self.scene.snapshots(t);
-        let near = self.near([p, q], &snapshots);
+        let near = self.ball_gap([p, q], &snapshots);
         if near.gap > 0.5 * (p.radius + q.radius) {
             return near;
         }
         let [[a, b, c], [d, e, f]] = self.triangles(i, j, &snapshots);
         let s = [a.rounded(), b.rounded(), c.rounded()];
         let t = [d.rounded(), e.rounded(), f.rounded()];
-        Near {
+        GapRate {
             gap: distance(&s, &t) - self.threshold,
             ..near
         }
@@ -201,14 +204,15 @@ impl<'a> Search<'a> {
         ]
     }
 
-    /// Checks in [`Double`] whether the pair is below the threshold. If so, nothing later is of interest.
-    fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
+    /// Checks in [`Double`] whether a pair of triangles is below the threshold at a time. If so, the search ends
+    /// there.
+    fn is_below_threshold(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
         let depth = if distance > error {
             0.0
         } else {
-            depth(&s, &o).rounded()
+            penetration_depth(&s, &o).rounded()
         };
         let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
         if below {

@@ -1,21 +1,21 @@
-//! Laws of prepared bodies: they are stored without loss, and queries on them agree.
+//! Checks prepared bodies: they are stored without loss, and queries on them agree.
 
 use crate::engine::Method;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Body, Motion, Moving, Outcome, Pose, Settings};
 use ccd_decomp::Model;
 
-/// The budget of each query.
+/// The work budget of each query, in iterations.
 const BUDGET: u64 = 4000;
 
 /// Checks that a stored model reads back to the same bytes.
-pub(super) fn stored_and_read(model: &Model) {
+pub(super) fn check_storing(model: &Model) {
     let bytes = stored(model);
     let again = Model::read(&bytes[..]).expect("a model that was stored");
     assert!(stored(&again) == bytes, "stored again, it differs");
     // A model that cannot be a body, for its number of pieces or their size, names the reason.
     match (model.body(), again.body()) {
-        (Ok(body), Ok(_)) => queries_agree(&body),
+        (Ok(body), Ok(_)) => check_queries(&body),
         (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
         (one, other) => panic!("{:?} and {:?}", one.err(), other.err()),
     }
@@ -28,7 +28,7 @@ pub(super) fn stored(model: &Model) -> Vec<u8> {
 }
 
 /// Runs all methods on a ball that flies past the body, and checks that no two answers contradict each other.
-pub(super) fn queries_agree(body: &Body) {
+pub(super) fn check_queries(body: &Body) {
     let points = body.pieces().points();
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
         panic!("a body without points");
@@ -42,7 +42,7 @@ pub(super) fn queries_agree(body: &Body) {
     };
     // The ball flies from an arbitrary side at a point of the body, and beyond it.
     let way = DVec3::new(0.75, 0.5, 0.25) * (size + 1e-3);
-    let Some(falls) = moves(last - 2.0 * way, 4.0 * way) else {
+    let Some(falls) = linear_motion(last - 2.0 * way, 4.0 * way) else {
         return;
     };
     let config = Settings {
@@ -55,14 +55,14 @@ pub(super) fn queries_agree(body: &Body) {
     let Ok(problem) = ccd_core::Query::new(ball, still, 1.0, &config) else {
         return;
     };
-    agree(&problem, body.hull_tree().is_some());
+    check_answers_agree(&problem, body.hull_tree().is_some());
 }
 
-fn moves(from: DVec3, velocity: DVec3) -> Option<Motion> {
+fn linear_motion(from: DVec3, velocity: DVec3) -> Option<Motion> {
     Motion::new(Pose::at(from).ok()?, velocity, DVec3::ZERO).ok()
 }
 
-fn agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
+fn check_answers_agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     let mut methods = vec![Method::Direct, Method::Gjk, Method::Vmarch, Method::Naive];
     methods.extend(hull_tree.then_some(Method::Fast));
     let answers: Vec<(Method, Answer)> = methods
@@ -72,7 +72,7 @@ fn agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     for (_, one) in &answers {
         for (_, other) in &answers {
             assert!(
-                !excludes(one, other),
+                !contradicts(one, other),
                 "{answers:#?}",
                 answers = answers
                     .iter()
@@ -83,9 +83,9 @@ fn agree(problem: &ccd_core::Query<'_>, hull_tree: bool) {
     }
 }
 
-/// Returns whether the first answer proves that the second is false: a contact well within the tolerance at a time
-/// before which there is none.
-fn excludes(free: &Answer, contact: &Answer) -> bool {
+/// Returns whether the answer `free` proves that the answer `contact` is false: its contact is well within the
+/// tolerance, at a time before which there is none.
+fn contradicts(free: &Answer, contact: &Answer) -> bool {
     let safe_until = match free.outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Free { .. } => f64::INFINITY,

@@ -1,4 +1,4 @@
-//! Mesh files: from bytes to polygons, triangles, pieces and bodies.
+//! Reads mesh files, and makes triangles, pieces and bodies of them.
 
 use super::bodies;
 use crate::memory;
@@ -6,66 +6,69 @@ use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_ob
 use rawzip::ZipArchiveWriter;
 use std::io::Write;
 
-/// The maximum size of a file, in bytes. Faults of readers need few, and short files are read fast.
-const MOST_BYTES: usize = 1 << 14;
+/// The maximum size of a file, in bytes. Faults of readers need few bytes, and short files are read fast.
+const MAX_BYTES: usize = 1 << 14;
 
-/// The memory limit of a reader, besides some for each byte of the file.
+/// The constant part of a reader's memory limit, in bytes. The limit grows with the file's size.
 const MEMORY: usize = 1 << 20;
 const MEMORY_PER_BYTE: usize = 1 << 10;
-/// The memory limit of a reader of scenes, in which a few bytes may use the same mesh many times.
+/// The memory limit in bytes of a reader of scenes, in which a few bytes may use the same mesh many times.
 const MEMORY_OF_SCENES: usize = 1 << 28;
-/// The memory limit of bodies: approximate hulls use up to two million voxels.
+/// The memory limit of making bodies, in bytes. Approximate hulls use up to two million voxels.
 const MEMORY_OF_BODIES: usize = 1 << 28;
 
-/// The maximum number of triangles for patches and hulls of all kinds. `Auto` has a budget of its own.
-const MOST_TRIANGLES: usize = 48;
-/// The maximum number of triangles for any bodies: scenes of few bytes may have many.
-const MOST_OF_SCENES: usize = 1 << 11;
-/// Approximate hulls are made of one file in this many, because they take a hundred times as long as the rest.
-const APPROXIMATED: usize = 56;
+/// The maximum number of triangles for patches and hulls. `Auto` has a budget of its own.
+const MAX_TRIANGLES: usize = 48;
+/// The maximum number of triangles for bodies of any kind. Scenes of few bytes may have many.
+const MAX_SCENE_TRIANGLES: usize = 1 << 11;
+/// The number of files for each of which approximate hulls are made of one file, because they take a hundred times as
+/// long as the rest.
+const FILES_PER_APPROXIMATION: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
     read(format, bytes, MEMORY);
 }
 
-/// Reads a scene: a mesh of parts.
-pub(super) fn scene(format: Format, bytes: &[u8]) {
+/// Reads a scene file and checks its parts and bodies.
+pub(super) fn run_scene(format: Format, bytes: &[u8]) {
     read(format, bytes, MEMORY_OF_SCENES);
-    if bytes.len() <= MOST_BYTES {
-        memory::within(MEMORY_OF_SCENES, || parts(format, bytes));
+    if bytes.len() <= MAX_BYTES {
+        memory::with_memory_limit(MEMORY_OF_SCENES, || check_parts(format, bytes));
     }
 }
 
-/// Reads a 3MF model: the bytes are a package, or else the model in a generated package.
-pub(super) fn packed(bytes: &[u8]) {
-    scene(Format::ThreeMf, bytes);
-    scene(Format::ThreeMf, &package(bytes));
+/// Reads a 3MF: the bytes are a package, or else the model of a generated package.
+pub(super) fn run_packed(bytes: &[u8]) {
+    run_scene(Format::ThreeMf, bytes);
+    run_scene(Format::ThreeMf, &package(bytes));
 }
 
 fn read(format: Format, bytes: &[u8], memory: usize) {
-    if bytes.len() > MOST_BYTES {
+    if bytes.len() > MAX_BYTES {
         return;
     }
     let memory = memory + MEMORY_PER_BYTE * bytes.len();
-    let read = memory::within(memory, || TriangleMesh::from_reader(format, bytes));
+    let read = memory::with_memory_limit(memory, || TriangleMesh::from_reader(format, bytes));
     match read {
-        Ok(mesh) if mesh.faces().len() > MOST_OF_SCENES => check(&mesh),
-        Ok(mesh) => memory::within(MEMORY_OF_BODIES, || {
+        Ok(mesh) if mesh.faces().len() > MAX_SCENE_TRIANGLES => check(&mesh),
+        Ok(mesh) => memory::with_memory_limit(MEMORY_OF_BODIES, || {
             check(&mesh);
-            let mut details = details(mesh.faces().len());
-            if bytes.len().is_multiple_of(APPROXIMATED) && mesh.faces().len() <= MOST_TRIANGLES {
+            let mut details = affordable_details(mesh.faces().len());
+            if bytes.len().is_multiple_of(FILES_PER_APPROXIMATION)
+                && mesh.faces().len() <= MAX_TRIANGLES
+            {
                 details.push(Detail::Vhacd { hulls: 2 });
             }
             details
                 .into_iter()
-                .for_each(|detail| prepared(&mesh, detail));
+                .for_each(|detail| check_prepared(&mesh, detail));
         }),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
 }
 
-/// Checks that the parts of a file, put together, are the whole file.
-fn parts(format: Format, bytes: &[u8]) {
+/// Checks that the parts of a file together have the faces of the whole file.
+fn check_parts(format: Format, bytes: &[u8]) {
     let read = || MeshFile::from_reader(format, bytes);
     let (Ok(file), Ok(again), Ok(third)) = (read(), read(), read()) else {
         return;
@@ -86,7 +89,7 @@ fn parts(format: Format, bytes: &[u8]) {
     }
 }
 
-/// Returns an uncompressed package of one model.
+/// Returns an uncompressed 3MF package of one model.
 fn package(model: &[u8]) -> Vec<u8> {
     let pack = || {
         let mut bytes = Vec::new();
@@ -102,9 +105,9 @@ fn package(model: &[u8]) -> Vec<u8> {
     pack().expect("memory takes all bytes")
 }
 
-fn prepared(mesh: &TriangleMesh, detail: Detail) {
+fn check_prepared(mesh: &TriangleMesh, detail: Detail) {
     match prepare(mesh, detail) {
-        Ok(model) => bodies::stored_and_read(&model),
+        Ok(model) => bodies::check_storing(&model),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
 }
@@ -116,11 +119,11 @@ fn check(mesh: &TriangleMesh) {
     let count = vertices.len() as u32;
     assert!(faces.iter().flatten().all(|&v| v < count));
     let _ = mesh.repairs().to_string();
-    reads_back(mesh);
+    check_reads_back(mesh);
 }
 
-/// Checks that a written mesh reads back to the same bits.
-fn reads_back(mesh: &TriangleMesh) {
+/// Checks that a mesh written as OBJ reads back to the same bits.
+fn check_reads_back(mesh: &TriangleMesh) {
     let mut obj = Vec::new();
     write_obj(mesh, &mut obj).expect("memory takes all bytes");
     let again = TriangleMesh::from_reader(Format::Obj, &obj[..]).expect("an OBJ that was written");
@@ -132,9 +135,9 @@ fn reads_back(mesh: &TriangleMesh) {
     assert_eq!(again.faces(), mesh.faces());
 }
 
-fn details(triangles: usize) -> Vec<Detail> {
+fn affordable_details(triangles: usize) -> Vec<Detail> {
     let mut details = vec![Detail::Auto, Detail::Triangles];
-    if triangles <= MOST_TRIANGLES {
+    if triangles <= MAX_TRIANGLES {
         details.extend([Detail::Patches(Default::default()), Detail::Hull]);
     }
     details

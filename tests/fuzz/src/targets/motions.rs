@@ -1,20 +1,21 @@
-//! Tables of motions.
+//! Reads tables of motions.
 
 use crate::memory;
 use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, write};
 use std::io::{self, Read};
 
 /// The maximum size of the input, in bytes.
-const MOST_BYTES: usize = 1 << 14;
+const MAX_BYTES: usize = 1 << 14;
 
-/// The memory limit, besides some for each byte: a row of one byte is a whole query.
+/// The constant part of the memory limit, in bytes. The limit grows with the input, because a row of one byte is a
+/// whole query.
 const MEMORY: usize = 1 << 24;
 const MEMORY_PER_BYTE: usize = 1 << 11;
 
 pub(super) fn run(bytes: &[u8]) {
     within_limits(bytes, || {
         let whole = MotionTable::read(bytes);
-        let slow = MotionTable::read(Dripping(bytes));
+        let slow = MotionTable::read(OneByteReader(bytes));
         match (whole, slow) {
             (Ok(whole), Ok(slow)) => {
                 assert_eq!(whole, slow, "read byte by byte, it differs");
@@ -26,17 +27,17 @@ pub(super) fn run(bytes: &[u8]) {
     });
 }
 
-/// Runs a check of a small table with limited memory.
+/// Runs a check of a small table within a memory limit.
 pub(super) fn within_limits(bytes: &[u8], check: impl FnOnce()) {
-    if bytes.len() <= MOST_BYTES {
-        memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
+    if bytes.len() <= MAX_BYTES {
+        memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
     }
 }
 
 /// A reader that returns one byte at a time.
-pub(super) struct Dripping<'a>(pub(super) &'a [u8]);
+pub(super) struct OneByteReader<'a>(pub(super) &'a [u8]);
 
-impl Read for Dripping<'_> {
+impl Read for OneByteReader<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let one = out.len().min(1);
         self.0.read(&mut out[..one])
@@ -62,12 +63,12 @@ fn check(bytes: &[u8], table: &MotionTable) {
     table.errors.iter().for_each(|error| {
         assert!(!error.to_string().is_empty());
     });
-    skipped(bytes, table, all.len());
-    written(table);
+    check_skipped_rows(bytes, table, all.len());
+    check_written_rows(table);
 }
 
-/// Checks that skipped rows do not affect the rows after them.
-fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
+/// Checks that skipping rows does not affect the rows after them.
+fn check_skipped_rows(bytes: &[u8], table: &MotionTable, rows: usize) {
     let half = rows / 2;
     let mut rest = MotionRows::new(bytes).expect("a header that was read");
     assert_eq!(rest.skip_rows(half).ok(), Some(half));
@@ -76,8 +77,8 @@ fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
     assert!(rest.iter().eq(expected.into_iter()));
 }
 
-/// Checks that written rows read back to the same numbers, orientations up to rounding.
-fn written(table: &MotionTable) {
+/// Checks that written rows read back to the same numbers, except that orientations are rounded.
+fn check_written_rows(table: &MotionTable) {
     let queries: Vec<Motions> = table.rows.iter().map(|(_, query)| query.clone()).collect();
     let mut bytes = Vec::new();
     write(&mut bytes, &queries).expect("memory takes all bytes");
@@ -85,7 +86,7 @@ fn written(table: &MotionTable) {
     assert_eq!(again.errors, [], "{}", String::from_utf8_lossy(&bytes));
     assert_eq!(again.rows.len(), queries.len());
     for (one, (_, other)) in queries.iter().zip(&again.rows) {
-        assert_eq!(exact(one), exact(other));
+        assert_eq!(exact_values(one), exact_values(other));
         for (one, other) in [(one.a, other.a), (one.b, other.b)] {
             let turn = one.start().rotation().dot(other.start().rotation());
             assert!(turn.abs() > 1.0 - 1e-12, "{one:?} {other:?}");
@@ -93,8 +94,8 @@ fn written(table: &MotionTable) {
     }
 }
 
-/// Returns the parts of a row that are written without loss.
-fn exact(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
+/// Returns the values of a row that are written without loss.
+fn exact_values(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
     let numbers = [query.a, query.b].map(|motion| {
         [
             motion.start().translation(),

@@ -1,6 +1,6 @@
-//! Tables of paths.
+//! Reads tables of paths.
 
-use super::motions::{Dripping, within_limits};
+use super::motions::{OneByteReader, within_limits};
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};
 use rigid_ccd::table::motions::{RowPosition, TableError};
 use rigid_ccd::table::paths::Grouping;
@@ -20,13 +20,13 @@ pub(super) fn run(bytes: &[u8]) {
 
 /// Checks that a table is the same when read at once, byte by byte, and after skipped rows.
 fn check(bytes: &[u8], grouping: Grouping) {
-    let (whole, slow) = (read(bytes, grouping), read(Dripping(bytes), grouping));
+    let (whole, slow) = (read(bytes, grouping), read(OneByteReader(bytes), grouping));
     match (whole, slow) {
         (Ok(whole), Ok(slow)) => {
             assert_eq!(whole, slow, "read byte by byte, it differs");
             let (rows, checksum) = whole;
             rows.iter().for_each(check_row);
-            skipped(bytes, grouping, &rows, checksum);
+            check_skipped_rows(bytes, grouping, &rows, checksum);
         }
         (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
         (one, other) => panic!("at once {one:?}, byte by byte {other:?}"),
@@ -55,8 +55,8 @@ fn check_row(row: &CourseRow) {
     }
 }
 
-/// Checks that skipped rows do not affect the rows after them, except the default ids.
-fn skipped(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
+/// Checks that skipping rows does not affect the rows after them, except for default ids.
+fn check_skipped_rows(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
     let half = rows.len() / 2;
     let mut rest = Courses::new(bytes, grouping).expect("a header that was read");
     assert_eq!(rest.skip_rows(half).ok(), Some(half));

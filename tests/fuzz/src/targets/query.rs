@@ -1,4 +1,4 @@
-//! Queries in bytes, judged by the referee.
+//! Decodes queries from bytes, and judges their answers by the referee.
 
 mod decode;
 mod encode;
@@ -6,33 +6,33 @@ mod source;
 
 use crate::case::Case;
 use crate::engine::{Bodies, Kind, Method, Trees};
-use crate::trial::ask;
+use crate::trial::run_methods;
 use ccd_core::{ContactsError, Instructions, Outcome, Settings};
 pub use encode::encode;
 
-/// A query and the methods that answer it.
+/// A query, and the methods that answer it.
 struct Question {
     case: Case,
     asked: Vec<(Kind, Method)>,
-    /// Whether to check equal bits and the features in contact as well.
+    /// Whether to check for equal bits and to list the features in contact as well.
     more: bool,
 }
 
 /// # Panics
 /// If an answer has a fault.
 pub(super) fn run(bytes: &[u8]) {
-    let question = decode::question(bytes);
-    let trial = ask(question.case.clone(), question.asked);
+    let question = decode::decode_question(bytes);
+    let trial = run_methods(question.case.clone(), question.asked);
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
     if question.more && trial.refused.is_none() {
-        equal_bits(&question.case);
+        check_equal_bits(&question.case);
     }
 }
 
-/// Checks that other vector instructions give the same bits, and that contacts can be listed.
-fn equal_bits(case: &Case) {
+/// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
+fn check_equal_bits(case: &Case) {
     let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::Without) else {
         return;
     };

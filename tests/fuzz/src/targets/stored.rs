@@ -1,4 +1,4 @@
-//! Stored bodies: a `.ccd` file with a repaired frame, so that changed payloads pass the checksum.
+//! Loads stored bodies. The frame of the `.ccd` file is repaired, so that changed payloads pass the checksum.
 
 use super::bodies;
 use crate::memory;
@@ -6,19 +6,19 @@ use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
 use std::sync::LazyLock;
 
 /// The maximum size of the input, in bytes.
-const MOST_BYTES: usize = 1 << 14;
+const MAX_BYTES: usize = 1 << 14;
 
-/// The memory limit, as for the readers of meshes.
+/// The memory limit of loading, in bytes.
 const MEMORY: usize = 1 << 25;
 const MEMORY_PER_BYTE: usize = 1 << 10;
 
-/// The length of the frame's first part, a magic number and a version; the length of the payload and its checksum
+/// The length of the magic number and the version, which begin the file. The length of the payload and its checksum
 /// follow.
 const START: usize = 12;
 const LENGTH: usize = 8;
 const CHECKSUM: usize = 4;
 
-/// The magic number and the version of this build.
+/// The magic number and the version of this build's format.
 static HEAD: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, triangle.as_bytes()).expect("a triangle");
@@ -27,18 +27,18 @@ static HEAD: LazyLock<Vec<u8>> = LazyLock::new(|| {
 });
 
 pub(super) fn run(bytes: &[u8]) {
-    if bytes.len() > MOST_BYTES {
+    if bytes.len() > MAX_BYTES {
         return;
     }
     LazyLock::force(&HEAD);
-    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+    memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
         check(bytes);
-        check(&mended(bytes));
+        check(&with_repaired_frame(bytes));
     });
 }
 
-/// Returns the file with the right head, length and checksum for its payload.
-fn mended(bytes: &[u8]) -> Vec<u8> {
+/// Returns the file with the magic number, version, length and checksum that fit its payload.
+fn with_repaired_frame(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM);
     let payload = bytes.get(START + LENGTH..end).unwrap_or_default();
     let mut file = HEAD.clone();
@@ -57,5 +57,5 @@ fn check(bytes: &[u8]) {
     let _ = model.report.to_string();
     let body = model.body().expect("a model that was read is a body");
     assert_eq!(body.pieces().len(), model.report.pieces);
-    bodies::stored_and_read(&model);
+    bodies::check_storing(&model);
 }

@@ -1,10 +1,11 @@
 use super::*;
 use crate::hull::exact_hull::{ExactHull, conflicts};
-use crate::hull::polygons::loops;
+use crate::hull::polygons::merged_polygons;
 use proptest::prelude::*;
 
 proptest! {
-    /// Both methods give the same polygons, on grids and slightly off them.
+    /// Tests that the hulls with and without a conflict graph have the same polygons, for points on grids and
+    /// slightly off them.
     #[test]
     fn few_points_have_the_hull_of_many(
         points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..24),
@@ -18,7 +19,7 @@ proptest! {
         let Some(simplex) = ExactHull::simplex(&points) else { return Ok(()) };
         let sorted = |triangles: Vec<[u32; 3]>| {
             let mut sorted: Vec<Vec<[u64; 3]>> = Vec::new();
-            for polygon in loops(&points, &triangles).iter() {
+            for polygon in merged_polygons(&points, &triangles).iter() {
                 // Each hull may use any of several equal points.
                 let place = |&v: &u32| points[v as usize].to_array().map(|x| (x + 0.0).to_bits());
                 let mut corners: Vec<[u64; 3]> = polygon.iter().map(place).collect();

@@ -1,4 +1,4 @@
-use super::{Assembly, Object, Part, Placed};
+use super::{Assembly, Object, Part, PlacedObject};
 use crate::MeshFault;
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::Allowance;
@@ -16,9 +16,9 @@ fn triangle() -> Polygons {
     }
 }
 
-fn shifted(object: usize, x: f64) -> Placed {
+fn shifted(object: usize, x: f64) -> PlacedObject {
     let map = AffineMap::from(Pose::at([x, 0.0, 0.0]).unwrap());
-    Placed { object, map }
+    PlacedObject { object, map }
 }
 
 fn part(object: usize) -> Part {
@@ -28,7 +28,7 @@ fn part(object: usize) -> Part {
     }
 }
 
-fn of(members: Vec<Placed>) -> Object {
+fn of(members: Vec<PlacedObject>) -> Object {
     Object {
         shape: Polygons::default(),
         members,
@@ -97,7 +97,7 @@ fn parts_without_faces_are_left_out() {
     assert_eq!(kept, [2, 3]);
 }
 
-/// Each object is twice its member: a thousand levels would exceed any memory.
+/// Tests that a chain of a thousand objects, each twice its member, is refused before it is expanded.
 #[test]
 fn doubling_is_refused_before_it_is_done() {
     for bottom in [leaf(), of(Vec::new())] {

@@ -1,4 +1,4 @@
-//! Accessors: typed arrays in buffers.
+//! Reads glTF accessors: typed arrays in buffers.
 
 use super::buffers::Buffers;
 use super::element;
@@ -8,14 +8,14 @@ use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// A reader of accessors, within the file's allowance.
+/// A reader of accessors, which spends the file's allowance.
 pub(super) struct Accessors<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
     allowance: Allowance,
 }
 
-/// The component types of glTF.
+/// The component types of glTF accessors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Component {
     I8,
@@ -26,7 +26,7 @@ enum Component {
     F32,
 }
 
-/// Elements at a constant stride.
+/// The elements of an accessor in memory, at a constant stride.
 struct Rows<'a> {
     bytes: &'a [u8],
     stride: usize,
@@ -43,25 +43,25 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Returns whether an accessor has data, not only a compression extension.
+    /// Returns whether an accessor has uncompressed data, not only a compression extension.
     pub(super) fn has_bytes(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
-    /// Spends the cost of a number of corners.
+    /// Spends the cost of `count` face corners from the allowance.
     pub(super) fn take_corners(&mut self, count: usize) -> Result<(), MeshFault> {
-        self.allowance.take(cost(0, count as u64))
+        self.allowance.spend(cost(0, count as u64))
     }
 
-    /// Reads the points of a `VEC3` accessor.
+    /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        self.at(accessor, |accessors, about| {
+        self.read_named(accessor, |accessors, about| {
             check_kind(about, "VEC3")?;
             let component = Component::from_code(about.component_type)?;
             let size = component.size();
             let point = |row: &[u8]| {
-                let number = |k: usize| component.number(&row[k * size..], about.normalized);
+                let number = |k: usize| component.coordinate(&row[k * size..], about.normalized);
                 DVec3::new(number(0), number(1), number(2))
             };
             let price = cost(about.count, 0);
@@ -70,8 +70,8 @@ impl<'a> Accessors<'a> {
     }
 
     /// Reads the indices of a `SCALAR` accessor.
-    pub(super) fn numbers(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        self.at(accessor, |accessors, about| {
+    pub(super) fn indices(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
+        self.read_named(accessor, |accessors, about| {
             check_kind(about, "SCALAR")?;
             let component = Component::index_from_code(about.component_type)?;
             let whole = |row: &[u8]| component.whole(row);
@@ -79,8 +79,8 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Reads an accessor, and names it in faults.
-    fn at<T>(
+    /// Calls `read` for an accessor, and names the accessor in faults.
+    fn read_named<T>(
         &mut self,
         accessor: usize,
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
@@ -99,7 +99,7 @@ impl<'a> Accessors<'a> {
         read: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, MeshFault> {
         let rows = self.rows(about, size)?;
-        self.allowance.take(price)?;
+        self.allowance.spend(price)?;
         let mut elements: Vec<T> = match rows {
             Some(rows) => rows.iter().map(&read).collect(),
             // The allowance bounds the number.
@@ -115,7 +115,7 @@ impl<'a> Accessors<'a> {
         Ok(elements)
     }
 
-    /// Returns the elements of an accessor; `None` if all except the sparse ones are zero.
+    /// Returns the elements of an accessor; `None` if all except the sparse elements are zero.
     fn rows(&self, about: &schema::Accessor, size: usize) -> Result<Option<Rows<'a>>, MeshFault> {
         match (about.buffer_view, &about.sparse) {
             (Some(view), _) => {
@@ -156,13 +156,13 @@ impl<'a> Accessors<'a> {
         })
     }
 
-    /// Reads the indices that a sparse accessor replaces in a list of a given length.
+    /// Reads the positions at which a sparse accessor replaces elements of a list of a given length.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = Component::index_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows_at(about.buffer_view, about.byte_offset, layout, None)?;
-        self.allowance.take(cost(0, sparse.count))?;
+        self.allowance.spend(cost(0, sparse.count))?;
         let checked = |row| match component.whole(row) as usize {
             number if number < length => Ok(number),
             number => {
@@ -217,7 +217,7 @@ impl Component {
         })
     }
 
-    /// Returns the component type of an index.
+    /// Returns the component type of vertex indices for a numeric code.
     fn index_from_code(number: u32) -> Result<Self, MeshFault> {
         match Component::from_code(number)? {
             unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
@@ -236,8 +236,8 @@ impl Component {
         }
     }
 
-    /// Reads a coordinate. A normalized integer is a fraction of the largest value of its type.
-    fn number(self, bytes: &[u8], normalized: bool) -> f64 {
+    /// Reads a coordinate from its bytes. A normalized integer is a fraction of the largest value of its type.
+    fn coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
         let number = self.exact(bytes);
         let largest: f64 = match self {
             _ if !normalized => return number,
@@ -253,23 +253,23 @@ impl Component {
 
     fn exact(self, bytes: &[u8]) -> f64 {
         match self {
-            Component::I8 => i8::from_le_bytes(array(bytes)).into(),
-            Component::I16 => i16::from_le_bytes(array(bytes)).into(),
-            Component::F32 => f32::from_le_bytes(array(bytes)).into(),
+            Component::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
+            Component::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
+            Component::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
             Component::U8 | Component::U16 | Component::U32 => self.whole(bytes).into(),
         }
     }
 
     fn whole(self, bytes: &[u8]) -> u32 {
         match self {
-            Component::U8 => u8::from_le_bytes(array(bytes)).into(),
-            Component::U16 => u16::from_le_bytes(array(bytes)).into(),
-            _ => u32::from_le_bytes(array(bytes)),
+            Component::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
+            Component::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),
+            _ => u32::from_le_bytes(first_bytes(bytes)),
         }
     }
 }
 
-/// Returns the first bytes, or zeros if there are too few.
-fn array<const N: usize>(bytes: &[u8]) -> [u8; N] {
+/// Returns the first `N` bytes, or zeros if there are too few.
+fn first_bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.first_chunk().copied().unwrap_or([0; N])
 }

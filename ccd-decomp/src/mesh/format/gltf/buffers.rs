@@ -1,4 +1,4 @@
-//! Buffers of a glTF.
+//! Resolves the buffers of a glTF: embedded, binary chunk, or separate file.
 
 use super::schema::{Buffer, Root};
 use super::{element, extensions};
@@ -9,7 +9,7 @@ use base64::engine::general_purpose::GeneralPurpose;
 use base64::engine::{DecodePaddingMode, GeneralPurposeConfig};
 use std::borrow::Cow;
 
-/// The buffers of a file; `None` for a buffer without data, which only a compression extension fills.
+/// The buffers of a file. A buffer that only a compression extension fills has no data and is `None`.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
     bytes: Vec<Option<Cow<'a, [u8]>>>,
@@ -33,7 +33,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// Returns the bytes of a buffer view, from an offset on.
+    /// Returns the bytes of a buffer view from `offset` on.
     pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
         if about.extensions.meshopt.is_some() && self.is_empty(about.buffer) {
@@ -61,7 +61,7 @@ impl<'a> Buffers<'a> {
         found().map_err(|fault: MeshFault| fault.at(element_name("buffer view", view, None)))
     }
 
-    /// Returns the stride of a buffer view, if it states one.
+    /// Returns the stride of a buffer view in bytes, if the view states one.
     pub(super) fn stride(&self, view: usize) -> Option<u64> {
         self.root.buffer_views.get(view)?.byte_stride
     }
@@ -81,10 +81,10 @@ fn content<'a>(
             Some(binary) => binary.into(),
             None => return Ok(None),
         },
-        Some(uri) => match data(uri) {
+        Some(uri) => match data_uri_payload(uri) {
             Some(data) => decode(data?)?.into(),
             None => {
-                let name = decoded(uri)?;
+                let name = percent_decoded(uri)?;
                 let bytes = linked.get(&name).map(Vec::as_slice);
                 bytes.ok_or_else(|| alone(name))?.into()
             }
@@ -107,20 +107,23 @@ fn alone(name: String) -> MeshFault {
     }
 }
 
-/// Returns the file of a buffer, if it is a separate one.
+/// Returns the reference to the file of a buffer; `None` for an embedded buffer.
 pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
-    let outside = buffer.uri.as_ref().filter(|uri| data(uri).is_none());
+    let outside = buffer
+        .uri
+        .as_ref()
+        .filter(|uri| data_uri_payload(uri).is_none());
     let reference = outside.map(|uri| {
         Ok(Reference {
-            name: decoded(uri)?,
+            name: percent_decoded(uri)?,
             bytes: buffer.byte_length,
         })
     });
     reference.transpose()
 }
 
-/// Returns the data of a data URI; `None` for any other URI.
-fn data(uri: &str) -> Option<Result<&str, MeshFault>> {
+/// Returns the encoded data of a data URI; `None` for any other URI.
+fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
     let rest = match uri.split_at_checked(5) {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("data:") => rest,
         _ => return None,
@@ -141,8 +144,8 @@ fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
     decoded.map_err(|error| MeshFault::syntax(None, format!("its base64 is not valid: {error}")))
 }
 
-/// Decodes a URI to a path: `%20` is a space, and so on.
-fn decoded(uri: &str) -> Result<String, MeshFault> {
+/// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
+fn percent_decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
         Err(MeshFault::syntax(
             None,
@@ -171,13 +174,13 @@ fn decoded(uri: &str) -> Result<String, MeshFault> {
         rest = &rest[2..];
     }
     match String::from_utf8(bytes) {
-        Ok(path) => Ok(without_dots(&path)),
+        Ok(path) => Ok(normalized_path(&path)),
         Err(_) => problem("is no UTF-8"),
     }
 }
 
-/// Removes empty and `.` components of a path, so that a file has one name. Absolute paths and `..` are kept.
-fn without_dots(path: &str) -> String {
+/// Removes empty and `.` components from a path, so that one file has one name. Absolute paths and `..` are kept.
+fn normalized_path(path: &str) -> String {
     let root = if path.starts_with('/') { "/" } else { "" };
     let steps = path.split('/').filter(|step| !matches!(*step, "" | "."));
     let steps: Vec<&str> = steps.collect();

@@ -1,4 +1,4 @@
-//! The container of a glTF: a text, or chunks of bytes.
+//! Splits a glTF into its JSON and its binary chunk.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -10,7 +10,7 @@
 
 use crate::mesh::error::MeshFault;
 
-/// The JSON, and the binary chunk, if there is one.
+/// The JSON of a glTF, and its binary chunk, if there is one.
 #[derive(Debug)]
 pub(super) struct Container<'a> {
     pub(super) json: &'a [u8],

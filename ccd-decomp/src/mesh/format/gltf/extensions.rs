@@ -1,9 +1,9 @@
-//! Required extensions: those that do not change shapes, and those that cannot be read.
+//! Checks the required extensions of a glTF. Only those that do not change shapes are accepted.
 
 use super::schema::Root;
 use crate::mesh::error::{MeshFault, Quote};
 
-/// Name prefixes of extensions about appearance, lights, audio and metadata.
+/// The name prefixes of extensions about appearance, lights, audio and metadata, which do not change shapes.
 const HARMLESS: [&str; 14] = [
     "KHR_materials_",
     "KHR_texture_",
@@ -21,7 +21,7 @@ const HARMLESS: [&str; 14] = [
     "EXT_instance_features",
 ];
 
-/// Integer positions, which are supported.
+/// The extension for integer positions, which is supported.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 const DRACO: &str = "KHR_draco_mesh_compression";

@@ -1,39 +1,42 @@
-//! The nodes of a scene, as parts.
+//! Traverses the nodes of a glTF scene, and collects the parts that they place.
 
 use super::accessor::Accessors;
 use super::schema::{Node, Root};
 use super::{element, extensions, primitive, transform};
 use crate::mesh::affine::AffineMap;
-use crate::mesh::content::assembly::{Object, Part, Placed};
+use crate::mesh::content::assembly::{Object, Part, PlacedObject};
 use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
-/// The meshes of a scene, and the nodes that place them.
+/// The meshes of a glTF scene, and the parts that place them.
 pub(super) struct Scene {
     pub(super) objects: Vec<Object>,
     pub(super) parts: Vec<Part>,
     pub(super) remarks: Remarks,
 }
 
-/// Reads the default scene, or else the first one; without scenes, all nodes; without nodes, all meshes.
+/// Reads the default scene of the file, or else the first one. A file without scenes gives all nodes; one without
+/// nodes, all meshes.
 pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
     let mut walk = Walk::new(root, accessors);
     match (root.scene, root.scenes.first()) {
-        (Some(scene), _) => walk.below(&element(&root.scenes, "scene", scene)?.nodes)?,
-        (None, Some(first)) => walk.below(&first.nodes)?,
-        (None, None) if root.nodes.is_empty() => walk.meshes_alone()?,
-        (None, None) => walk.all()?,
+        (Some(scene), _) => {
+            walk.visit_descendants(&element(&root.scenes, "scene", scene)?.nodes)?;
+        }
+        (None, Some(first)) => walk.visit_descendants(&first.nodes)?,
+        (None, None) if root.nodes.is_empty() => walk.visit_meshes()?,
+        (None, None) => walk.visit_all()?,
     }
-    walk.remark();
+    walk.add_remarks();
     Ok(walk.scene)
 }
 
-/// A traversal of the nodes. Each mesh is read at its first use.
+/// The state of a traversal of the nodes. Each mesh is read at its first use.
 struct Walk<'a> {
     root: &'a Root,
     accessors: Accessors<'a>,
-    /// The object of each mesh that was read.
+    /// The object number of each mesh that has been read, by mesh index.
     known: HashMap<usize, usize>,
     visited: Vec<bool>,
     scene: Scene,
@@ -54,8 +57,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Visits nodes and all their descendants, parents first.
-    fn below(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
+    /// Visits the nodes `tops` and all their descendants, parents first.
+    fn visit_descendants(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
         let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
         while let Some((number, above)) = waiting.pop() {
@@ -66,9 +69,9 @@ impl<'a> Walk<'a> {
                 let problem = "is below itself, or below two others".into();
                 return Err(MeshFault::syntax(None, problem).at(place()));
             }
-            let own = transform::of_node(node).map_err(|fault| fault.at(place()))?;
+            let own = transform::node_transform(node).map_err(|fault| fault.at(place()))?;
             let map = above.after(&own);
-            if own.is_point() {
+            if own.collapses_to_point() {
                 continue;
             }
             self.add(node, map).map_err(|fault| fault.at(place()))?;
@@ -77,8 +80,8 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// Visits all nodes, starting at the roots.
-    fn all(&mut self) -> Result<(), MeshFault> {
+    /// Visits all nodes of the file, starting at the roots.
+    fn visit_all(&mut self) -> Result<(), MeshFault> {
         let mut is_below = vec![false; self.root.nodes.len()];
         for &child in self.root.nodes.iter().flat_map(|node| &node.children) {
             element(&self.root.nodes, "node", child)?;
@@ -91,15 +94,15 @@ impl<'a> Walk<'a> {
             let problem = "is below itself".into();
             return Err(MeshFault::syntax(None, problem).at(element_name("node", 0, None)));
         }
-        self.below(&tops)
+        self.visit_descendants(&tops)
     }
 
-    fn meshes_alone(&mut self) -> Result<(), MeshFault> {
+    fn visit_meshes(&mut self) -> Result<(), MeshFault> {
         (0..self.root.meshes.len()).try_for_each(|mesh| self.place(mesh, None, AffineMap::IDENTITY))
     }
 
     /// Adds remarks about content that was skipped or is drawn differently.
-    fn remark(&mut self) {
+    fn add_remarks(&mut self) {
         let root = self.root;
         let with_mesh = root
             .nodes
@@ -112,7 +115,9 @@ impl<'a> Walk<'a> {
             .known
             .keys()
             .flat_map(|&mesh| &root.meshes[mesh].primitives);
-        let thin = used.clone().filter(|primitive| primitive.is_thin());
+        let thin = used
+            .clone()
+            .filter(|primitive| primitive.is_points_or_lines());
         let changing = used.filter(|primitive| !primitive.targets.is_empty());
         for (what, count) in [
             (
@@ -166,7 +171,7 @@ impl<'a> Walk<'a> {
         // An empty name counts as no name.
         let given = |name: &String| !name.is_empty();
         let name = label.filter(given).or(about.name.clone().filter(given));
-        let placed = Placed { object, map };
+        let placed = PlacedObject { object, map };
         self.scene.parts.push(Part { name, placed });
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! The primitives of a mesh, as triangles.
+//! Reads the primitives of a glTF mesh as triangles.
 
 use super::accessor::Accessors;
 use super::extensions;
@@ -19,14 +19,14 @@ pub(super) fn shape(mesh: &Mesh, accessors: &mut Accessors<'_>) -> Result<Polygo
     Ok(shape)
 }
 
-/// The range of an accessor's vertices in the shape.
+/// The range of vertex numbers in the shape that an accessor's points have.
 #[derive(Clone, Copy)]
 struct Vertices {
     first: usize,
     count: usize,
 }
 
-/// The topology of a primitive of triangles.
+/// The topology of a primitive: how its indices form triangles.
 #[derive(Clone, Copy)]
 enum Mode {
     Triangles,
@@ -65,7 +65,7 @@ fn add(
         }
     };
     let corners = match primitive.indices {
-        Some(indices) => accessors.numbers(indices)?,
+        Some(indices) => accessors.indices(indices)?,
         None => (0..vertices.count as u32).collect(),
     };
     mode.check(corners.len())?;
@@ -88,7 +88,7 @@ fn add(
     Ok(())
 }
 
-/// Checks the points before they are transformed, while they have the file's numbers.
+/// Checks that the points are finite, before a transform, while they have the file's numbers.
 fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
     match points.iter().position(|point| !point.is_finite()) {
         Some(vertex) => Err(MeshFault::NotFinite { vertex, line: None }),
@@ -97,7 +97,7 @@ fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
 }
 
 impl Mode {
-    /// Returns the mode by its number; `None` for points and lines.
+    /// Returns the mode for a numeric code of glTF; `None` for points and lines.
     fn from_code(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
         match number {
             Some(0..=3) => Ok(None),
@@ -121,7 +121,7 @@ impl Mode {
         }
     }
 
-    /// Returns the triangles in one orientation: every second one of a strip is reversed.
+    /// Returns the triangles in a common orientation: every second triangle of a strip is reversed.
     fn triangles(self, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
         let count = match self {
             Mode::Triangles => corners.len() / 3,

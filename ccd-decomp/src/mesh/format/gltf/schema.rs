@@ -5,14 +5,14 @@ use crate::mesh::error::MeshFault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// The top-level object.
+/// The top-level JSON object of a glTF.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Root {
     asset: Asset,
     #[serde(default)]
     pub(super) extensions_required: Vec<String>,
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) scene: Option<usize>,
     #[serde(default)]
     pub(super) scenes: Vec<SceneNodes>,
@@ -28,7 +28,7 @@ pub(super) struct Root {
     pub(super) buffers: Vec<Buffer>,
 }
 
-/// The list of buffers alone.
+/// The JSON of a glTF, reduced to its list of buffers.
 #[derive(Deserialize)]
 pub(super) struct BufferList {
     #[serde(default)]
@@ -51,7 +51,7 @@ pub(super) struct Node {
     pub(super) name: Option<String>,
     #[serde(default, deserialize_with = "whole::list")]
     pub(super) children: Vec<usize>,
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<IgnoredAny>,
     pub(super) matrix: Option<[f64; 16]>,
@@ -78,9 +78,9 @@ pub(super) struct Mesh {
 #[derive(Deserialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) indices: Option<usize>,
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) mode: Option<u32>,
     #[serde(default)]
     pub(super) targets: Vec<IgnoredAny>,
@@ -91,7 +91,7 @@ pub(super) struct Primitive {
 #[derive(Deserialize)]
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) position: Option<usize>,
 }
 
@@ -104,15 +104,15 @@ pub(super) struct PrimitiveExtensions {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) buffer_view: Option<usize>,
-    #[serde(default, deserialize_with = "whole::one")]
+    #[serde(default, deserialize_with = "whole::required")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) component_type: u32,
     #[serde(default)]
     pub(super) normalized: bool,
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) count: u64,
     #[serde(rename = "type")]
     pub(super) kind: String,
@@ -121,7 +121,7 @@ pub(super) struct Accessor {
 
 #[derive(Deserialize)]
 pub(super) struct Sparse {
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) count: u64,
     pub(super) indices: SparseIndices,
     pub(super) values: SparseValues,
@@ -130,33 +130,33 @@ pub(super) struct Sparse {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseIndices {
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) buffer_view: usize,
-    #[serde(default, deserialize_with = "whole::one")]
+    #[serde(default, deserialize_with = "whole::required")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) component_type: u32,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct SparseValues {
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) buffer_view: usize,
-    #[serde(default, deserialize_with = "whole::one")]
+    #[serde(default, deserialize_with = "whole::required")]
     pub(super) byte_offset: u64,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct BufferView {
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) buffer: usize,
-    #[serde(default, deserialize_with = "whole::one")]
+    #[serde(default, deserialize_with = "whole::required")]
     pub(super) byte_offset: u64,
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) byte_length: u64,
-    #[serde(default, deserialize_with = "whole::maybe")]
+    #[serde(default, deserialize_with = "whole::optional")]
     pub(super) byte_stride: Option<u64>,
     #[serde(default)]
     pub(super) extensions: ViewExtensions,
@@ -172,13 +172,13 @@ pub(super) struct ViewExtensions {
 #[serde(rename_all = "camelCase")]
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
-    #[serde(deserialize_with = "whole::one")]
+    #[serde(deserialize_with = "whole::required")]
     pub(super) byte_length: u64,
 }
 
 impl Primitive {
-    /// Returns whether the mode is points or lines.
-    pub(super) fn is_thin(&self) -> bool {
+    /// Returns whether the primitive consists of points or lines, not of triangles.
+    pub(super) fn is_points_or_lines(&self) -> bool {
         matches!(self.mode, Some(0..=3))
     }
 }

@@ -1,5 +1,5 @@
-//! Valid glTF files are read as specified: `shapes` of meshes, and `nodes` that place them. Invalid files are in
-//! `faults`.
+//! Tests that valid glTF files are read as specified: `shapes` of meshes, and `nodes` that place them. Invalid files
+//! are in `faults`.
 
 mod faults;
 mod nodes;
@@ -31,7 +31,7 @@ fn corner(gltf: &Gltf) -> DVec3 {
     read(gltf).vertices()[1]
 }
 
-/// Two triangles of four corners of a square.
+/// Returns a glTF of a square: two triangles over four vertices.
 fn square() -> Gltf {
     let mut gltf = Gltf::new();
     gltf.floats(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
@@ -86,7 +86,7 @@ fn extensions_about_looks_do_not_hinder() {
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
-/// Draco and meshopt files may include uncompressed data.
+/// Tests that uncompressed data in a Draco or meshopt file is read.
 #[test]
 fn data_beside_a_compression_is_read() {
     let mut gltf = Gltf::triangle().set(
@@ -99,7 +99,7 @@ fn data_beside_a_compression_is_read() {
     assert_eq!(read(&gltf).faces().len(), 1);
 }
 
-/// JSON allows 1.0 and 1e0 for 1, also in counts and indices.
+/// Tests that 1.0 and 1e0 are read as 1 in counts and indices, as JSON allows.
 #[test]
 fn whole_numbers_may_have_a_fraction_of_zero() {
     fn with_fractions(value: &mut serde_json::Value) {

@@ -1,4 +1,4 @@
-//! The transform of a node relative to its parent.
+//! Reads the transform of a glTF node relative to its parent.
 
 use super::schema::Node;
 use crate::mesh::affine::AffineMap;
@@ -6,10 +6,10 @@ use crate::mesh::error::MeshFault;
 use ccd_core::Pose;
 use ccd_core::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 
-/// Returns the map from a node's coordinates to those of its parent.
-pub(super) fn of_node(node: &Node) -> Result<AffineMap, MeshFault> {
+/// Returns the affine map from a node's coordinates to those of its parent.
+pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
     let Some(matrix) = node.matrix else {
-        return of_parts(node);
+        return compose(node);
     };
     let matrix = DMat4::from_cols_array(&matrix);
     if matrix.row(3) == DVec4::W && matrix.is_finite() {
@@ -20,8 +20,8 @@ pub(super) fn of_node(node: &Node) -> Result<AffineMap, MeshFault> {
     }
 }
 
-/// Composes the map: scale, then rotation, then translation.
-fn of_parts(node: &Node) -> Result<AffineMap, MeshFault> {
+/// Composes the map from a node's scale, rotation and translation, applied in this order.
+fn compose(node: &Node) -> Result<AffineMap, MeshFault> {
     let scale = node.scale.map_or(DVec3::ONE, DVec3::from_array);
     let rotation = node.rotation.unwrap_or(DQuat::IDENTITY.to_array());
     let translation = node.translation.unwrap_or([0.0; 3]);

@@ -1,23 +1,23 @@
-//! Whole numbers in JSON, which may be written with a zero fraction or an exponent: 1.0 is 1.
+//! Reads whole numbers in JSON, which may be written with a zero fraction or an exponent: 1.0 is 1.
 
 use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Reads one number.
-pub(super) fn one<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
+/// Deserializes a required whole number.
+pub(super) fn required<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> Result<T, D::Error> {
     Whole::deserialize(from).map(|Whole(number)| number)
 }
 
-/// Reads an optional number.
-pub(super) fn maybe<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+/// Deserializes an optional whole number.
+pub(super) fn optional<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Option<T>, D::Error> {
     let number = Option::<Whole<T>>::deserialize(from)?;
     Ok(number.map(|Whole(number)| number))
 }
 
-/// Reads a list of numbers.
+/// Deserializes a list of whole numbers.
 pub(super) fn list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {
@@ -35,7 +35,7 @@ impl<'de, T: TryFrom<u64>> Deserialize<'de> for Whole<T> {
 
 struct Number<T>(PhantomData<T>);
 
-/// The first whole number above which f64 is inexact.
+/// The number 2⁵³, from which on f64 does not represent every whole number.
 const FIRST_INEXACT: f64 = (1_u64 << 53) as f64;
 
 impl<T: TryFrom<u64>> Visitor<'_> for Number<T> {

@@ -1,4 +1,4 @@
-//! Every kind of bad input, and its message.
+//! Tests the error message for every kind of invalid mesh file.
 
 use super::{Format, PLY, binary_stl, read};
 use crate::{MeshFault, TriangleMesh};
@@ -254,7 +254,7 @@ fn files_are_named() {
     }
 }
 
-/// Errors about common CAD and scene formats say how to convert them to a mesh.
+/// Tests that errors for common CAD and scene formats say how to convert the file to a mesh.
 #[test]
 fn files_of_other_programs_are_told_how_to_convert() {
     for (name, way) in [
@@ -277,7 +277,7 @@ fn files_of_other_programs_are_told_how_to_convert() {
     }
 }
 
-/// A renamed STEP file is recognised under every extension.
+/// Tests that a STEP file with the extension of another format is recognised.
 #[test]
 fn a_renamed_step_file_is_told_how_to_convert() {
     let step = "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";

@@ -1,4 +1,4 @@
-//! Any bytes give an error or a valid mesh, never a panic.
+//! Tests that any bytes give an error or a valid mesh, never a panic.
 
 use super::{Format, binary_ply, binary_stl, read, valid};
 use proptest::prelude::*;

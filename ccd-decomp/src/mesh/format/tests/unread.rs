@@ -1,4 +1,4 @@
-//! Unsupported content is an error if it defines faces, otherwise a remark.
+//! Tests that unsupported content is an error if it defines faces, and a remark otherwise.
 
 use super::{Format, OBJ, OFF, PLY, RICH_OBJ, STL, binary_ply, binary_stl, corners, read};
 use crate::TriangleMesh;
@@ -87,7 +87,7 @@ fn an_element_that_is_passed_over_is_named() {
     }
 }
 
-/// A header with these elements, and its lines.
+/// Returns a text PLY with the given face elements in its header, and the given lines.
 fn ply(faces: &str, lines: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
@@ -171,7 +171,7 @@ fn what_follows_the_end_is_an_error() {
     assert!(message.contains(expected), "{message}");
 }
 
-/// Texts with byte order marks, in UTF-16, and with any line ends are read.
+/// Tests that texts are read with byte order marks, in UTF-16, and with any line endings.
 #[test]
 fn texts_are_read_however_they_are_written() {
     let rich = String::from_utf8_lossy(RICH_OBJ).into_owned();

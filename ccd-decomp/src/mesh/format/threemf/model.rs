@@ -1,7 +1,7 @@
-//! A model of a package: objects and build items.
+//! Reads one model file of a 3MF: its objects and build items.
 
 use super::transform;
-use super::xml::{Element, Origin, Step, Xml};
+use super::xml::{Element, Origin, Xml, XmlEvent};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::polygons::Polygons;
@@ -17,14 +17,14 @@ use std::str::FromStr;
 pub(super) struct Model {
     pub(super) unit: Option<Unit>,
     pub(super) objects: Vec<ModelObject>,
-    pub(super) items: Vec<Use>,
+    pub(super) items: Vec<ObjectRef>,
     pub(super) remarks: Remarks,
 }
 
 #[derive(Debug)]
 pub(super) struct ModelObject {
     pub(super) id: u32,
-    /// The name or, without one, the part number.
+    /// The object's name or, without a name, its part number.
     pub(super) name: Option<String>,
     pub(super) shape: Shape,
 }
@@ -33,22 +33,22 @@ pub(super) struct ModelObject {
 #[derive(Debug)]
 pub(super) enum Shape {
     Mesh(Polygons),
-    Components(Vec<Use>),
-    /// A shape of an extension, by its element name.
+    Components(Vec<ObjectRef>),
+    /// A shape that an extension defines, by the name of its element.
     Foreign(String),
 }
 
-/// A reference to an object by a component or an item.
+/// A reference from a component or build item to an object.
 #[derive(Debug)]
-pub(super) struct Use {
+pub(super) struct ObjectRef {
     pub(super) object: u32,
     pub(super) map: AffineMap,
-    /// The path of the object's model; `None` for the same model.
+    /// The path of the model that has the object; `None` for the same model.
     pub(super) path: Option<String>,
     pub(super) part_number: Option<String>,
 }
 
-/// Suffixes of the namespaces of extensions that do not change shapes.
+/// The suffixes of the namespaces of extensions that do not change shapes.
 const HARMLESS: [&str; 4] = [
     "/production/2015/06",
     "/material/2015/02",
@@ -56,7 +56,7 @@ const HARMLESS: [&str; 4] = [
     "/trianglesets/2021/07",
 ];
 
-/// The relevant elements; all others are skipped with their content.
+/// The elements that the reader handles. All others are skipped with their content.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Tag {
     Model,
@@ -70,26 +70,26 @@ enum Tag {
     Other,
 }
 
-/// Reads a model.
+/// Reads a model from an XML reader.
 pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
     let mut model = Model::default();
     let mut open: Vec<Tag> = Vec::new();
     loop {
         match xml.next()? {
-            Step::Start(element) => {
+            XmlEvent::Start(element) => {
                 let within = open.last().copied();
-                let tag = model.start(within, &element);
+                let tag = model.start_element(within, &element);
                 open.push(tag.map_err(|fault| model.at(&open, fault))?);
             }
-            Step::End => {
+            XmlEvent::End => {
                 if open.last() == Some(&Tag::Mesh) {
                     let checked = model.check_mesh();
                     checked.map_err(|fault| model.at(&open, fault))?;
                 }
                 open.pop();
             }
-            Step::Between => {}
-            Step::Done => return Ok(model),
+            XmlEvent::TextOrComment => {}
+            XmlEvent::Done => return Ok(model),
         }
     }
 }
@@ -101,7 +101,7 @@ pub(super) fn place(path: Option<&str>, id: u32, name: Option<&str>) -> String {
 }
 
 impl Model {
-    /// Returns the paths of the models that this one refers to.
+    /// Returns the paths of the other models that this model refers to.
     pub(super) fn paths(&self) -> BTreeSet<String> {
         let components = self
             .objects
@@ -114,7 +114,7 @@ impl Model {
         uses.filter_map(|used| used.path.clone()).collect()
     }
 
-    /// Adds the current object to a fault.
+    /// Adds the name of the object that is being read to a fault.
     fn at(&self, open: &[Tag], fault: MeshFault) -> MeshFault {
         match self.objects.last() {
             Some(object) if open.get(2) == Some(&Tag::Object) => {
@@ -124,10 +124,14 @@ impl Model {
         }
     }
 
-    /// Processes the start of an element within another one.
-    fn start(&mut self, within: Option<Tag>, element: &Element<'_>) -> Result<Tag, MeshFault> {
+    /// Processes the start of an element inside the element `within`.
+    fn start_element(
+        &mut self,
+        within: Option<Tag>,
+        element: &Element<'_>,
+    ) -> Result<Tag, MeshFault> {
         if element.origin() == Origin::Extension {
-            return Ok(self.extension(within, element.name()));
+            return Ok(self.start_extension_element(within, element.name()));
         }
         match (within, element.name()) {
             (None, "model") => self.begin(element).map(|()| Tag::Model),
@@ -139,22 +143,22 @@ impl Model {
             (Some(Tag::Model), "build") => Ok(Tag::Build),
             (Some(Tag::Build), "item") => self.add_item(element),
             (Some(Tag::Resources), "object") => self.add_object(element),
-            (Some(Tag::Object), name) => self.shape_of(name),
+            (Some(Tag::Object), name) => self.start_shape(name),
             (Some(Tag::Mesh), "vertices") => Ok(Tag::Vertices),
             (Some(Tag::Mesh), "triangles") => Ok(Tag::Triangles),
             (Some(Tag::Vertices), "vertex") => self.add_vertex(element),
             (Some(Tag::Triangles), "triangle") => self.add_triangle(element),
             (Some(Tag::Components), "component") => self.add_component(element),
             // Some files omit the namespaces of extensions.
-            (within, name) => Ok(self.extension(within, name)),
+            (within, name) => Ok(self.start_extension_element(within, name)),
         }
     }
 
     fn begin(&mut self, element: &Element<'_>) -> Result<(), MeshFault> {
-        let [unit, required] = element.values(["unit", "requiredextensions"])?;
+        let [unit, required] = element.attribute_values(["unit", "requiredextensions"])?;
         self.unit = unit.map(|unit| named_unit(&unit)).transpose()?;
         let mut namespaces = BTreeMap::new();
-        element.each(|prefix, name, value| {
+        element.for_each_attribute(|prefix, name, value| {
             if prefix == Some("xmlns") {
                 namespaces.insert(name.to_owned(), value.into_owned());
             }
@@ -172,8 +176,8 @@ impl Model {
     }
 
     fn add_object(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        let [id, name, part_number] = element.values(["id", "name", "partnumber"])?;
-        let id = number(id.as_deref(), "an object", "id")?;
+        let [id, name, part_number] = element.attribute_values(["id", "name", "partnumber"])?;
+        let id = parse_number(id.as_deref(), "an object", "id")?;
         let given = |name: &str| !name.is_empty();
         let name = name.filter(|name| given(name)).or(part_number);
         self.objects.push(ModelObject {
@@ -185,7 +189,7 @@ impl Model {
     }
 
     /// Processes the element that defines an object's shape.
-    fn shape_of(&mut self, name: &str) -> Result<Tag, MeshFault> {
+    fn start_shape(&mut self, name: &str) -> Result<Tag, MeshFault> {
         let Some(object) = self.objects.last_mut() else {
             return Ok(Tag::Other);
         };
@@ -193,7 +197,7 @@ impl Model {
             "mesh" => (Shape::Mesh(Polygons::default()), Tag::Mesh),
             "components" => (Shape::Components(Vec::new()), Tag::Components),
             "metadatagroup" => return Ok(Tag::Other),
-            other => return Ok(self.extension(Some(Tag::Object), other)),
+            other => return Ok(self.start_extension_element(Some(Tag::Object), other)),
         };
         if matches!(object.shape, Shape::Mesh(_) | Shape::Components(_)) {
             return Err(MeshFault::syntax(
@@ -205,9 +209,9 @@ impl Model {
         Ok(tag)
     }
 
-    /// Processes an element of an extension: it may be an object's shape, or add a beam lattice to a mesh. Others are
-    /// skipped, with a remark within a mesh.
-    fn extension(&mut self, within: Option<Tag>, name: &str) -> Tag {
+    /// Processes an element of an extension, which may be an object's shape or the beam lattice of a mesh. Other
+    /// elements are skipped, with a remark if they are inside a mesh.
+    fn start_extension_element(&mut self, within: Option<Tag>, name: &str) -> Tag {
         let of_shape = matches!(within, Some(Tag::Mesh | Tag::Vertices | Tag::Triangles));
         if of_shape && name != "trianglesets" {
             self.remarks.add_named("elements", name, 1, None);
@@ -234,11 +238,12 @@ impl Model {
     fn add_vertex(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
         if let Some(mesh) = self.mesh() {
             let vertex = mesh.vertices.len();
-            let values = element.values(["x", "y", "z"])?;
+            let values = element.attribute_values(["x", "y", "z"])?;
             let mut point = DVec3::ZERO;
             for (axis, value) in values.iter().enumerate() {
                 let name = ["x", "y", "z"][axis];
-                point[axis] = number(value.as_deref(), &format_args!("vertex {vertex}"), name)?;
+                point[axis] =
+                    parse_number(value.as_deref(), &format_args!("vertex {vertex}"), name)?;
             }
             if !point.is_finite() {
                 return Err(MeshFault::NotFinite { vertex, line: None });
@@ -251,10 +256,10 @@ impl Model {
     fn add_triangle(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
         if let Some(mesh) = self.mesh() {
             let face = mesh.ends.len();
-            let values = element.values(["v1", "v2", "v3"])?;
+            let values = element.attribute_values(["v1", "v2", "v3"])?;
             for (value, name) in values.iter().zip(["v1", "v2", "v3"]) {
                 let what = format_args!("triangle {face}");
-                let corner: u32 = number(value.as_deref(), &what, name)?;
+                let corner: u32 = parse_number(value.as_deref(), &what, name)?;
                 mesh.corners.push(corner.into());
             }
             mesh.ends.push(mesh.corners.len());
@@ -262,13 +267,13 @@ impl Model {
         Ok(Tag::Other)
     }
 
-    /// Checks the corners of a complete mesh: triangles may precede vertices.
+    /// Checks the triangle indices of a complete mesh, because triangles may precede vertices.
     fn check_mesh(&mut self) -> Result<(), MeshFault> {
         self.mesh().map_or(Ok(()), |mesh| mesh.check_corners())
     }
 
     fn add_component(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        let used = Use::read(element, "a component")?;
+        let used = ObjectRef::read(element, "a component")?;
         if let Some(ModelObject {
             shape: Shape::Components(components),
             ..
@@ -280,18 +285,18 @@ impl Model {
     }
 
     fn add_item(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        self.items.push(Use::read(element, "an item")?);
+        self.items.push(ObjectRef::read(element, "an item")?);
         Ok(Tag::Other)
     }
 }
 
-impl Use {
+impl ObjectRef {
     fn read(element: &Element<'_>, what: &str) -> Result<Self, MeshFault> {
         let names = ["objectid", "transform", ":path", "partnumber"];
-        let [object, transform, path, part_number] = element.values(names)?;
+        let [object, transform, path, part_number] = element.attribute_values(names)?;
         let map = transform.map(|transform| transform::parse(&transform));
-        Ok(Use {
-            object: number(object.as_deref(), what, "objectid")?,
+        Ok(ObjectRef {
+            object: parse_number(object.as_deref(), what, "objectid")?,
             map: map.transpose()?.unwrap_or(AffineMap::IDENTITY),
             path: path.map(Into::into),
             part_number: part_number.map(Into::into),
@@ -314,8 +319,8 @@ fn named_unit(name: &str) -> Result<Unit, MeshFault> {
     })
 }
 
-/// Reads a number from an attribute of some element.
-fn number<T: FromStr>(
+/// Parses a number from the text of an attribute.
+fn parse_number<T: FromStr>(
     value: Option<&str>,
     what: &(impl std::fmt::Display + ?Sized),
     name: &str,

@@ -1,15 +1,15 @@
-//! The zip archive of a 3MF, and its relationships.
+//! Opens the zip archive of a 3MF, and finds its root model.
 
 use super::model::{self, Model};
-use super::xml::{Step, Xml};
+use super::xml::{Xml, XmlEvent};
 use crate::mesh::error::{MeshFault, Quote};
-use crate::tolerance::{UNPACKED, UNPACKED_RATIO};
+use crate::tolerance::{UNPACKED_BASE, UNPACKED_PER_BYTE};
 use flate2::bufread::DeflateDecoder;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read};
 
-/// An open package with a limit on unpacked bytes.
+/// An open zip archive with a limit on the unpacked bytes.
 pub(super) struct Package<'a> {
     archive: ZipSliceArchive<&'a [u8]>,
     entries: BTreeMap<String, Entry>,
@@ -24,11 +24,11 @@ struct Entry {
     encrypted: bool,
 }
 
-/// The file that names the root model, and the usual path of the model.
+/// The path in the archive of the file that names the root model.
 const RELATIONSHIPS: &str = "_rels/.rels";
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// The suffix of the relationship type of the root model.
+/// The suffix of the relationship type that marks the root model.
 const MODEL_TYPE: &str = "/3dmodel";
 
 /// The buffer size for unpacking, in bytes.
@@ -41,13 +41,13 @@ impl<'a> Package<'a> {
         let mut records = archive.entries();
         while let Some(record) = records.next_entry().map_err(|error| unzip(&error))? {
             let path = String::from_utf8_lossy(record.file_path().as_ref()).into_owned();
-            entries.entry(normalized(&path)).or_insert(Entry {
+            entries.entry(normalized_path(&path)).or_insert(Entry {
                 wayfinder: record.wayfinder(),
                 method: record.compression_method(),
                 encrypted: record.flags().is_encrypted(),
             });
         }
-        let limit = UNPACKED + UNPACKED_RATIO.saturating_mul(bytes.len() as u64);
+        let limit = UNPACKED_BASE + UNPACKED_PER_BYTE.saturating_mul(bytes.len() as u64);
         Ok(Package {
             archive,
             entries,
@@ -56,15 +56,15 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// Returns the number of bytes unpacked so far.
+    /// Returns the number of bytes that have been unpacked from the archive.
     pub(super) fn unpacked(&self) -> u64 {
         self.limit - self.left
     }
 
-    /// Returns the path of the root model.
-    pub(super) fn first_model(&mut self) -> Result<String, MeshFault> {
+    /// Returns the path of the root model in the archive.
+    pub(super) fn root_model_path(&mut self) -> Result<String, MeshFault> {
         if !self.entries.contains_key(RELATIONSHIPS) {
-            return if self.entries.contains_key(&normalized(USUAL_MODEL)) {
+            return if self.entries.contains_key(&normalized_path(USUAL_MODEL)) {
                 Ok(USUAL_MODEL.into())
             } else {
                 let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
@@ -74,11 +74,11 @@ impl<'a> Package<'a> {
         let found = self.read(RELATIONSHIPS, |xml| {
             loop {
                 let element = match xml.next()? {
-                    Step::Start(element) if element.name() == "Relationship" => element,
-                    Step::Done => return Ok(None),
+                    XmlEvent::Start(element) if element.name() == "Relationship" => element,
+                    XmlEvent::Done => return Ok(None),
                     _ => continue,
                 };
-                let [kind, target] = element.values(["Type", "Target"])?;
+                let [kind, target] = element.attribute_values(["Type", "Target"])?;
                 let is_model = kind.is_some_and(|kind| kind.ends_with(MODEL_TYPE));
                 if let Some(target) = target.filter(|_| is_model) {
                     return Ok(Some(target.into_owned()));
@@ -92,7 +92,7 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// Reads a model of the package.
+    /// Unpacks and parses one model of the package.
     #[expect(
         clippy::redundant_closure,
         reason = "a function has one lifetime, a closure any"
@@ -112,7 +112,7 @@ impl<'a> Package<'a> {
             limit,
             left,
         } = self;
-        let Some(entry) = entries.get(&normalized(path)) else {
+        let Some(entry) = entries.get(&normalized_path(path)) else {
             return Err(MeshFault::syntax(None, "is not in the package".into()));
         };
         let limit = *limit;
@@ -127,7 +127,7 @@ impl<'a> Package<'a> {
     }
 }
 
-/// The content of an entry: unpacked on reading, with its checksum verified at the end.
+/// A reader of one archive entry, which unpacks on reading and verifies the checksum at the end.
 struct Unpacking<'a> {
     content: Box<dyn Read + 'a>,
     left: &'a mut u64,
@@ -186,7 +186,7 @@ impl Read for Unpacking<'_> {
 }
 
 /// Normalizes a path for comparison: part names are case-insensitive.
-pub(super) fn normalized(path: &str) -> String {
+pub(super) fn normalized_path(path: &str) -> String {
     path.trim_start_matches('/').to_lowercase()
 }
 

@@ -1,4 +1,4 @@
-//! Valid 3MF files are read as specified. Invalid files are in `faults`.
+//! Tests that valid 3MF files are read as specified. Invalid files are in `faults`.
 
 mod faults;
 
@@ -69,7 +69,7 @@ fn the_unit_is_stated(#[case] attribute: &str, #[case] unit: Unit, #[case] milli
     assert_eq!(mesh.vertices()[1], dvec3(millimetres, 0.0, 0.0));
 }
 
-/// The unit also applies to the translations of transforms.
+/// Tests that the unit of a model also applies to the translations of transforms.
 #[test]
 fn translations_are_in_the_unit() {
     let item = r#"<item objectid="1" transform="1 0 0 0 1 0 0 0 1 3 0 0"/>"#;
@@ -78,7 +78,7 @@ fn translations_are_in_the_unit() {
     assert_eq!(mesh.vertices()[1], dvec3(400.0, 0.0, 0.0));
 }
 
-/// The numbers of a transform are the rows of a matrix from the right.
+/// Tests transforms of items and components. Their numbers are the rows of a matrix that is applied from the right.
 #[test]
 fn items_and_components_are_placed() {
     let objects = tetrahedron(r#"id="1" name="tip""#)
@@ -131,7 +131,7 @@ fn parts_have_the_names_of_objects_or_their_part_numbers() {
     assert_eq!(names, [Some("a < b"), Some("8"), Some("Z"), None]);
 }
 
-/// Unused objects are skipped.
+/// Tests that objects without a build item are skipped.
 #[test]
 fn only_the_build_is_read() {
     let beams = r#"<object id="3"><mesh><vertices/><triangles/><b:beamlattice/></mesh></object>"#;
@@ -140,7 +140,7 @@ fn only_the_build_is_read() {
     assert_eq!(mesh.faces().len(), 4);
 }
 
-/// The production extension: objects in separate models, here with other capitals and an absolute path.
+/// Tests the production extension: objects in separate models, here with other capitals and an absolute path.
 #[test]
 fn models_of_the_package_are_read() {
     let parts = model(
@@ -167,7 +167,8 @@ fn models_of_the_package_are_read() {
     assert_eq!(file.part("deep").unwrap().vertices(), points());
 }
 
-/// Vertices after triangles, whitespace, comments, and elements of other namespaces.
+/// Tests that vertices after triangles, whitespace, comments, and elements of other namespaces are read or skipped
+/// correctly.
 #[test]
 fn the_order_and_other_elements_do_not_matter() {
     let model = model(
@@ -188,7 +189,7 @@ fn the_order_and_other_elements_do_not_matter() {
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
 }
 
-/// Elements of optional extensions with the names of core elements.
+/// Tests that elements of optional extensions with the names of core elements are skipped.
 #[test]
 fn elements_of_other_namespaces_are_passed_over() {
     let model = model(

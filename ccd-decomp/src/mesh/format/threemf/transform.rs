@@ -1,10 +1,10 @@
-//! Transforms of components and items.
+//! Reads the transforms of 3MF components and build items.
 
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote};
 use ccd_core::glam::{DAffine3, DMat3, DVec3};
 
-/// Reads a transform: the rows of a matrix that is applied from the right, `x ↦ x · M`. The last row is the
+/// Parses a transform: the rows of a matrix that is applied from the right, `x ↦ x · M`. The last row is the
 /// translation.
 pub(super) fn parse(text: &str) -> Result<AffineMap, MeshFault> {
     let mut numbers = [0.0; 12];

@@ -1,4 +1,4 @@
-//! A reader of XML elements.
+//! An XML reader that returns elements with their namespaces resolved.
 
 use crate::mesh::error::{MeshFault, Quote};
 use quick_xml::XmlVersion;
@@ -13,37 +13,37 @@ pub(super) struct Xml<R> {
     reader: NsReader<R>,
     buffer: Vec<u8>,
     depth: usize,
-    /// The namespace of the outermost element.
+    /// The namespace of the outermost element, once it has been read.
     own: Option<Namespace>,
 }
 
-/// A namespace; `None` for names without one.
+/// The URI of a namespace; `None` for names without a namespace.
 type Namespace = Option<String>;
 
-/// The next event of the reader.
-pub(super) enum Step<'a> {
-    /// An element begins.
+/// The next event of the XML reader.
+pub(super) enum XmlEvent<'a> {
+    /// The start of an element.
     Start(Element<'a>),
-    /// The innermost element ends.
+    /// The end of the innermost open element.
     End,
-    /// Text or a comment.
-    Between,
-    /// The text ends, and with it all elements.
+    /// Text or a comment, which is skipped.
+    TextOrComment,
+    /// The end of the document.
     Done,
 }
 
-/// The start of an element.
+/// The start tag of an element, with its attributes.
 pub(super) struct Element<'a> {
     start: BytesStart<'a>,
     origin: Origin,
 }
 
-/// The origin of an element's name.
+/// The namespace that an element's name belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// The namespace of the outermost element.
     Own,
-    /// Another namespace: an extension.
+    /// Another namespace, that of an extension.
     Extension,
 }
 
@@ -66,7 +66,7 @@ impl<R: BufRead> Xml<R> {
         self.reader.into_inner()
     }
 
-    pub(super) fn next(&mut self) -> Result<Step<'_>, MeshFault> {
+    pub(super) fn next(&mut self) -> Result<XmlEvent<'_>, MeshFault> {
         self.buffer.clear();
         let event = self.reader.read_event_into(&mut self.buffer);
         match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
@@ -80,11 +80,11 @@ impl<R: BufRead> Xml<R> {
                 } else {
                     Origin::Extension
                 };
-                Ok(Step::Start(Element { start, origin }))
+                Ok(XmlEvent::Start(Element { start, origin }))
             }
             Event::End(_) => {
                 self.depth = self.depth.saturating_sub(1);
-                Ok(Step::End)
+                Ok(XmlEvent::End)
             }
             Event::DocType(_) => {
                 let problem = "has a document type, which a 3MF must not have";
@@ -94,30 +94,31 @@ impl<R: BufRead> Xml<R> {
                 let missing = "its XML".into();
                 Err(MeshFault::Truncated { missing })
             }
-            Event::Eof => Ok(Step::Done),
-            _ => Ok(Step::Between),
+            Event::Eof => Ok(XmlEvent::Done),
+            _ => Ok(XmlEvent::TextOrComment),
         }
     }
 }
 
 impl<'a> Element<'a> {
-    /// Returns the name without prefix.
+    /// Returns the element's name without its prefix.
     pub(super) fn name(&self) -> &str {
         self.start.local_name().into_inner()
     }
 
-    /// Returns the origin of the name.
+    /// Returns whether the element's name is of the document's namespace or of an extension.
     pub(super) fn origin(&self) -> Origin {
         self.origin
     }
 
-    /// Returns the values of some attributes: without a prefix or, if the name begins with a colon, with any prefix.
-    pub(super) fn values<const N: usize>(
+    /// Returns the values of the named attributes. A plain name matches attributes without prefix; a name that begins
+    /// with a colon matches any prefix.
+    pub(super) fn attribute_values<const N: usize>(
         &self,
         names: [&str; N],
     ) -> Result<[Option<Cow<'_, str>>; N], MeshFault> {
         let mut values = [const { None }; N];
-        self.each(|prefix, local, value| {
+        self.for_each_attribute(|prefix, local, value| {
             let is = |name: &&str| match name.strip_prefix(':') {
                 Some(name) => prefix.is_some() && name == local,
                 None => prefix.is_none() && *name == local,
@@ -129,8 +130,8 @@ impl<'a> Element<'a> {
         Ok(values)
     }
 
-    /// Visits all attributes: prefix, name without it, and value.
-    pub(super) fn each<'s>(
+    /// Calls the closure with the prefix, the name without it, and the value of every attribute.
+    pub(super) fn for_each_attribute<'s>(
         &'s self,
         mut visit: impl FnMut(Option<&str>, &str, Cow<'s, str>),
     ) -> Result<(), MeshFault> {

@@ -2,7 +2,8 @@ use super::*;
 use crate::exact::predicates::side;
 use proptest::prelude::*;
 
-/// The brute-force test: all planes through three of the points.
+/// Tests by brute force, over all planes through three of the points, whether one separates the triangle from the
+/// hull.
 fn is_apart_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
     let obstacle = Obstacle::new(points, hull);
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
@@ -36,8 +37,8 @@ proptest! {
         prop_assert_eq!(Obstacle::new(&points, &hull).is_apart_from(triangle), expected);
     }
 
-    /// A point of the triangle strictly inside all facets proves that it is not apart; the coordinates make the
-    /// point exact.
+    /// Tests that a triangle with a point strictly inside all facets is not reported as apart. The coordinates make
+    /// the point exact.
     #[test]
     fn triangles_inside_are_not_apart(
         hull in prop::collection::vec(coarse(), 4..9),

@@ -1,7 +1,8 @@
 use super::*;
 use ccd_core::glam::dvec3;
 
-/// Random points on the edges of triangles: two of each edge are kept, and a removed point is between them.
+/// Tests random points on the edges of triangles: two points of each edge are kept, and a removed point is between
+/// them.
 #[test]
 fn only_the_ends_of_edges_are_kept() {
     let mut seed = 1_u32;
@@ -20,7 +21,7 @@ fn only_the_ends_of_edges_are_kept() {
                 points.extend((0..8).map(|_| from + (0.1 + 0.8 * next()) * (to - from)));
             }
             let near = on_edge(offset + 1.0);
-            let found = without_between(points.clone(), triangle, near);
+            let found = remove_between(points.clone(), triangle, near);
             assert!(found.iter().all(|p| points.contains(p)));
             let lost = points.iter().filter(|p| !found.contains(p));
             for &point in lost {

@@ -1,4 +1,4 @@
-//! The facet planes of a part.
+//! The facet planes of a convex part.
 
 use super::super::target::Target;
 use crate::bounds::Bounds;
@@ -7,29 +7,29 @@ use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// A part and the planes of its facets.
+/// A convex part and the planes of its facets.
 pub(super) struct PartPlanes<'a> {
     pub(super) part: &'a Hull,
-    /// The planes of well-shaped facets, which are accurate to within the slack.
+    /// The planes of well-shaped facets, which are accurate to within the slack of distances.
     pub(super) planes: Vec<Plane>,
     pub(super) bounds: Bounds,
     slack: f64,
 }
 
-/// A plane with a whole part behind it.
+/// A plane that has a whole convex part behind it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    /// The normal, of length 1.
+    /// The unit normal, which points away from the part.
     pub(super) normal: DVec3,
-    /// The height along the normal.
+    /// The dot product of the normal with any point of the plane.
     pub(super) height: f64,
 }
 
-/// The position of a box relative to a part's planes.
-pub(super) struct Meeting {
-    /// Whether the centre is in the part.
+/// The position of a box relative to the facet planes of a part.
+pub(super) struct BoxOverlap {
+    /// Whether the box's centre is in the part.
     pub(super) has_centre: bool,
-    /// The numbers of the planes that the box is not entirely behind.
+    /// The numbers of the planes that do not have the whole box behind them.
     pub(super) planes: Vec<u32>,
 }
 
@@ -47,15 +47,15 @@ impl<'a> PartPlanes<'a> {
         }
     }
 
-    /// Tests a box against the planes `among`. Returns `None` if the box does not meet the part.
-    pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
-        let mut meeting = Meeting {
+    /// Tests a box against the planes numbered `among`. Returns `None` if the box does not meet the part.
+    pub(super) fn overlap(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<BoxOverlap> {
+        let mut meeting = BoxOverlap {
             has_centre: !self.planes.is_empty(),
             planes: Vec::new(),
         };
         for &k in among {
             let plane = self.planes[k as usize];
-            let above = plane.above(centre);
+            let above = plane.signed_distance(centre);
             let reach = plane.normal.abs().dot(half) + self.slack;
             if above > reach {
                 return None;
@@ -91,7 +91,7 @@ impl Plane {
     }
 
     /// Returns the signed distance of a point from the plane, positive in front.
-    pub(super) fn above(&self, point: DVec3) -> f64 {
+    pub(super) fn signed_distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.height
     }
 }

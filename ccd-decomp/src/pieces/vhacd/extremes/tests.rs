@@ -4,7 +4,8 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// The hulls with and without inner points have the same corners; on a grid, in a ball and on a sphere.
+/// Tests that the hulls with and without inner points have the same corners, for points on a grid, in a ball and on a
+/// sphere.
 #[test]
 fn removed_points_are_no_corners() {
     let point = || [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64];
@@ -26,7 +27,7 @@ fn removed_points_are_no_corners() {
             corners.sort_unstable();
             corners
         };
-        let fewer = without_inner(points.clone());
+        let fewer = remove_inner_points(points.clone());
         assert_eq!(corners(&fewer), corners(&points));
         kept[kind as usize] += fewer.len();
         all[kind as usize] += points.len();
@@ -44,23 +45,23 @@ fn points_too_fine_or_in_a_plane_are_kept() {
     let plane: Vec<DVec3> = (0..100)
         .map(|k| DVec3::new(f64::from(k % 10), f64::from(k / 10), 0.0))
         .collect();
-    assert_eq!(without_inner(plane.clone()), plane);
+    assert_eq!(remove_inner_points(plane.clone()), plane);
     let mut fine = grid();
-    assert!(without_inner(fine.clone()).len() < 600);
+    assert!(remove_inner_points(fine.clone()).len() < 600);
     fine.push(DVec3::splat(1e-95));
-    assert_eq!(without_inner(fine.clone()), fine);
+    assert_eq!(remove_inner_points(fine.clone()), fine);
 }
 
 #[test]
 fn the_farthest_points_are_few() {
     let points = grid();
-    let far = farthest(&points, 96);
+    let far = extreme_points(&points, 96);
     // The corners of a cube.
     assert_eq!(far.len(), 8);
-    assert!(farthest(&[], 96).is_empty());
+    assert!(extreme_points(&[], 96).is_empty());
 }
 
-/// The points of whole numbers in a cube.
+/// Returns the points of whole coordinates in a cube.
 fn grid() -> Vec<DVec3> {
     let point = |k: u32| DVec3::new((k % 10).into(), (k / 10 % 10).into(), (k / 100).into());
     (0..1000).map(point).collect()

@@ -1,4 +1,4 @@
-//! Distances to a triangle against exact fractions, in the worst cases that a search finds.
+//! Compares distances to a triangle with exact fractions, in the worst cases that a search finds.
 
 use super::Target;
 use crate::mesh::TriangleMesh;
@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 
-/// The square of the distance of a point from a triangle.
+/// Returns the exact square of the distance from a point to a triangle.
 fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
     let [a, b, c] = [a, b, c].map(|v| Exact3::of(v).minus(&Exact3::of(point)));
     let edges = [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| {
@@ -38,7 +38,7 @@ fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
         .expect("three edges")
 }
 
-/// A triangle of any aspect, and a point near it or not.
+/// Draws a triangle of any aspect ratio, and a point that may be near it.
 fn setting(tape: &mut Tape) -> ([DVec3; 3], DVec3) {
     let (scale, offset) = (tape.size(-60..=30), DVec3::from(tape.vector(-8..=10)));
     let [u, v] = [(); 2].map(|()| DVec3::from(tape.vector(-4..=0)));
@@ -58,13 +58,13 @@ fn worst_distance() {
         let (corners, point) = setting(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
         let target = Target::new(&mesh, &Topology::of(&mesh));
-        let (found, reached) = target.nearest(point, &Work::unbounded());
+        let (found, reached) = target.distance_bounds(point, &Work::unbounded());
         let scale = exact(2f64.powi(400));
         let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);
         // Inside, the lesser of the two is the depth; outside, the second is the distance.
         let error = greater(lesser(found, reached) - truth, truth - reached);
         // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
-        let near = truth <= 2.0 * target.reach() && target.reach() > 0.0;
+        let near = truth <= 2.0 * target.half_diagonal() && target.half_diagonal() > 0.0;
         near.then(|| share(error, target.slack()))
     });
     // The search must find triangles that are barely not needles.

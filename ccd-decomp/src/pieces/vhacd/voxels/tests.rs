@@ -1,13 +1,13 @@
-//! Cuts of an edge against exact fractions, in the worst cases that a search finds.
+//! Compares cuts of an edge with exact fractions, in the worst cases that a search finds.
 
-use super::cut_at;
+use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
 use crate::tolerance::{clip_rounding, on_edge};
 use crate::worst::{Tape, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// An edge, far from the origin or not.
+/// Draws an edge, which may be far from the origin.
 fn edge(tape: &mut Tape) -> [DVec3; 2] {
     let scale = tape.size(-200..=39);
     let middle = DVec3::from(tape.vector(-8..=0));
@@ -15,7 +15,8 @@ fn edge(tape: &mut Tape) -> [DVec3; 2] {
     [(); 2].map(|()| (middle + DVec3::from(tape.vector(-8..=0)) * small) * scale)
 }
 
-/// The distance of a point from the line of an edge. The square is an exact fraction; the root is rounded once.
+/// Returns the distance from a point to the line through an edge. The square is an exact fraction; the root is
+/// rounded once.
 fn off_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
     let [x, p, q] = [point, p, q].map(Exact3::of);
     let along = q.minus(&p);
@@ -27,13 +28,13 @@ fn off_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
     root * 2f64.powi(-250)
 }
 
-/// Cuts an edge by a plane between its ends, and leaves the part from the cut to one of them.
+/// Cuts an edge by a plane between its ends, and leaves the part from the cut to one end.
 fn cut(tape: &mut Tape, polygon: &mut Vec<DVec3>) -> Option<()> {
     let (axis, keep) = (tape.pick(3), tape.pick(2) == 0);
     let (p, q) = (polygon[0][axis], polygon[1][axis]);
     let plane = p + (q - p) * tape.fraction();
     let mut part = Vec::new();
-    cut_at(polygon, axis, |x| (x >= plane) == keep, plane, &mut part);
+    clip_to_half_space(polygon, axis, |x| (x >= plane) == keep, plane, &mut part);
     part.dedup();
     part.truncate(2);
     let more = part.len() == 2 && part[0] != part[1];
@@ -45,7 +46,7 @@ fn largest(of: [DVec3; 2]) -> f64 {
     greater(of[0].abs().max_element(), of[1].abs().max_element())
 }
 
-/// One cut moves a point by at most a third of it.
+/// Tests that one cut moves a point by at most a third of the bound.
 #[test]
 fn worst_cut() {
     let found = Worst::of("on_edge / 3, one cut", 20_000).search(|tape| {
@@ -58,7 +59,7 @@ fn worst_cut() {
     found.is_within(40.0);
 }
 
-/// As many cuts as a grid of 128 layers makes, one after the other.
+/// Tests the bound for as many successive cuts as a grid of 128 layers makes.
 #[test]
 fn worst_cuts() {
     let found = Worst::of("clip_rounding, 21 cuts", 6_000).search(|tape| {

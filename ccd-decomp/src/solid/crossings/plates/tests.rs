@@ -1,15 +1,15 @@
 use super::*;
 use crate::mesh::TriangleMesh;
-use crate::solid::crossings::cross;
+use crate::solid::crossings::faces_cross;
 use crate::solid::topology::Topology;
-use crate::test_meshes::{comb, joined, placed, tetrahedron};
+use crate::test_meshes::{comb, merged_meshes, placed, tetrahedron};
 use ccd_core::glam::{DQuat, dvec3};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// Combs of integer and of uneven numbers, upright and turned, with tetrahedra in, on and next to them.
-fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
+/// Returns combs with teeth of whole or uneven heights, rotated by an angle, with tetrahedra in, on and next to them.
+fn combs_with_tetrahedra(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     let comb = comb(heights);
     let thorn = tetrahedron();
     let thorns: Vec<_> = places
@@ -20,13 +20,14 @@ fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
         })
         .collect();
     let parts: Vec<&TriangleMesh> = [&comb].into_iter().chain(&thorns).collect();
-    let all = joined(&parts);
+    let all = merged_meshes(&parts);
     let turn = DQuat::from_rotation_x(turn) * DQuat::from_rotation_z(turn);
     let turned = all.vertices().iter().map(|&p| turn * p);
     crate::test_meshes::mesh(turned.collect(), all.faces())
 }
 
-/// All pairs of faces that meet are reported, except those of one plate: compared with all pairs, exactly.
+/// Tests that all pairs of faces that meet are reported, except those of one plate. Compares with an exact test of
+/// all pairs.
 #[test]
 fn whoever_meets_is_reported() {
     let place = [-1..80_i32, -1..12_i32, -2..4_i32, 1..4_i32];
@@ -41,8 +42,8 @@ fn whoever_meets_is_reported() {
     let (mut meeting, mut with_plates, mut asked, mut all) = (0, 0, 0, 0);
     for _ in 0..60 {
         let (heights, places, turn) = given.new_tree(&mut runner).unwrap().current();
-        let mesh = beset(&heights, &places, turn);
-        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+        let mesh = combs_with_tetrahedra(&heights, &places, turn);
+        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
         let Some(plates) = Plates::find(&manifold) else {
@@ -66,7 +67,7 @@ fn whoever_meets_is_reported() {
                 asked += u32::from(is_reported);
                 all += 1;
             }
-            if cross(&manifold, f, g) {
+            if faces_cross(&manifold, f, g) {
                 meeting += 1;
                 with_plates += u32::from(on_plate(f) || on_plate(g));
                 assert!(is_reported, "{f}, {g}");
@@ -80,11 +81,11 @@ fn whoever_meets_is_reported() {
     assert!(asked < all / 100, "{asked} of {all}");
 }
 
-/// Faces glued to a plate, or on its rim, are next to it: no triangle of the plate is examined.
+/// Tests that faces glued to a plate, or on its boundary, are separated from it without a test of its triangles.
 #[test]
 fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);
-    let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+    let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
     let plates = Plates::find(&manifold).unwrap();
     assert_eq!(plates.plates.len(), 2);
     assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));

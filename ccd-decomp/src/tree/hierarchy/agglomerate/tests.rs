@@ -1,9 +1,9 @@
 use super::super::nodes::{Cuboid, Node};
-use super::{best_neighbours, spread};
+use super::{best_neighbours, spread_bits};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
-/// Boxes with corners on a coarse grid, so that many prices are equal.
+/// Generates boxes with corners on a coarse grid, so that many joint boxes have equal areas.
 fn row() -> impl Strategy<Value = Vec<Node>> {
     let number = || (0u8..8).prop_map(f32::from);
     let corner = move || [number(), number(), number()].prop_map(Vec3A::from);
@@ -33,6 +33,6 @@ proptest! {
     #[test]
     fn every_bit_goes_to_three_times_its_place(bits in 0u32..1 << 21) {
         let slow: u64 = (0..21).map(|k| (u64::from(bits) >> k & 1) << (3 * k)).sum();
-        prop_assert_eq!(spread(bits), slow);
+        prop_assert_eq!(spread_bits(bits), slow);
     }
 }

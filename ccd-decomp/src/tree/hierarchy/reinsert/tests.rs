@@ -22,8 +22,8 @@ fn area(nodes: &[Node]) -> f64 {
         .sum()
 }
 
-/// Checks that every node except the root has one parent, and every box is the union of its children's. Returns the
-/// pieces.
+/// Checks that every node except the root has one parent, and that every box is the union of its children's boxes.
+/// Returns the pieces of the leaves.
 fn check(nodes: &[Node]) -> Vec<u32> {
     let mut pieces = Vec::new();
     let mut stack = vec![0];
@@ -45,10 +45,10 @@ fn check(nodes: &[Node]) -> Vec<u32> {
     pieces
 }
 
-/// The area of all boxes after a move.
+/// Returns the total area of all boxes after a move.
 fn total_after(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
-    Tree::new(&mut copy).make(from, to);
+    Tree::new(&mut copy).apply(from, to);
     check(&copy);
     area(&copy)
 }

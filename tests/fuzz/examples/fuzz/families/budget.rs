@@ -1,8 +1,8 @@
-//! Every small budget.
+//! Draws queries with budgets too small for most of them.
 
 use super::margins;
 use crate::case::Case;
-use crate::draw::{Draw, times};
+use crate::draw::{Draw, scale_array};
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
@@ -15,9 +15,9 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         case.config.margin = 0.0;
     }
     if draw.chance(0.4) {
-        let near = draw.log(1e-3..1.0);
+        let near = draw.log_uniform(1e-3..1.0);
         for course in &mut case.courses {
-            course.start.position = times(course.start.position, near);
+            course.start.position = scale_array(course.start.position, near);
         }
     }
     case.config.budget = if draw.chance(0.5) {

@@ -1,21 +1,21 @@
-//! End poses and centres of rotation far from the origin, and tight tolerances.
+//! Draws queries with end poses and centres of rotation far from the origin, and with tight tolerances.
 
-use super::pass;
+use super::passing_case;
 use crate::case::Case;
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::Settings;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
     let config = Settings {
-        tolerance: draw.log(1e-12..1e-2),
+        tolerance: draw.log_uniform(1e-12..1e-2),
         ..Settings::DEFAULT
     };
-    let bodies = [shapes::any(draw), shapes::any(draw)];
-    let mut case = pass(draw, bodies, 0.0, config);
+    let bodies = [shapes::any_shape(draw), shapes::any_shape(draw)];
+    let mut case = passing_case(draw, bodies, 0.0, config);
     let far = if draw.chance(0.7) {
-        times(draw.direction(), draw.log(1.0..1e12))
+        scale_array(draw.direction(), draw.log_uniform(1.0..1e12))
     } else {
         [0.0; 3]
     };
@@ -23,10 +23,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case.duration = if draw.chance(0.5) {
         1.0
     } else {
-        draw.log(1e-6..1e6)
+        draw.log_uniform(1e-6..1e6)
     };
     for course in &mut case.courses {
-        *course = ended(draw, course, far, case.duration);
+        *course = between_end_poses(draw, course, far, case.duration);
         if whole {
             course.start.position = course.start.position.map(f64::round);
         }
@@ -34,22 +34,27 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Returns the same motion given by end poses, about any centre, far from the origin.
-fn ended(draw: &mut Draw, course: &RawMotion, far: [f64; 3], duration: f64) -> RawMotion {
+/// Returns the same motion, given by end poses about any centre, and moved far from the origin.
+fn between_end_poses(
+    draw: &mut Draw,
+    course: &RawMotion,
+    far: [f64; 3],
+    duration: f64,
+) -> RawMotion {
     let Goal::Velocities { linear, .. } = course.goal else {
         return *course;
     };
     let start = RawPose {
-        position: plus(course.start.position, far),
+        position: add_arrays(course.start.position, far),
         ..course.start
     };
     let centre = match draw.count(0..3) {
         0 => [0.0; 3],
         1 => draw.point(),
-        _ => times(draw.direction(), draw.log(1.0..1e9)),
+        _ => scale_array(draw.direction(), draw.log_uniform(1.0..1e9)),
     };
     if draw.chance(0.15) {
-        let slow = |v: [f64; 3]| times(v, 1.0 / duration);
+        let slow = |v: [f64; 3]| scale_array(v, 1.0 / duration);
         let goal = Goal::Velocities {
             linear: slow(linear),
             spin: slow(draw.point()),
@@ -65,12 +70,12 @@ fn ended(draw: &mut Draw, course: &RawMotion, far: [f64; 3], duration: f64) -> R
         1 => draw.quaternion(),
         // The rotation is small.
         _ => {
-            let (by, turn) = (draw.quaternion(), draw.log(1e-9..1.0));
+            let (by, turn) = (draw.quaternion(), draw.log_uniform(1e-9..1.0));
             [0, 1, 2, 3].map(|k| start.quaternion[k] + turn * by[k])
         }
     };
     let end = RawPose {
-        position: plus(start.position, linear),
+        position: add_arrays(start.position, linear),
         quaternion,
     };
     RawMotion {

@@ -1,14 +1,14 @@
-//! Faces that fall flat on each other, or pass in one plane.
+//! Draws queries of faces that move flat onto each other, or pass each other in one plane.
 
-use super::{still, tolerance};
+use super::{motion_at_rest, random_tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let bodies = [level(draw), level(draw)];
-    let mut config = tolerance(draw);
+    let bodies = [polygon_or_box_on_plane(draw), polygon_or_box_on_plane(draw)];
+    let mut config = random_tolerance(draw);
     if draw.chance(0.3) {
         config.margin = draw.pick(&[0.125, 0.5, 1.0]);
     }
@@ -27,20 +27,20 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let spin = if draw.chance(0.7) {
         [0.0; 3]
     } else {
-        times(
+        scale_array(
             draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-            draw.within(-2.0..2.0),
+            draw.uniform(-2.0..2.0),
         )
     };
     let mut courses = [
-        still(),
+        motion_at_rest(),
         RawMotion::velocities(RawPose::at(start), along, spin),
     ];
     if draw.chance(0.3) {
         // The same scene in another frame.
-        let far = times(draw.point(), draw.log(1.0..1e4));
+        let far = scale_array(draw.point(), draw.log_uniform(1.0..1e4));
         for course in &mut courses {
-            course.start.position = plus(course.start.position, far);
+            course.start.position = add_arrays(course.start.position, far);
         }
     }
     Case {
@@ -53,7 +53,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
 }
 
 /// Returns a polygon in the plane z = 0, or a box with its lower face there.
-fn level(draw: &mut Draw) -> Shape {
+fn polygon_or_box_on_plane(draw: &mut Draw) -> Shape {
     if draw.chance(0.4) {
         let half = [(); 3].map(|()| draw.pick(&[0.25, 0.5, 1.0]));
         return shapes::cuboid(half).map(|[x, y, z]| [x, y, z + half[2]]);

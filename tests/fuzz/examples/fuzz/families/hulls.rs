@@ -1,32 +1,32 @@
-//! Convex pieces of 4 to 2,000 points.
+//! Draws queries of convex pieces of 4 to 2,000 points each.
 
-use super::{pass, tolerance};
+use super::{passing_case, random_tolerance};
 use crate::case::Case;
 use crate::draw::Draw;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
     let many = if draw.chance(0.05) {
-        draw.log(4.0..2000.0) as usize
+        draw.log_uniform(4.0..2000.0) as usize
     } else {
-        draw.log(4.0..60.0) as usize
+        draw.log_uniform(4.0..60.0) as usize
     };
     let few = (2000 / many).clamp(4, 30) as f64;
     let other = if draw.chance(0.5) {
-        shapes::any(draw)
+        shapes::any_shape(draw)
     } else {
-        let few = draw.log(4.0..few + 1.0) as usize;
+        let few = draw.log_uniform(4.0..few + 1.0) as usize;
         shapes::hull(draw, few)
     };
-    let mut config = tolerance(draw);
+    let mut config = random_tolerance(draw);
     if draw.chance(0.4) {
-        config.margin = draw.log(1e-3..10.0);
+        config.margin = draw.log_uniform(1e-3..10.0);
     }
     let turn = if draw.chance(0.4) {
         0.0
     } else {
-        draw.log(1e-3..10.0)
+        draw.log_uniform(1e-3..10.0)
     };
     let bodies = [shapes::hull(draw, many), other];
-    pass(draw, bodies, turn, config)
+    passing_case(draw, bodies, turn, config)
 }

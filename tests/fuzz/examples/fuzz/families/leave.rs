@@ -1,14 +1,18 @@
-//! Bodies in contact at the start that are released: they part, slide, approach or rotate.
+//! Draws queries of bodies in contact at the start that are released: they separate, slide, approach or rotate.
 
-use super::{still, tolerance};
+use super::{motion_at_rest, random_tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::StartPolicy;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let half = [draw.log(0.2..2.0), draw.log(0.2..2.0), draw.log(0.2..2.0)];
+    let half = [
+        draw.log_uniform(0.2..2.0),
+        draw.log_uniform(0.2..2.0),
+        draw.log_uniform(0.2..2.0),
+    ];
     let floor = shapes::cuboid([8.0, 8.0, 0.5]).map(|[x, y, z]| [x, y, z - 0.5]);
     let floor = if draw.chance(0.2) {
         floor.flipped()
@@ -17,40 +21,40 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     };
     let (top, half_height) = match draw.count(0..4) {
         0 => (shapes::cuboid(half), half[2]),
-        1 => resting(shapes::solid(draw)),
-        2 => resting(shapes::tetrahedron(draw)),
+        1 => with_lowest_corner_at_zero(shapes::closed_shape(draw)),
+        2 => with_lowest_corner_at_zero(shapes::tetrahedron(draw)),
         _ => {
             let count = draw.count(1..5);
-            resting(shapes::soup(draw, count))
+            with_lowest_corner_at_zero(shapes::soup(draw, count))
         }
     };
-    let mut config = tolerance(draw);
+    let mut config = random_tolerance(draw);
     config.start = StartPolicy::Leave;
     if draw.chance(0.3) {
-        config.margin = draw.log(1e-3..1.0);
+        config.margin = draw.log_uniform(1e-3..1.0);
     }
     // The body is on the floor, within the tolerance of it, or within the margin.
     let gap = match draw.count(0..4) {
         0 | 1 => 0.0,
-        2 => config.tolerance * draw.within(0.01..1.0),
-        _ => config.margin * draw.within(0.0..1.0),
+        2 => config.tolerance * draw.uniform(0.01..1.0),
+        _ => config.margin * draw.uniform(0.0..1.0),
     };
     let at = [
-        draw.within(-1.0..1.0),
-        draw.within(-1.0..1.0),
+        draw.uniform(-1.0..1.0),
+        draw.uniform(-1.0..1.0),
         half_height + gap,
     ];
-    let (velocity, spin, expect) = departure(draw, gap, config.margin);
+    let (velocity, spin, expect) = released_motion(draw, gap, config.margin);
     let mut courses = [
-        still(),
+        motion_at_rest(),
         RawMotion::velocities(RawPose::at(at), velocity, spin),
     ];
     if draw.chance(0.3) {
         // The tangential velocity has no upward part, so that the gap is unchanged.
-        let by = [draw.within(-1e3..1e3), draw.within(-1e3..1e3), 0.0];
+        let by = [draw.uniform(-1e3..1e3), draw.uniform(-1e3..1e3), 0.0];
         courses
             .iter_mut()
-            .for_each(|c| c.start.position = plus(c.start.position, by));
+            .for_each(|c| c.start.position = add_arrays(c.start.position, by));
     }
     let mut shapes = [floor, top];
     if draw.chance(0.5) {
@@ -66,8 +70,9 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// Returns a shape with its lowest corner in the plane z = 0.
-fn resting(shape: Shape) -> (Shape, f64) {
+/// Returns a shape moved so that its lowest corner is in the plane z = 0, and the height of its origin above its
+/// lowest corner, which is then 0.
+fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
     let lowest = shape
         .vertices
         .iter()
@@ -75,20 +80,20 @@ fn resting(shape: Shape) -> (Shape, f64) {
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }
 
-/// Returns the velocity and angular velocity of the departure, and the expected result.
-fn departure(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
-    let along = times(draw.point(), draw.within(0.0..3.0));
+/// Returns the velocity and the angular velocity of a released body, and the expected result.
+fn released_motion(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
+    let along = scale_array(draw.point(), draw.uniform(0.0..3.0));
     match draw.count(0..5) {
-        0 => ([0.0, 0.0, draw.within(0.0..3.0)], [0.0; 3], Expect::Free),
+        0 => ([0.0, 0.0, draw.uniform(0.0..3.0)], [0.0; 3], Expect::Free),
         // Inside the margin, motion over the next triangle of the floor is a contact.
         1 if margin == 0.0 => (
-            [along[0], along[1], draw.within(0.1..2.0)],
+            [along[0], along[1], draw.uniform(0.1..2.0)],
             [0.0; 3],
             Expect::Free,
         ),
         2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
         3 => {
-            let down = draw.log(1e-3..3.0);
+            let down = draw.log_uniform(1e-3..3.0);
             // All of the gap is closed by then.
             let by = (1.001 * gap + 1e-6) / down;
             let expect = if by < 1.0 {
@@ -100,7 +105,7 @@ fn departure(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Exp
         }
         _ => (
             along,
-            times(draw.direction(), draw.log(1e-3..6.0)),
+            scale_array(draw.direction(), draw.log_uniform(1e-3..6.0)),
             Expect::Nothing,
         ),
     }

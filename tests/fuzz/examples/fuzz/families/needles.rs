@@ -1,33 +1,33 @@
-//! Needles and slivers, denormal components, faces without area.
+//! Draws queries of needles and slivers, with denormal components and faces without area.
 
-use super::{pass, still, tolerance};
+use super::{motion_at_rest, passing_case, random_tolerance};
 use crate::case::{Case, Shape};
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::Goal;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let thin = thin(draw);
+    let thin = thin_triangles(draw);
     let other = if draw.chance(0.5) {
-        self::thin(draw)
+        self::thin_triangles(draw)
     } else {
-        shapes::any(draw)
+        shapes::any_shape(draw)
     };
-    let mut config = tolerance(draw);
+    let mut config = random_tolerance(draw);
     if draw.chance(0.4) {
-        config.margin = draw.log(1e-2..2.0);
+        config.margin = draw.log_uniform(1e-2..2.0);
     }
     let turn = if draw.chance(0.4) {
         0.0
     } else {
-        draw.log(1e-3..6.0)
+        draw.log_uniform(1e-3..6.0)
     };
     let shapes = if draw.chance(0.5) {
         [thin, other]
     } else {
         [other, thin]
     };
-    let mut case = pass(draw, shapes, turn, config.clone());
+    let mut case = passing_case(draw, shapes, turn, config.clone());
     if draw.chance(0.3) {
         for course in &mut case.courses {
             course.start.quaternion = [1.0, 0.0, 0.0, 0.0];
@@ -36,10 +36,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     if draw.chance(0.3) {
         // The body moves straight at the other one, across a plane that holds needles.
         let reach = case.shapes[0].radius() + case.shapes[1].radius() + config.margin;
-        let way = lattice(draw);
-        case.courses = [still(), still()];
-        case.courses[0].start.position = times(way, -1.5 * reach);
-        let linear = times(way, reach * draw.within(0.5..2.0));
+        let way = lattice_direction(draw);
+        case.courses = [motion_at_rest(), motion_at_rest()];
+        case.courses[0].start.position = scale_array(way, -1.5 * reach);
+        let linear = scale_array(way, reach * draw.uniform(0.5..2.0));
         case.courses[0].goal = Goal::Velocities {
             linear,
             spin: [0.0; 3],
@@ -48,44 +48,44 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Returns thin triangles of several kinds, in one plane or about one axis or anywhere.
-fn thin(draw: &mut Draw) -> Shape {
+/// Returns thin triangles: in one plane, around one axis, or anywhere.
+fn thin_triangles(draw: &mut Draw) -> Shape {
     let width = match draw.count(0..3) {
-        0 => draw.log(1e-300..1e-140),
+        0 => draw.log_uniform(1e-300..1e-140),
         // The squares are denormal.
-        1 => draw.log(1e-163..1e-160),
-        _ => draw.log(1e-14..1e-1),
+        1 => draw.log_uniform(1e-163..1e-160),
+        _ => draw.log_uniform(1e-14..1e-1),
     };
-    let count = draw.log(1.0..9.0) as usize;
-    let common = draw.chance(0.5).then(|| lattice(draw));
+    let count = draw.log_uniform(1.0..9.0) as usize;
+    let common = draw.chance(0.5).then(|| lattice_direction(draw));
     let about = draw.chance(0.5).then_some([0.0; 3]);
     let mut shape = Shape::default();
     for _ in 0..count {
-        let at = about.unwrap_or_else(|| times(draw.point(), 0.5));
-        let along = common.unwrap_or_else(|| lattice(draw));
-        let aside = times(lattice(draw), width);
+        let at = about.unwrap_or_else(|| scale_array(draw.point(), 0.5));
+        let along = common.unwrap_or_else(|| lattice_direction(draw));
+        let aside = scale_array(lattice_direction(draw), width);
         let share = draw.pick(&[0.0, 0.5, 1.0, 0.3, -0.7]);
         let third = match draw.count(0..5) {
             // The area is zero.
-            0 => plus(at, times(along, share)),
+            0 => add_arrays(at, scale_array(along, share)),
             1 => at,
-            2 => plus(at, plus(along, aside)),
-            _ => plus(plus(at, times(along, share)), aside),
+            2 => add_arrays(at, add_arrays(along, aside)),
+            _ => add_arrays(add_arrays(at, scale_array(along, share)), aside),
         };
         let first = if draw.chance(0.3) {
-            plus(at, times(aside, -0.5))
+            add_arrays(at, scale_array(aside, -0.5))
         } else {
             at
         };
         let base = shape.vertices.len() as u32;
-        shape.vertices.extend([first, plus(at, along), third]);
+        shape.vertices.extend([first, add_arrays(at, along), third]);
         shape.faces.push([base, base + 1, base + 2]);
     }
     shape
 }
 
-/// Returns a direction of small whole numbers, or any direction.
-fn lattice(draw: &mut Draw) -> [f64; 3] {
+/// Returns a direction with small whole components, or any direction.
+fn lattice_direction(draw: &mut Draw) -> [f64; 3] {
     if draw.chance(0.3) {
         return draw.direction();
     }

@@ -1,17 +1,17 @@
-//! Bodies of very different size.
+//! Draws queries of bodies of very different sizes.
 
-use super::{pass, tolerance};
+use super::{passing_case, random_tolerance};
 use crate::case::Case;
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::Goal;
 use crate::shapes;
 use ccd_core::order::{greater, lesser};
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let sizes = [draw.log(1e-9..1e9), draw.log(1e-9..1e9)];
+    let sizes = [draw.log_uniform(1e-9..1e9), draw.log_uniform(1e-9..1e9)];
     let large = greater(sizes[0], sizes[1]);
-    let bodies = sizes.map(|size| shapes::any(draw).map(|v| times(v, size)));
-    let mut config = tolerance(draw);
+    let bodies = sizes.map(|size| shapes::any_shape(draw).map(|v| scale_array(v, size)));
+    let mut config = random_tolerance(draw);
     config.tolerance *= if draw.chance(0.5) {
         large
     } else {
@@ -20,20 +20,20 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let turn = if draw.chance(0.5) {
         0.0
     } else {
-        draw.log(1e-3..6.0)
+        draw.log_uniform(1e-3..6.0)
     };
     let target = draw.pick(&bodies[0].vertices);
-    let mut case = pass(draw, bodies, turn, config);
+    let mut case = passing_case(draw, bodies, turn, config);
     if draw.chance(0.5) && turn == 0.0 {
         // A corner of one flies straight at the other, since small ones would never be hit otherwise.
         case.courses[0].start.quaternion = [1.0, 0.0, 0.0, 0.0];
-        let start = plus(
+        let start = add_arrays(
             case.courses[1].start.position,
-            times(draw.direction(), 2.0 * large),
+            scale_array(draw.direction(), 2.0 * large),
         );
-        case.courses[0].start.position = plus(start, times(target, -1.0));
-        let way = plus(case.courses[1].start.position, times(start, -1.0));
-        let linear = times(way, draw.within(0.7..1.5));
+        case.courses[0].start.position = add_arrays(start, scale_array(target, -1.0));
+        let way = add_arrays(case.courses[1].start.position, scale_array(start, -1.0));
+        let linear = scale_array(way, draw.uniform(0.7..1.5));
         case.courses[0].goal = Goal::Velocities {
             linear,
             spin: [0.0; 3],

@@ -1,39 +1,42 @@
-//! Closed parts side by side and nested, oriented outward or inward.
+//! Draws queries of closed parts next to each other and nested, oriented outward or inward.
 
-use super::{pass, still, tolerance};
+use super::{motion_at_rest, passing_case, random_tolerance};
 use crate::case::{Case, Expect, Form, Shape};
-use crate::draw::{Draw, plus, times};
+use crate::draw::{Draw, add_arrays, scale_array};
 use crate::raw_motion::RawMotion;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let several = several(draw);
+    let several = closed_parts(draw);
     let other = if draw.chance(0.3) {
-        self::several(draw)
+        self::closed_parts(draw)
     } else {
-        shapes::any(draw)
+        shapes::any_shape(draw)
     };
     let size = draw.pick(&[0.1, 0.3, 1.0]);
-    let other = other.map(|v| times(v, size));
-    let config = tolerance(draw);
+    let other = other.map(|v| scale_array(v, size));
+    let config = random_tolerance(draw);
     let turn = if draw.chance(0.5) {
         0.0
     } else {
-        draw.log(0.01..6.0)
+        draw.log_uniform(0.01..6.0)
     };
     if draw.chance(0.5) {
-        return pass(draw, [several, other], turn, config);
+        return passing_case(draw, [several, other], turn, config);
     }
     // The position is somewhere within, or on, the parts.
     let at = if draw.chance(0.3) {
         draw.pick(&several.vertices)
     } else {
-        times(draw.point(), several.radius())
+        scale_array(draw.point(), several.radius())
     };
     let start = draw.pose(at);
-    let velocity = times(draw.direction(), draw.within(0.0..4.0));
-    let spin = times(draw.direction(), turn);
-    let courses = [still(), RawMotion::velocities(start, velocity, spin)];
+    let velocity = scale_array(draw.direction(), draw.uniform(0.0..4.0));
+    let spin = scale_array(draw.direction(), turn);
+    let courses = [
+        motion_at_rest(),
+        RawMotion::velocities(start, velocity, spin),
+    ];
     Case {
         shapes: [several, other],
         courses,
@@ -43,8 +46,8 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// Returns one to four closed parts, some of them inside out, some nested.
-fn several(draw: &mut Draw) -> Shape {
+/// Returns one to four closed parts. Some are inside out, and some are nested.
+fn closed_parts(draw: &mut Draw) -> Shape {
     let count = draw.count(1..5);
     let mut all = Shape::default();
     let (mut at, mut size) = ([0.0; 3], 1.0);
@@ -52,20 +55,25 @@ fn several(draw: &mut Draw) -> Shape {
         let part = if draw.chance(0.6) {
             shapes::cuboid([0.5; 3])
         } else {
-            shapes::solid(draw)
+            shapes::closed_shape(draw)
         };
         let (here, scale) = (at, size);
-        let part = part.map(|v| plus(times(v, scale), here));
+        let part = part.map(|v| add_arrays(scale_array(v, scale), here));
         let part = if draw.chance(0.5) {
             part.flipped()
         } else {
             part
         };
-        all = all.with(&part);
+        all = all.joined_with(&part);
         match draw.count(0..3) {
             // The part is within the last one, next to it, or flush with it.
-            0 => size *= draw.within(0.1..0.8),
-            1 => at = plus(at, times(draw.direction(), draw.within(2.0..4.0) * size)),
+            0 => size *= draw.uniform(0.1..0.8),
+            1 => {
+                at = add_arrays(
+                    at,
+                    scale_array(draw.direction(), draw.uniform(2.0..4.0) * size),
+                );
+            }
             _ => at[draw.count(0..3)] += size,
         }
     }

@@ -8,22 +8,22 @@ use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::vector::Vector;
 use ccd_core::{Settings, StartPolicy};
 
-/// The budget of a query, small enough for thousands of queries in a minute.
+/// The work budget of a query, small enough for thousands of queries in a minute.
 const BUDGET: u64 = 20_000;
-/// The largest rotation of a body, in radians. The referee takes a time that is proportional to it.
-const MOST_TURN: f64 = 40.0;
+/// The largest rotation of a body, in radians. The referee takes time in proportion to it.
+const MAX_ROTATION: f64 = 40.0;
 
-/// The bits of the byte before a shape, besides its kind.
+/// The bits for the kind of shape, in the byte before a shape.
 pub(super) const KIND: u8 = 7;
 pub(super) const FLIPPED: u8 = 64;
 pub(super) const SCALED: u8 = 128;
-/// The bits of the byte before a course.
+/// The bit for a rotated start, in the byte before a motion.
 pub(super) const TURNED: u8 = 1;
 pub(super) const MOVES: u8 = 2;
 pub(super) const SPINS: u8 = 4;
 pub(super) const CENTRED: u8 = 8;
 pub(super) const ENDS: u8 = 16;
-/// The bits of the byte before the settings.
+/// The bit for a margin, in the byte before the settings.
 pub(super) const MARGIN: u8 = 1;
 pub(super) const LEAVE: u8 = 2;
 pub(super) const LASTS: u8 = 4;
@@ -32,10 +32,10 @@ pub(super) const TOLERANCE: u8 = 16;
 pub(super) const AIMED: u8 = 32;
 pub(super) const MORE: u8 = 64;
 
-/// The number of the shape that is a mesh of any vertices and faces.
+/// The kind of shape that is a mesh of any vertices and faces.
 pub(super) const MESH: u8 = 0;
 
-pub(super) fn question(bytes: &[u8]) -> Question {
+pub(super) fn decode_question(bytes: &[u8]) -> Question {
     let mut source = Source::new(bytes);
     let flags = source.byte();
     let config = config(&mut source, flags);
@@ -87,7 +87,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
     }
 }
 
-/// Returns the methods: always the default, and mostly another one.
+/// Returns the methods that answer the query: always the default, and mostly another one.
 fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
     const METHODS: [Method; 5] = [
         Method::Direct,
@@ -118,7 +118,7 @@ fn shape(source: &mut Source<'_>) -> Shape {
             let inner = Shape::cuboid(source.numbers());
             let at = Vector(source.numbers());
             let outer = Shape::cuboid(source.numbers());
-            outer.with(&inner.map(|v| (Vector(v) + at).0))
+            outer.joined_with(&inner.map(|v| (Vector(v) + at).0))
         }
         5 => tetrahedron(source),
         6 => bipyramid(source),
@@ -190,7 +190,7 @@ fn bipyramid(source: &mut Source<'_>) -> Shape {
     }
 }
 
-/// Returns a height field over a grid of squares.
+/// Returns a height field of triangles over a grid of squares.
 fn grid(source: &mut Source<'_>) -> Shape {
     let side = u32::from(source.count(1, 5));
     let at = |i: u32, j: u32| i * (side + 1) + j;
@@ -240,14 +240,14 @@ fn course(source: &mut Source<'_>) -> RawMotion {
 fn limit_turn(course: &mut RawMotion, duration: f64) {
     if let Goal::Velocities { spin, .. } = &mut course.goal {
         let turn = Vector(*spin).length() * duration;
-        if turn > MOST_TURN {
-            *spin = (Vector(*spin) * (MOST_TURN / turn)).0;
+        if turn > MAX_ROTATION {
+            *spin = (Vector(*spin) * (MAX_ROTATION / turn)).0;
         }
     }
 }
 
-/// Moves A so that one of its corners meets one of B's at some time, up to an offset: bodies at random places rarely
-/// meet.
+/// Moves A so that one of its corners meets a corner of B at some time, up to an offset. Bodies at random places
+/// rarely meet.
 fn aim(source: &mut Source<'_>, case: &mut Case) {
     let share = f64::from(source.byte()) / 255.0;
     let time = share * case.duration;
@@ -256,7 +256,7 @@ fn aim(source: &mut Source<'_>, case: &mut Case) {
         let corner = vertices[usize::from(source.byte()) % vertices.len()];
         let track = case.courses[k].track(case.duration);
         let placed = track.at(time);
-        let arm = placed.arm(Vector::from_array(corner) - track.centre);
+        let arm = placed.arm_of(Vector::from_array(corner) - track.centre);
         arm + placed.centre
     };
     let [from, to] = [corner(0), corner(1)];

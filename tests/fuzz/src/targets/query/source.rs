@@ -1,14 +1,15 @@
-//! Numbers from bytes.
+//! Reads numbers from bytes.
 
-/// Reads numbers from bytes. Most take one byte, and often return, so that edges line up and gaps vanish.
+/// A reader of numbers from bytes. Most numbers take one byte, and often return, so that edges line up and gaps
+/// vanish.
 pub(super) struct Source<'a> {
     bytes: &'a [u8],
     seen: Vec<f64>,
 }
 
-/// The tag before a number in eight bytes.
+/// The tag byte before a number in eight bytes.
 pub(super) const RAW: u8 = 255;
-/// The number of tags for multiples of a sixteenth.
+/// The number of tag bytes that stand for multiples of a sixteenth.
 pub(super) const SIXTEENTHS: u8 = 128;
 
 impl<'a> Source<'a> {
@@ -19,7 +20,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Reads a byte; zero after the end.
+    /// Reads a byte; 0 after the end of the input.
     pub(super) fn byte(&mut self) -> u8 {
         let [byte] = self.array();
         byte
@@ -67,7 +68,7 @@ impl<'a> Source<'a> {
         x
     }
 
-    /// Returns an earlier number, the last one for 0.
+    /// Returns a number read before, `back` numbers before the last one.
     fn earlier(&self, back: u8) -> f64 {
         let at = self.seen.len().checked_sub(1 + usize::from(back));
         at.map_or(0.0, |at| self.seen[at])
@@ -77,7 +78,7 @@ impl<'a> Source<'a> {
         [(); N].map(|()| self.number())
     }
 
-    /// Reads numbers if a bit is set; otherwise returns the given ones.
+    /// Reads `N` numbers if a bit is set; otherwise returns the numbers `or`.
     pub(super) fn numbers_if<const N: usize>(&mut self, bit: bool, or: [f64; N]) -> [f64; N] {
         if bit { self.numbers() } else { or }
     }

@@ -1,4 +1,4 @@
-//! Every kind of bad glTF, and its message.
+//! Tests the error message for every kind of invalid glTF.
 
 use super::{error, read, square};
 use crate::test_files::Gltf;
@@ -6,7 +6,7 @@ use crate::{Format, MeshFault, TriangleMesh};
 use rstest::rstest;
 use serde_json::{Value, json};
 
-/// A triangle with the JSON value at a path replaced.
+/// Returns a valid triangle as glTF, with the JSON value at `path` replaced.
 fn with(path: &str, value: Value) -> Gltf {
     let mut gltf = Gltf::triangle();
     gltf.json["buffers"] = json!([{"byteLength": 36}]);
@@ -221,7 +221,7 @@ fn nodes_form_a_tree(#[case] nodes: Value) {
     assert!(message.contains("is below"), "{message}");
 }
 
-/// A long chain of nodes does not recurse.
+/// Tests that a long chain of nodes is read without recursion.
 #[test]
 fn nodes_may_be_deep() {
     let count = 200_000;
@@ -231,7 +231,7 @@ fn nodes_may_be_deep() {
     assert_eq!(read(&gltf).vertices()[0].x, 1.0);
 }
 
-/// Skipped JSON may be arbitrarily deep.
+/// Tests that deeply nested JSON is skipped without recursion.
 #[test]
 fn deep_json_is_no_deep_call() {
     let deep = |count| format!("{}{}", "[".repeat(count), "]".repeat(count));
@@ -247,7 +247,7 @@ fn deep_json_is_no_deep_call() {
     );
 }
 
-/// An accessor of zeros takes no bytes.
+/// Tests that an accessor of zeros, which takes no bytes in the file, is limited by the allowance.
 #[test]
 fn zeros_are_limited() {
     let mut gltf = Gltf::triangle();
@@ -263,7 +263,7 @@ fn zeros_are_limited() {
     );
 }
 
-/// Small files that repeat a mesh many times take little memory, or are refused.
+/// Tests that small files that repeat a mesh many times take little memory, or are refused.
 #[test]
 fn instances_are_limited() {
     const MANY: usize = 10_000;

@@ -1,4 +1,4 @@
-//! Nodes that place meshes, and the scenes that they form.
+//! Tests how nodes place meshes, and which scene is read.
 
 use super::{corner, file, read};
 use crate::test_files::Gltf;
@@ -26,7 +26,7 @@ fn nodes_are_placed(#[case] node: Value, #[case] expected: DVec3) {
     assert_eq!(corner(&gltf), expected);
 }
 
-/// A rotation whose floats have been rounded does not scale.
+/// Tests that a rotation whose floats have been rounded does not scale.
 #[test]
 fn rotations_are_made_unit_first() {
     let half = 0.707_106_77_f32;
@@ -37,7 +37,7 @@ fn rotations_are_made_unit_first() {
 }
 
 proptest! {
-    /// The JSON's numbers are read as Rust reads them: the nearest f64 of a decimal.
+    /// Tests that the JSON's decimals are read as the nearest f64, as Rust parses them.
     #[test]
     fn numbers_are_rounded_to_the_nearest(digits in 0..u64::MAX, exponent in -30..10) {
         let text = format!("{digits}e{exponent}");
@@ -72,7 +72,7 @@ fn nodes_are_placed_in_those_above_them() {
     );
 }
 
-/// A mirroring node reverses the triangles; one that mirrors twice does not.
+/// Tests that a node with one mirroring reverses the triangles, and a node with two does not.
 #[test]
 fn mirrored_nodes_turn_the_faces_round() {
     let mut gltf = Gltf::triangle();

@@ -1,4 +1,4 @@
-//! Every kind of bad 3MF, and its message.
+//! Tests the error message for every kind of invalid 3MF.
 
 use super::{error, file, one, tetrahedron};
 use crate::MeshFault;
@@ -176,7 +176,7 @@ fn components_name_objects() {
     assert!(message.starts_with("has no "), "{message}");
 }
 
-/// A thousand objects, each of which is ten times the one before.
+/// Tests that a thousand nested objects, each ten times the one before, are refused.
 #[test]
 fn components_that_multiply_are_refused() {
     let mut objects = tetrahedron(r#"id="1""#);
@@ -187,7 +187,7 @@ fn components_that_multiply_are_refused() {
     assert!(matches!(error.fault, MeshFault::Repeats { .. }), "{error}");
 }
 
-/// A long chain of components does not recurse.
+/// Tests that a long chain of components is read without recursion.
 #[test]
 fn components_may_be_deep() {
     let mut objects = tetrahedron(r#"id="1""#);
@@ -288,7 +288,7 @@ fn other_compressions_are_refused() {
     }
 }
 
-/// A hundred million spaces are packed into a hundred thousand bytes.
+/// Tests that a hundred million spaces, packed into a hundred thousand bytes, are refused.
 #[test]
 fn a_bomb_is_refused() {
     let text = good().replace(

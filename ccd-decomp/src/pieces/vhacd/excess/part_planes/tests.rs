@@ -4,7 +4,7 @@ use crate::worst::{Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The error of the normal of the thinnest accepted facet, as a share of the error of distances.
+/// Searches for the largest error of the normal of an accepted facet, as a fraction of the error of distances.
 #[test]
 fn worst_normal() {
     let found = Worst::of("WELL_SHAPED, a normal", 20_000).search(|tape| {
