@@ -1,6 +1,6 @@
 //! Files that only one process writes at a time.
 
-use crate::temp_file::{buffered, error_with_path, place, sibling};
+use crate::temp_file::{error_with_path, place, sibling, write_buffered};
 use same_file::Handle;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -116,7 +116,7 @@ impl Claim {
     /// Errors of `fill` and of [`Claim::place`].
     pub fn write(mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         self.cut(0)?;
-        buffered(&mut self.file, fill)?;
+        write_buffered(&mut self.file, fill)?;
         self.place()
     }
 

@@ -20,7 +20,7 @@ pub use destination::{Destination, check_folder, end_of_links};
 
 use std::io::{self, Write};
 use std::path::Path;
-use temp_file::{TempFile, buffered};
+use temp_file::{TempFile, write_buffered};
 
 /// Writes a file atomically: to a temporary file, which is then renamed.
 ///
@@ -47,10 +47,10 @@ pub fn write(
     match Destination::resolve(path)? {
         Destination::File(target) => {
             let mut temporary = TempFile::new(target)?;
-            buffered(&mut temporary.file, fill)?;
+            write_buffered(&mut temporary.file, fill)?;
             temporary.place()
         }
-        Destination::Stream => buffered(destination::open_stream(path)?, fill),
+        Destination::Stream => write_buffered(destination::open_stream(path)?, fill),
     }
 }
 

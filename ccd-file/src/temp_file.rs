@@ -51,7 +51,7 @@ impl Drop for TempFile {
 }
 
 /// Writes to a file or a stream through a buffer.
-pub(crate) fn buffered(
+pub(crate) fn write_buffered(
     to: impl Write,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {

@@ -69,7 +69,7 @@ impl From<&Motion> for ShownMotion {
 
 impl ShownMotion {
     /// Returns whether the body moves at all.
-    pub(crate) fn moves(&self) -> bool {
+    pub(crate) fn is_moving(&self) -> bool {
         match self {
             ShownMotion::Steady { velocity, spin, .. } => velocity
                 .iter()

@@ -115,7 +115,7 @@ impl ShownBody {
             name: name.to_owned(),
             mesh,
             color: color.to_owned(),
-            moves: motion.moves(),
+            moves: motion.is_moving(),
             motion,
         }
     }

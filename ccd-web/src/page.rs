@@ -23,7 +23,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
         .remove_name_section(true)
         .remove_producers_section(true);
     let mut module = bindgen.generate_output()?;
-    let code = BASE64_STANDARD.encode(compressed(&module.wasm_mut().emit_wasm())?);
+    let code = BASE64_STANDARD.encode(gzip(&module.wasm_mut().emit_wasm())?);
     let checks = if check {
         format!(
             "<script type=\"application/json\" id=\"answers\">{}</script>\n<script>\n{}</script>",
@@ -58,7 +58,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
 }
 
 /// Compresses the WebAssembly module, which halves the page.
-fn compressed(bytes: &[u8]) -> Result<Vec<u8>> {
+fn gzip(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
     Ok(encoder.finish()?)

@@ -256,7 +256,7 @@ impl PyChain {
             end,
             duration,
         }
-        .checked()
+        .check_positions()
     }
 }
 
@@ -292,7 +292,7 @@ impl PyLink {
             end: self.end.clone(),
             duration: self.duration,
         }
-        .checked()
+        .check_positions()
     }
 
     /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
@@ -335,7 +335,7 @@ impl PyLink {
             end,
             duration,
         }
-        .checked()
+        .check_positions()
     }
 
     fn __repr__(&self) -> String {
@@ -351,7 +351,7 @@ impl PyLink {
 
 impl PyLink {
     /// Returns the link, or an error if a position is outside a joint's limits.
-    fn checked(self) -> PyResult<Self> {
+    fn check_positions(self) -> PyResult<Self> {
         let joints = self.chain.get().chain.joints().len();
         for (what, positions) in [("start", &self.start), ("end", &self.end)] {
             if positions.len() != joints {

@@ -127,14 +127,14 @@ pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyEr
 }
 
 /// Makes an `Unresolved` for a question about contacts.
-pub(crate) fn unresolved(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
+pub(crate) fn unresolved_error(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
     let error = Unresolved::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
 /// Makes an `Unresolved` for a question about a distance.
-pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
+pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
     let error = Unresolved::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);
@@ -143,7 +143,7 @@ pub(crate) fn unresolved_distance(py: Python<'_>, known: &rigid_ccd::Unresolved)
 
 /// Converts the exception of a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged.
 /// Either has what is done.
-pub(crate) fn interrupted<'py>(
+pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,
     results: impl IntoPyObject<'py>,

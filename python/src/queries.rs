@@ -2,7 +2,7 @@
 
 use crate::answers;
 use crate::body::{body_of, warn_of_tolerance};
-use crate::errors::{input_error, panic_error, unresolved, unresolved_distance, warn};
+use crate::errors::{input_error, panic_error, unresolved_distance_error, unresolved_error, warn};
 use crate::interruptible::run_interruptibly;
 use crate::motion::pose_of;
 use crate::movement::{GivenMovement, Pair};
@@ -142,17 +142,17 @@ fn ask(
 
 /// Returns the contact in an answer; `None` if the bodies stay apart.
 fn hit(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
-    answer.hit().map_err(|known| unresolved(py, &known))
+    answer.hit().map_err(|known| unresolved_error(py, &known))
 }
 
 /// Returns the distance in an answer, as a Python object.
-fn measured<'py>(
+fn distance_of_answer<'py>(
     py: Python<'py>,
     answer: &Answer,
     settings: &Settings,
 ) -> PyResult<Bound<'py, PyAny>> {
     match &answer.outcome {
-        Outcome::Unresolved(known) => Err(unresolved_distance(py, known)),
+        Outcome::Unresolved(known) => Err(unresolved_distance_error(py, known)),
         outcome => answers::distance(py, outcome, settings.clearance),
     }
 }
@@ -248,7 +248,7 @@ pub(crate) fn closest_approach<'py>(
     let settings = read(settings, APPROACH_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::ClosestApproach, bodies, duration, &settings)?;
-    measured(py, &answer, &settings)
+    distance_of_answer(py, &answer, &settings)
 }
 
 /// Brackets the greatest distance over time of two moving bodies, to within the tolerance.
@@ -274,7 +274,7 @@ pub(crate) fn greatest_distance<'py>(
     let settings = read(settings, DISTANCE_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::GreatestDistance, bodies, duration, &settings)?;
-    measured(py, &answer, &settings)
+    distance_of_answer(py, &answer, &settings)
 }
 
 /// Brackets the distance of two bodies at rest, each at a pose as in `Motion.between`; None is the world's origin.
@@ -306,5 +306,5 @@ pub(crate) fn distance<'py>(
         bodies: [(a, pose_a).into(), (b, pose_b).into()],
         duration: 0.0,
     };
-    measured(py, &asked.run(py, &settings)?, &settings)
+    distance_of_answer(py, &asked.run(py, &settings)?, &settings)
 }

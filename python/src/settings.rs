@@ -31,7 +31,7 @@ pub(crate) fn read(
     for (name, value) in given.into_iter().flatten() {
         let name: String = name.extract()?;
         match name.as_str() {
-            _ if !known.contains(&name.as_str()) => return Err(unknown(&name, known)),
+            _ if !known.contains(&name.as_str()) => return Err(unknown_setting(&name, known)),
             "tolerance" => settings.tolerance = value_of(&name, &value)?,
             "margin" => settings.margin = value_of(&name, &value)?,
             "clearance" => settings.clearance = value_of(&name, &value)?,
@@ -40,7 +40,7 @@ pub(crate) fn read(
                     value_of::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
             }
             "deadline" => settings.deadline = deadline(value_of(&name, &value)?)?,
-            _ => return Err(unknown(&name, known)),
+            _ => return Err(unknown_setting(&name, known)),
         }
     }
     Ok(settings)
@@ -83,7 +83,7 @@ fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     })
 }
 
-fn unknown(name: &str, known: &[&str]) -> PyErr {
+fn unknown_setting(name: &str, known: &[&str]) -> PyErr {
     PyTypeError::new_err(format!(
         "unexpected keyword argument '{name}'; settings are {}",
         known.join(", ")

@@ -2,7 +2,7 @@
 
 use crate::body::{body_of, warn_of_tolerance};
 use crate::errors::{
-    error_of_table, input_error as refuse, interrupted, warn, with_attribute, wrong_type,
+    error_of_table, input_error as refuse, interruption_error, warn, with_attribute, wrong_type,
 };
 use crate::interruptible::run_interruptibly;
 use crate::settings::{self, APPROACH_SETTINGS, CONTACT_SETTINGS, TABLE_SETTINGS};
@@ -75,10 +75,10 @@ pub(crate) fn answer_table(
     } = found;
     let table = PyTable { batch: results };
     match (interruption.and_then(|()| report(py)), fault) {
-        (Err(cause), _) => Err(interrupted(py, cause, table)),
+        (Err(cause), _) => Err(interruption_error(py, cause, table)),
         (Ok(()), Some(fault)) => Err(match table_error(&fault) {
             error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {
-                interrupted(py, error, table)
+                interruption_error(py, error, table)
             }
             error => with_attribute(py, error, "results", table),
         }),

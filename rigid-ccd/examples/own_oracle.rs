@@ -24,8 +24,8 @@ impl DistanceOracle for Segments {
         // Alternating projection: the nearest point of one segment to a point of the other.
         let (mut s, mut t) = (0.5, 0.5);
         for _ in 0..100 {
-            s = clamped((q + t * v - p).dot(u) / u.length_squared());
-            t = clamped((p + s * u - q).dot(v) / v.length_squared());
+            s = clamp_to_unit((q + t * v - p).dot(u) / u.length_squared());
+            t = clamp_to_unit((p + s * u - q).dot(v) / v.length_squared());
         }
         Ok(Claim {
             axis: (q + t * v) - (p + s * u),
@@ -36,7 +36,7 @@ impl DistanceOracle for Segments {
 }
 
 /// Clamps a number to the range from 0 to 1. NaN becomes 0: the segment of a ball has length 0.
-fn clamped(share: f64) -> f64 {
+fn clamp_to_unit(share: f64) -> f64 {
     if share.is_nan() {
         return 0.0;
     }

@@ -46,7 +46,7 @@ impl Tally {
     }
 
     /// Returns the share of the bodies' steps in which the body was stopped.
-    pub(crate) fn stopped(&self) -> f64 {
+    pub(crate) fn stopped_share(&self) -> f64 {
         self.stops as f64 / self.moves as f64
     }
 

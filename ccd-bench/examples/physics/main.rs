@@ -66,7 +66,7 @@ fn main() -> Result<()> {
             let mut world = World::new(number, method)?;
             let (tally, time) = run(&mut world, method, steps)?;
             let millis = 1e3 * time.as_secs_f64() / f64::from(steps);
-            let (deepest, stopped) = (tally.deepest(), tally.stopped());
+            let (deepest, stopped) = (tally.deepest(), tally.stopped_share());
             name = world.name;
             writeln!(
                 out,

@@ -27,7 +27,7 @@ const MOST_REPEATS: usize = 4;
 const REPEAT_TIME_LIMIT: Duration = Duration::from_millis(40);
 
 /// Answers a query and times it, in the same way for all solvers.
-pub fn timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
+pub fn answer_timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) -> TimedReply {
     let mut micros = Vec::with_capacity(MOST_REPEATS);
     let first = Instant::now();
     loop {

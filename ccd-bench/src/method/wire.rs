@@ -1,6 +1,6 @@
 //! The protocol between this program and a process that runs a method: one line for each query, and one for each reply.
 
-use super::solver::{Claim, Reply, Solver, TimedReply, timed};
+use super::solver::{Claim, Reply, Solver, TimedReply, answer_timed};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::table::motions::Motions;
@@ -32,7 +32,7 @@ pub fn serve(
         writeln!(
             output,
             "{}",
-            format_reply(&timed(solver, &query, tolerance))
+            format_reply(&answer_timed(solver, &query, tolerance))
         )?;
         output.flush()?;
     }

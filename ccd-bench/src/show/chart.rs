@@ -123,7 +123,7 @@ impl Charts<'_> {
     }
 
     /// Returns the measured methods of some families, each with its style.
-    fn shown(&self, families: &[Family]) -> Vec<Shown<'_>> {
+    fn methods_with_styles(&self, families: &[Family]) -> Vec<Shown<'_>> {
         let measured = |name: &str| {
             let of = |scene: &SceneFacts<'_>| !self.cells_of(scene.name, name).is_empty();
             self.scenes.iter().any(of)

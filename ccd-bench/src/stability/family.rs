@@ -61,7 +61,7 @@ pub enum Expected {
 
 impl Family {
     /// Returns the same family with a parameter of the given description and values.
-    pub(super) fn over(self, parameter: &'static str, values: Vec<f64>) -> Self {
+    pub(super) fn with_values(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
             parameter,
             values,
@@ -100,7 +100,7 @@ impl Expected {
     }
 
     /// Converts the answer for duration 1 to another duration.
-    fn over(self, duration: f64) -> Self {
+    fn for_duration(self, duration: f64) -> Self {
         match self {
             Expected::Contact { lo, hi } => Expected::Contact {
                 lo: lo * duration,
@@ -236,7 +236,7 @@ impl Step {
             b: b.motion(world, self.duration)?,
             duration: self.duration,
         };
-        let expected = expected.over(self.duration);
+        let expected = expected.for_duration(self.duration);
         self.cases.push(Case { query, expected });
         Ok(self)
     }

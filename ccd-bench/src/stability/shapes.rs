@@ -68,13 +68,13 @@ pub(super) const TOOTH_SHARE: f64 = 0.4;
 pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
     let border = |k: u32| (f64::from(k / 2) + TOOTH_SHARE * f64::from(k % 2)) / f64::from(teeth);
     let borders: Vec<f64> = (0..2 * teeth).map(border).collect();
-    extruded(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
+    extrude(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
         level == 0 || column % 2 == 0
     })
 }
 
 /// Returns a solid that is extruded along y by a half depth: the filled cells of a grid in the plane of x and z.
-pub(super) fn extruded(
+pub(super) fn extrude(
     x: &[f64],
     z: &[f64],
     half: f64,
@@ -134,7 +134,7 @@ fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<Triang
 /// height.
 pub(super) fn slit_plate(slit: f64) -> Result<TriangleMesh, MeshError> {
     let levels = [-3.0, -slit, slit, 3.0];
-    extruded(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
+    extrude(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
 }
 
 /// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch per turn.
@@ -158,7 +158,7 @@ pub(super) fn ribbon(
 }
 
 /// Returns copies of an open horizontal square, one at each height.
-pub(super) fn stacked(
+pub(super) fn stacked_squares(
     sheet: &TriangleMesh,
     heights: impl Iterator<Item = f64>,
 ) -> Result<TriangleMesh, MeshError> {
@@ -231,7 +231,7 @@ pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
         squares: 1,
     };
     let step = 0.5 / f64::from(count);
-    stacked(&square.mesh()?, (0..count).map(|k| -step * f64::from(k)))
+    stacked_squares(&square.mesh()?, (0..count).map(|k| -step * f64::from(k)))
 }
 
 /// Returns a mesh with some of its faces repeated, half of them reversed, and as many degenerate faces.

@@ -68,7 +68,7 @@ fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket
             upper: f64::INFINITY,
         };
     };
-    let placed = snapshot.placed(a);
+    let placed = snapshot.triangle_at_instant(a);
     let (p, q) = nearest_or_common(&placed, b);
     let directions = normals(&placed, b).chain([(p - q).normalize()]);
     let gaps = directions

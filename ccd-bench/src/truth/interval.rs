@@ -262,7 +262,7 @@ fn remainder(w: f64, x: f64, y: f64) -> f64 {
     if !(SAFE_FACTORS.contains(&x.abs()) && SAFE_FACTORS.contains(&y.abs())) {
         return f64::NAN;
     }
-    let ([x_high, x_low], [y_high, y_low]) = (halves(x), halves(y));
+    let ([x_high, x_low], [y_high, y_low]) = (split_float(x), split_float(y));
     let product = x * y;
     let error = ((x_high * y_high - product) + x_high * y_low + x_low * y_high) + x_low * y_low;
     (w - product) - error
@@ -273,7 +273,7 @@ fn remainder(w: f64, x: f64, y: f64) -> f64 {
 const SAFE_FACTORS: RangeInclusive<f64> = 1e-140..=1e140;
 
 /// Splits a float into a sum of two floats of at most 26 bits each, as Veltkamp does.
-fn halves(x: f64) -> [f64; 2] {
+fn split_float(x: f64) -> [f64; 2] {
     const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
     let scaled = SPLITTER * x;
     let high = scaled - (scaled - x);

@@ -62,7 +62,7 @@ impl<'a> Search<'a> {
                 Track::new(&query.a, referee.a),
                 Track::new(&query.b, referee.b),
             ],
-            farthest: surfaces.map(Surface::farthest),
+            farthest: surfaces.map(Surface::farthest_distance),
             duration: query.duration,
             budget: BUDGET,
         }
@@ -176,7 +176,7 @@ impl<'a> Search<'a> {
             // Also false for NaN: `min` drops it, so the direction itself is tested.
             n.is_finite() && least > snapshot.slack()
         };
-        let placed = snapshot.placed(a);
+        let placed = snapshot.triangle_at_instant(a);
         let mut normals = normals(&placed, b);
         if normals.by_ref().take(FACE_NORMALS).any(apart) {
             return true;

@@ -160,7 +160,7 @@ impl Snapshot {
     }
 
     /// Returns the corners of A's triangle in the common frame at the middle time.
-    pub(super) fn placed(&self, a: &Triangle) -> Triangle {
+    pub(super) fn triangle_at_instant(&self, a: &Triangle) -> Triangle {
         a.map(|p| self.placement.apply(p))
     }
 

@@ -82,7 +82,7 @@ impl Surface {
     }
 
     /// Returns an upper bound of the distance of the body's points from the origin.
-    pub(super) fn farthest(&self) -> f64 {
+    pub(super) fn farthest_distance(&self) -> f64 {
         let far = self.corners().map(DVec3::length).fold(0.0, larger);
         far * ROUNDED_UP
     }

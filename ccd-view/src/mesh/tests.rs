@@ -1,6 +1,6 @@
 use super::*;
 
-fn decoded<const N: usize>(text: &str) -> Vec<[u8; N]> {
+fn decode<const N: usize>(text: &str) -> Vec<[u8; N]> {
     let bytes = BASE64_STANDARD.decode(text).unwrap();
     let chunks = bytes.chunks_exact(N);
     assert!(chunks.remainder().is_empty());
@@ -21,15 +21,13 @@ fn meshes_decode_to_their_numbers_even_far_away() {
     let far = DVec3::new(1e9, -1e9, 5e8);
     let mesh = tetrahedron(far);
     let stored = Stored::new(&mesh);
-    let numbers = decoded(&stored.vertices)
-        .into_iter()
-        .map(f32::from_le_bytes);
+    let numbers = decode(&stored.vertices).into_iter().map(f32::from_le_bytes);
     let places: Vec<f64> = numbers.map(f64::from).collect();
     for (place, vertex) in places.chunks(3).zip(&mesh.vertices) {
         let there = DVec3::from_slice(place) + DVec3::from_array(stored.middle);
         assert!(there.distance(*vertex) < 1e-6, "{there} {vertex}");
     }
-    let corners: Vec<u32> = decoded(&stored.faces)
+    let corners: Vec<u32> = decode(&stored.faces)
         .into_iter()
         .map(u32::from_le_bytes)
         .collect();

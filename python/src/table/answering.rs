@@ -80,7 +80,7 @@ pub(crate) fn answer(
         .take(first)
         .collect();
     Ok(Answered {
-        results: results::joined(&schema, &answered).map_err(unreadable)?,
+        results: results::concatenate(&schema, &answered).map_err(unreadable)?,
         remarks: pieces.remarks(&columns),
         fault: pieces.fault,
     })

@@ -18,17 +18,17 @@ pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError
 }
 
 /// Concatenates batches of results. Ids too long for one column of their type become those of the type for long ones.
-pub(crate) fn joined(
+pub(crate) fn concatenate(
     schema: &Arc<Schema>,
     batches: &[RecordBatch],
 ) -> Result<RecordBatch, ArrowError> {
-    let joined = concat_batches(schema, batches);
+    let concatenate = concat_batches(schema, batches);
     let long = match schema.field(0).data_type() {
         DataType::Utf8 => DataType::LargeUtf8,
         DataType::Binary => DataType::LargeBinary,
-        _ => return joined,
+        _ => return concatenate,
     };
-    joined.or_else(|_| {
+    concatenate.or_else(|_| {
         let mut fields = schema.fields().to_vec();
         fields[0] = Arc::new(schema.field(0).clone().with_data_type(long.clone()));
         let schema = Arc::new(Schema::new(fields));

@@ -10,7 +10,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
 /// Returns one of the numbers in `ODD` with probability `share`, otherwise a usual one.
-fn odd(rng: &mut Pcg64Mcg, share: f32) -> Real {
+fn odd_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
     if rng.random::<f32>() < share {
         ODD[rng.random_range(0..ODD.len())]
     } else {
@@ -19,11 +19,15 @@ fn odd(rng: &mut Pcg64Mcg, share: f32) -> Real {
 }
 
 fn odd_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
-    Vector::new(odd(rng, share), odd(rng, share), odd(rng, share))
+    Vector::new(
+        odd_number(rng, share),
+        odd_number(rng, share),
+        odd_number(rng, share),
+    )
 }
 
 fn odd_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
-    let [x, y, z, w] = std::array::from_fn(|_| odd(rng, share));
+    let [x, y, z, w] = std::array::from_fn(|_| odd_number(rng, share));
     Pose::from_parts(odd_vector(rng, share), Rotation::from_xyzw(x, y, z, w))
 }
 
@@ -38,9 +42,9 @@ fn odd_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
 
 /// Returns a shape whose fields parry does not check.
 fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
-    let radius = odd(rng, share).abs();
+    let radius = odd_number(rng, share).abs();
     match rng.random_range(0..9) {
-        0 => SharedShape::ball(odd(rng, share)),
+        0 => SharedShape::ball(odd_number(rng, share)),
         1 => SharedShape::new(Cuboid {
             half_extents: odd_vector(rng, share).abs(),
         }),
@@ -52,11 +56,11 @@ fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
             odd_vector(rng, share),
         )),
         5 => SharedShape::new(Cylinder {
-            half_height: odd(rng, share),
-            radius: odd(rng, share),
+            half_height: odd_number(rng, share),
+            radius: odd_number(rng, share),
         }),
         6 => SharedShape::new(Cone {
-            half_height: odd(rng, share).abs(),
+            half_height: odd_number(rng, share).abs(),
             radius,
         }),
         7 => {
@@ -98,7 +102,7 @@ fn odd_numbers_are_answered_or_refused() {
                         .clamp(Vector::splat(-20.0), Vector::splat(20.0)),
                     ..motion
                 };
-                let times = [odd(&mut rng, share), odd(&mut rng, share)];
+                let times = [odd_number(&mut rng, share), odd_number(&mut rng, share)];
                 let times = times.map(|time| if time.abs() > 1e3 { 2.0 } else { time });
                 let found =
                     try_cast_shapes_nonlinear(&slow(m), &*a, &slow(n), &*b, times, seed % 4 == 0);
@@ -110,8 +114,8 @@ fn odd_numbers_are_answered_or_refused() {
                 let poses = [0, 1].map(|_| odd_pose(&mut rng, share));
                 let [v, w] = [0, 1].map(|_| odd_vector(&mut rng, share));
                 let options = ShapeCastOptions {
-                    max_time_of_impact: odd(&mut rng, share),
-                    target_distance: odd(&mut rng, share).abs(),
+                    max_time_of_impact: odd_number(&mut rng, share),
+                    target_distance: odd_number(&mut rng, share).abs(),
                     stop_at_penetration: seed % 4 == 1,
                     compute_impact_geometry_on_penetration: true,
                 };

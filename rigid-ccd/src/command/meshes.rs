@@ -54,7 +54,7 @@ impl MeshArgs {
     }
 
     /// Returns the names and values of these options, as the journal records them.
-    pub(super) fn recorded(&self) -> [(&'static str, String); 4] {
+    pub(super) fn recorded_options(&self) -> [(&'static str, String); 4] {
         let scale = self.scale.map(|factor| Number(factor).to_string());
         let surface = self.surface.then(|| "given".to_owned());
         [

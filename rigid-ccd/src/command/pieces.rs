@@ -39,7 +39,7 @@ enum PiecesArg {
 
 impl PiecesArgs {
     /// Returns the options with their effective values.
-    pub(super) fn recorded(&self) -> [(&'static str, String); 2] {
+    pub(super) fn recorded_options(&self) -> [(&'static str, String); 2] {
         let hulls = match self.pieces {
             PiecesArg::Vhacd => self.hulls.unwrap_or(DEFAULT_HULLS).to_string(),
             _ => NOT_GIVEN.to_owned(),

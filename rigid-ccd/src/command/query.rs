@@ -41,11 +41,12 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     let places = ClaimedFiles::claim(args)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
-    let (mut outputs, earlier) = match OpenedTables::new(args, places, &recorded(args, &pair))? {
-        OpenedTables::New(outputs) => (outputs, None),
-        OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
-        OpenedTables::Finished(end) => return resume::report_finished(args, &mut rows, end),
-    };
+    let (mut outputs, earlier) =
+        match OpenedTables::new(args, places, &recorded_options(args, &pair))? {
+            OpenedTables::New(outputs) => (outputs, None),
+            OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
+            OpenedTables::Finished(end) => return resume::report_finished(args, &mut rows, end),
+        };
     if args.resume {
         resume::report(args, earlier);
     }
@@ -224,10 +225,10 @@ fn leaves_start_contacts(args: &QueryArgs) -> bool {
 }
 
 /// Returns all options and checksums that determine the tables of the run, except the motions.
-fn recorded(args: &QueryArgs, pair: &Pair) -> RecordedOptions {
+fn recorded_options(args: &QueryArgs, pair: &Pair) -> RecordedOptions {
     let owned = |(option, value): (&str, String)| (option.to_owned(), value);
     let mut recorded = vec![owned(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
-    recorded.extend(args.recorded().into_iter().map(owned));
+    recorded.extend(args.recorded_options().into_iter().map(owned));
     for (option, checksum) in &pair.checksums {
         recorded.push((format!("{CONTENT_PREFIX}{option}"), checksum.clone()));
     }

@@ -92,7 +92,11 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     };
     let contacts = table.contacts(settings);
     if !args.quiet {
-        complain(&scene_verdict(&table.shown(), &contacts, table.duration));
+        complain(&scene_verdict(
+            &table.bodies_to_draw(),
+            &contacts,
+            table.duration,
+        ));
     }
     let ids: Vec<&str> = table.ids().collect();
     let columns = columns_of(&[], OMITTED_COLUMNS);

@@ -189,7 +189,7 @@ impl SceneTable {
     }
 
     /// Returns the bodies to draw, in the order of their rows.
-    pub(super) fn shown(&self) -> Vec<Shown<'_>> {
+    pub(super) fn bodies_to_draw(&self) -> Vec<Shown<'_>> {
         let shown = self.rows.iter().filter_map(|row| {
             let body = self.bodies.get(&row.text)?;
             Some(Shown {
@@ -209,7 +209,7 @@ impl SceneTable {
     /// Finds the first contact of each pair of bodies that touch, in order of time.
     pub(super) fn contacts(&self, settings: Settings) -> Vec<Result<Impact, PairError>> {
         let mut scene = Scene::new().with_settings(settings);
-        for body in self.shown() {
+        for body in self.bodies_to_draw() {
             scene.add(body.body, body.motion);
         }
         scene.contacts(self.duration)

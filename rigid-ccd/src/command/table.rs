@@ -112,7 +112,7 @@ impl Table {
         &mut self,
         row: impl FnOnce(&mut csv::Writer<Measured>) -> Result<(), csv::Error>,
     ) -> Result<(), CannotWrite> {
-        row(&mut self.writer).map_err(|error| self.failed(csv_cause(error)))
+        row(&mut self.writer).map_err(|error| self.cannot_write(csv_cause(error)))
     }
 
     /// Adds a row, given as serialisable cells.
@@ -128,7 +128,7 @@ impl Table {
     /// Flushes all rows to the file, and returns the length and checksum of the table.
     pub(super) fn written(&mut self) -> Result<WrittenSize, CannotWrite> {
         let flushed = self.writer.flush();
-        flushed.map_err(|source| self.failed(source))?;
+        flushed.map_err(|source| self.cannot_write(source))?;
         if let Some(claim) = &mut self.claim {
             claim.keep();
         }
@@ -146,11 +146,11 @@ impl Table {
         self.flush()?;
         match self.claim.take().map_or(Ok(()), Claim::place) {
             Ok(()) => Ok(()),
-            Err(source) => Err(self.failed(source)),
+            Err(source) => Err(self.cannot_write(source)),
         }
     }
 
-    fn failed(&self, source: io::Error) -> CannotWrite {
+    fn cannot_write(&self, source: io::Error) -> CannotWrite {
         CannotWrite {
             place: self.name.clone(),
             source,

@@ -214,7 +214,7 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
         table.report(args.tolerance);
     }
     let out = Output::claim(&args.out)?;
-    let shown = table.shown();
+    let shown = table.bodies_to_draw();
     let contacts = table.contacts(timing(args).settings);
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);

@@ -66,7 +66,7 @@ impl Event {
     }
 
     /// Returns the event of a pair that was not examined because a limit was reached.
-    pub(super) fn unresolved(bodies: [usize; 2]) -> Self {
+    pub(super) fn not_examined(bodies: [usize; 2]) -> Self {
         Event {
             time: 0.0,
             bodies,
@@ -75,7 +75,7 @@ impl Event {
     }
 
     /// Returns this event of a query that started at time `from`, with its times shifted by `from` and rounded down.
-    pub(super) fn delayed(self, from: f64) -> Self {
+    pub(super) fn shifted_by(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
                 greater(from, (from + time).next_down())

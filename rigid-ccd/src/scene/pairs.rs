@@ -21,7 +21,7 @@ pub(super) fn meeting_pairs(
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
     let mut pairs = Vec::new();
     tree.traverse_bvtt_single_tree::<false>(&mut BvhWorkspace::default(), &mut |a, b| {
-        let pair = ordered(a as usize, b as usize);
+        let pair = in_ascending_order(a as usize, b as usize);
         if asked(pair) {
             pairs.push(pair);
         }
@@ -29,7 +29,7 @@ pub(super) fn meeting_pairs(
     for (lost, leaf) in leaves.iter().enumerate() {
         if !is_within_ancestors(&tree, lost, leaf) {
             let others = (0..boxes.len()).filter(|&other| other != lost);
-            let others = others.map(|other| ordered(lost, other));
+            let others = others.map(|other| in_ascending_order(lost, other));
             pairs.extend(others.filter(|&pair| asked(pair)));
         }
     }
@@ -47,7 +47,7 @@ fn is_within_ancestors(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
 }
 
 /// Returns two indices in ascending order.
-pub(super) fn ordered(a: usize, b: usize) -> [usize; 2] {
+pub(super) fn in_ascending_order(a: usize, b: usize) -> [usize; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 

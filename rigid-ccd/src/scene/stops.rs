@@ -3,7 +3,7 @@
 use super::clock::Clock;
 use super::event::{Event, Impact};
 use super::goal::Goal;
-use super::pairs::ordered;
+use super::pairs::in_ascending_order;
 use super::queue_entry::QueueEntry;
 use super::shifted::Shifted;
 use super::{Mobility, PairError, Scene};
@@ -198,7 +198,9 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let time = self.stops[index].time;
         let partners = std::mem::take(&mut self.partners[index]);
         let moving = partners.iter().filter(|&&other| self.moves(other));
-        let pairs: Vec<[usize; 2]> = moving.map(|&other| ordered(index, other)).collect();
+        let pairs: Vec<[usize; 2]> = moving
+            .map(|&other| in_ascending_order(index, other))
+            .collect();
         self.partners[index] = partners;
         let found = pairs
             .into_iter()
@@ -211,7 +213,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::from_answer(bodies, &answer)?,
             // The pose of a body is out of range, so the body stops here.
-            Err(_) => Event::unresolved(bodies),
+            Err(_) => Event::not_examined(bodies),
         };
         Some(self.future_contact(event, time))
     }
@@ -225,7 +227,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         } else {
             event
         };
-        let event = event.delayed(from);
+        let event = event.shifted_by(from);
         let moving = event.bodies.map(|index| self.moves(index));
         FutureContact {
             time: event.time,

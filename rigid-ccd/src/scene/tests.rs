@@ -458,7 +458,7 @@ fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
     let (mut contacts, mut none) = (0, 0);
     for round in 0..40 {
         let bodies = bodies(&mut rng);
-        let throws: Vec<Ballistic> = (0..12).map(|_| thrown(&mut rng)).collect();
+        let throws: Vec<Ballistic> = (0..12).map(|_| random_throw(&mut rng)).collect();
         let settings = Settings::DEFAULT;
         let mut scene = Scene::with_threads(NonZeroUsize::MIN);
         for (k, throw) in throws.iter().enumerate() {
@@ -499,7 +499,7 @@ fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
 }
 
 /// Returns a random throw towards the middle of the scene, under a constant acceleration.
-pub(super) fn thrown(rng: &mut Pcg64) -> Ballistic {
+pub(super) fn random_throw(rng: &mut Pcg64) -> Ballistic {
     let mut any =
         |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));
     let (place, aside) = (any(4.0), any(2.0));

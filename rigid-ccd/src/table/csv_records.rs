@@ -38,7 +38,7 @@ impl<R: Read> CsvRecords<R> {
             .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
         let mut raw = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw)?;
-        if let Some(line) = unclosed(&reader) {
+        if let Some(line) = unclosed_quote_line(&reader) {
             return Err(TableError::UnclosedQuote { row: None, line });
         }
         let mut checksum = crc32fast::Hasher::new();
@@ -86,7 +86,7 @@ impl<R: Read> Records for CsvRecords<R> {
         if !self.reader.read_byte_record(&mut self.raw)? {
             return Ok(None);
         }
-        if let Some(line) = unclosed(&self.reader) {
+        if let Some(line) = unclosed_quote_line(&self.reader) {
             let row = Some(self.rows);
             return Err(TableError::UnclosedQuote { row, line });
         }
@@ -158,7 +158,7 @@ fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
 }
 
 /// Returns the line of a quote that the last record opens and does not close; `None` without one.
-fn unclosed<R: Read>(reader: &Reader<R>) -> Option<u64> {
+fn unclosed_quote_line<R: Read>(reader: &Reader<R>) -> Option<u64> {
     let (quotes, _) = reader.get_ref().get_ref();
     quotes.unclosed(reader.position().line())
 }

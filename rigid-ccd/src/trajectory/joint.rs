@@ -94,11 +94,11 @@ impl Joint {
     /// [`InputError::JointPosition`] outside of the limits, [`InputError::NotFinite`].
     pub fn pose(&self, position: f64) -> Result<Pose, InputError> {
         self.check(position, None)?;
-        self.placed(position)
+        self.pose_up_to_rounding(position)
     }
 
     /// Returns the pose as [`Joint::pose`] does, for a position that is within the limits up to rounding.
-    pub(super) fn placed(&self, position: f64) -> Result<Pose, InputError> {
+    pub(super) fn pose_up_to_rounding(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
             Kind::Fixed => Pose::IDENTITY,
             Kind::Revolute(axis) => Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?,

@@ -250,7 +250,7 @@ impl State {
     fn pass_joint(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
         let before = self.pose.translation();
         let held = self.pose.compose(joint.origin());
-        self.pose = self.pose.compose(&joint.placed(position)?);
+        self.pose = self.pose.compose(&joint.pose_up_to_rounding(position)?);
         let arm = self.pose.translation() - before;
         let turning = self.spin.cross(arm);
         self.velocity += turning;

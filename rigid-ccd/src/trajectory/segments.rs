@@ -33,7 +33,7 @@ impl<T> Segments<T> {
     }
 
     /// Returns the segments that overlap an interval of time, or touch it.
-    pub(super) fn overlapping(&self, from: f64, to: f64) -> &[Segment<T>] {
+    pub(super) fn overlapping_segments(&self, from: f64, to: f64) -> &[Segment<T>] {
         let first = self.0.partition_point(|segment| segment.to < from);
         let rest = &self.0[first..];
         &rest[..rest.partition_point(|segment| segment.from <= to)]
@@ -41,7 +41,7 @@ impl<T> Segments<T> {
 
     /// Returns a knot strictly between two times, near the middle of them; `None` without one.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let segments = self.overlapping(from, to);
+        let segments = self.overlapping_segments(from, to);
         let middle = segments.get(segments.len() / 2)?.from;
         let ends = [segments.first(), segments.last()].into_iter().flatten();
         let ends = ends.flat_map(|segment| [segment.from, segment.to]);
@@ -51,7 +51,7 @@ impl<T> Segments<T> {
 
     /// Returns the greatest value of `bound` over the segments between two times.
     pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
-        let segments = self.overlapping(from, to).iter();
+        let segments = self.overlapping_segments(from, to).iter();
         segments.map(bound).fold(0.0, greatest)
     }
 
@@ -63,7 +63,7 @@ impl<T> Segments<T> {
         to: f64,
         velocity: impl Fn(&Segment<T>, f64) -> DVec3,
     ) -> f64 {
-        let segments = self.overlapping(from, to);
+        let segments = self.overlapping_segments(from, to);
         let before = segments.iter().map(|segment| velocity(segment, segment.to));
         let after = segments
             .iter()

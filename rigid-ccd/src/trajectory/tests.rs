@@ -340,7 +340,7 @@ fn links_with_axes_across() {
 }
 
 #[test]
-fn carried() {
+fn random_carried() {
     check("carried", 0.3, |rng| {
         Ok(Carried::new(ballistic(rng)?, ballistic(rng)?))
     });

@@ -5,6 +5,7 @@ use std::path::Path;
 
 /// The options for a cube and a slab as bodies A and B.
 const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+/// A table of motions of a cube onto the face of a slab, past its side, and away from it.
 const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 
 fn contacts_of(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {

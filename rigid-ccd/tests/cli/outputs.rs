@@ -1,7 +1,7 @@
 //! Tests that outputs are written completely, by one run at a time; a full disk destroys no older file.
 
 use crate::command::{Run, Scene, assert_contains, stderr};
-use crate::resume::{empty_folder, finished, killed, motions, path, query, read};
+use crate::resume::{empty_folder, motions, path, query, read, run_and_kill, run_to_end};
 use ccd_file::Claim;
 use std::fs;
 use std::path::Path;
@@ -139,7 +139,7 @@ fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
 fn a_run_that_is_alive_is_left_alone() {
     let table = motions();
     let whole = empty_folder("alone");
-    finished(query(&whole, &[]), &table);
+    run_to_end(query(&whole, &[]), &table);
     let scene = empty_folder("alive");
     let mut first = query(&scene, &[]).spawn().unwrap();
     let mut input = first.stdin.take().unwrap();
@@ -163,7 +163,7 @@ fn a_run_that_is_alive_is_left_alone() {
         for more in [&[][..], &["--resume"]] {
             for contacts in ["contacts.csv", "others.csv"] {
                 let options = [&["--out", out, "--contacts", contacts][..], more].concat();
-                let output = finished(query(&scene, &options), &table);
+                let output = run_to_end(query(&scene, &options), &table);
                 let message = stderr(&output);
                 assert_eq!(output.status.code(), Some(2), "{options:?}: {message}");
                 assert_contains(&message, "another run is writing it");
@@ -195,7 +195,7 @@ fn a_run_that_is_alive_is_left_alone() {
 fn runs_side_by_side_keep_all_rows() {
     let table = motions();
     let whole = empty_folder("side-alone");
-    finished(query(&whole, &[]), &table);
+    run_to_end(query(&whole, &[]), &table);
     let scene = empty_folder("side-by-side");
     scene.file("motions.csv", &table);
     let mut done = 0;
@@ -229,7 +229,7 @@ fn an_edited_byte_is_not_resumed_from() {
     let table = motions();
     let scene = empty_folder("edited");
     let part = &table[..table.len() / 2];
-    killed(&scene, &[], part);
+    run_and_kill(&scene, &[], part);
     let kept = [
         "results.csv.partial",
         "contacts.csv.partial",
@@ -246,7 +246,7 @@ fn an_edited_byte_is_not_resumed_from() {
             let mut edited = bytes.clone();
             edited[at] = if edited[at] == b'7' { b'8' } else { b'7' };
             fs::write(path(&scene, name), edited).unwrap();
-            let output = finished(query(&scene, &["--resume"]), part);
+            let output = run_to_end(query(&scene, &["--resume"]), part);
             let message = stderr(&output);
             let refused = [
                 "is not as the interrupted run left it",
@@ -262,14 +262,14 @@ fn an_edited_byte_is_not_resumed_from() {
         }
     }
     assert_eq!(tried, 24);
-    let output = finished(query(&scene, &["--resume"]), &table);
+    let output = run_to_end(query(&scene, &["--resume"]), &table);
     assert_contains(&stderr(&output), "20000 rows: ");
     // The same holds for a finished table.
     let mut results = read_bytes(&scene, "results.csv");
     let middle = results.len() / 2;
     results[middle] ^= 1;
     fs::write(path(&scene, "results.csv"), &results).unwrap();
-    let output = finished(query(&scene, &["--resume"]), &table);
+    let output = run_to_end(query(&scene, &["--resume"]), &table);
     let message = stderr(&output);
     assert_contains(&message, "has changed since the run finished");
     assert_eq!(read_bytes(&scene, "results.csv"), results);
@@ -279,7 +279,7 @@ fn an_edited_byte_is_not_resumed_from() {
 #[test]
 fn rows_of_an_interrupted_query_are_kept() {
     let scene = empty_folder("kept-rows");
-    killed(&scene, &[], &motions());
+    run_and_kill(&scene, &[], &motions());
     let rows = read_bytes(&scene, "results.csv.partial");
     scene.file("one.csv", "a_px\n9\n");
     let boxes = "--a box:1,1,1 --b box:1,1,1 --motions one.csv --out";

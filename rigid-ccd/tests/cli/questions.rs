@@ -8,6 +8,7 @@ use std::fs;
 
 /// The options for two balls of radius 0.5.
 const BALLS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
+/// A table of motions in which a ball passes another one at a distance of 0.2, nearest at time 0.5.
 const PASSING_MOTION: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
 /// A table of a path: a cube comes down onto a slab, stays for a unit of time and leaves, from time 10 on. It touches

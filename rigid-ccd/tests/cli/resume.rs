@@ -48,14 +48,14 @@ pub(crate) fn query(scene: &Scene, options: &[&str]) -> Command {
     command
 }
 
-pub(crate) fn finished(mut command: Command, input: &str) -> Output {
+pub(crate) fn run_to_end(mut command: Command, input: &str) -> Output {
     let mut child = command.spawn().unwrap();
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
     child.wait_with_output().unwrap()
 }
 
 /// Starts a run with a part of the table, and kills it after a few checkpoints.
-pub(crate) fn killed(scene: &Scene, options: &[&str], some: &str) {
+pub(crate) fn run_and_kill(scene: &Scene, options: &[&str], some: &str) {
     let marks = || {
         let journal = fs::read_to_string(path(scene, "results.csv.resume"));
         journal.unwrap_or_default().matches("\"rows\":").count()
@@ -87,7 +87,7 @@ const TABLES: [&str; 2] = ["results.csv", "contacts.csv"];
 fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     let table = motions();
     let whole = empty_folder("undisturbed");
-    let output = finished(query(&whole, &[]), &table);
+    let output = run_to_end(query(&whole, &[]), &table);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 
     let scene = empty_folder("killed");
@@ -95,7 +95,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
         fs::write(path(&scene, name), "of old").unwrap();
     }
     let third = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
-    killed(&scene, &[], &table[..third]);
+    run_and_kill(&scene, &[], &table[..third]);
     // A process that is killed while it writes leaves half a row.
     for name in [
         "results.csv.partial",
@@ -108,11 +108,11 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
             .unwrap();
         file.write_all(b"r9,con").unwrap();
     }
-    killed(&scene, &["--resume", "--threads", "2"], &table[..2 * third]);
+    run_and_kill(&scene, &["--resume", "--threads", "2"], &table[..2 * third]);
     for name in TABLES {
         assert_eq!(read(&path(&scene, name)), "of old");
     }
-    let output = finished(query(&scene, &["--resume"]), &table);
+    let output = run_to_end(query(&scene, &["--resume"]), &table);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     let message = stderr(&output);
     let count = |before: &str, after: &str| {
@@ -141,7 +141,7 @@ fn rows_without_their_record_are_kept() {
     let table = motions();
     let scene = empty_folder("no-record");
     let part = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
-    killed(&scene, &[], &table[..part]);
+    run_and_kill(&scene, &[], &table[..part]);
     let [rows, record] =
         ["results.csv.partial", "results.csv.resume"].map(|name| path(&scene, name));
     let kept = read(&rows);
@@ -159,7 +159,7 @@ fn rows_without_their_record_are_kept() {
             Some(text) => fs::write(&record, text).unwrap(),
         }
         for more in [&[][..], &["--resume"]] {
-            let output = finished(query(&scene, more), &table[..part]);
+            let output = run_to_end(query(&scene, more), &table[..part]);
             let refused = stderr(&output).contains("is missing or damaged; delete the first");
             assert_eq!(refused, refuses, "{damage:?}: {}", stderr(&output));
             if refuses {
@@ -174,7 +174,7 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
     let table = motions();
     let scene = empty_folder("other-question");
     let part = &table[..table.len() / 2];
-    killed(&scene, &[], part);
+    run_and_kill(&scene, &[], part);
     let kept = read(&path(&scene, "results.csv.partial"));
     let other_rows = table.replace(",4,-4,", ",4,-5,");
     for (options, input, expected) in [
@@ -191,7 +191,7 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
         (&["--resume"], &other_rows, "not the rows"),
         (&[], &table, "rows of an interrupted run; add --resume"),
     ] {
-        let output = finished(query(&scene, options), input);
+        let output = run_to_end(query(&scene, options), input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
         assert_contains(&message, expected);
@@ -211,10 +211,10 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
 fn resuming_without_an_interrupted_run_starts_a_new_one() {
     let scene = empty_folder("nothing-to-resume");
     let one = "a_pz\n4\n";
-    let output = finished(query(&scene, &["--resume"]), one);
+    let output = run_to_end(query(&scene, &["--resume"]), one);
     assert!(output.status.success(), "{}", stderr(&output));
     assert_contains(&stderr(&output), "found no interrupted run");
-    let output = finished(query(&scene, &["--resume", "--out", "-"]), one);
+    let output = run_to_end(query(&scene, &["--resume", "--out", "-"]), one);
     assert_eq!(output.status.code(), Some(2));
 }
 
@@ -236,10 +236,10 @@ fn a_finished_run_is_left_unchanged() {
         ("finished-empty", "id,a_pz,a_vz\n", 0),
     ] {
         let scene = empty_folder(name);
-        let output = finished(query(&scene, &[]), table);
+        let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let before = tables(&scene);
-        let output = finished(query(&scene, &["--resume"]), table);
+        let output = run_to_end(query(&scene, &["--resume"]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let message = stderr(&output);
         assert_contains(
@@ -254,7 +254,7 @@ fn a_finished_run_is_left_unchanged() {
         assert!(!message.contains("median"), "{message}");
         assert_eq!(tables(&scene), before);
         // Without the option, a new run starts.
-        let output = finished(query(&scene, &[]), table);
+        let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code));
         assert_ne!(tables(&scene)[0].1, before[0].1);
     }
@@ -264,7 +264,7 @@ fn a_finished_run_is_left_unchanged() {
 fn a_finished_run_with_other_options_is_refused() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
     let scene = empty_folder("finished-other");
-    let output = finished(query(&scene, &[]), table);
+    let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
     for (options, input, expected) in [
@@ -285,7 +285,7 @@ fn a_finished_run_with_other_options_is_refused() {
     ] {
         let mut command = query(&scene, options);
         command.arg("--resume");
-        let output = finished(command, input);
+        let output = run_to_end(command, input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
         let message = stderr(&output);
         assert_contains(&message, expected);
@@ -293,14 +293,14 @@ fn a_finished_run_with_other_options_is_refused() {
     }
     // A file of another program is not mistaken for the table.
     fs::write(path(&scene, "results.csv"), "mine").unwrap();
-    let output = finished(query(&scene, &["--resume"]), table);
+    let output = run_to_end(query(&scene, &["--resume"]), table);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
     assert_contains(&message, "has changed since the run finished");
     assert_eq!(read(&path(&scene, "results.csv")), "mine");
     // Without a table, all rows are answered.
     fs::remove_file(path(&scene, "results.csv")).unwrap();
-    let output = finished(query(&scene, &["--resume"]), table);
+    let output = run_to_end(query(&scene, &["--resume"]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
 }
@@ -310,7 +310,7 @@ fn a_finished_run_with_other_options_is_refused() {
 fn complete_tables_are_renamed() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
     let scene = empty_folder("nameless");
-    let output = finished(query(&scene, &[]), table);
+    let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
     for names in [&TABLES[..], &TABLES[1..]] {
@@ -318,7 +318,7 @@ fn complete_tables_are_renamed() {
             let partial = path(&scene, &format!("{name}.partial"));
             fs::rename(path(&scene, name), partial).unwrap();
         }
-        let output = finished(query(&scene, &["--resume"]), table);
+        let output = run_to_end(query(&scene, &["--resume"]), table);
         assert!(output.status.success(), "{}", stderr(&output));
         assert_eq!(tables(&scene), before);
     }
@@ -331,11 +331,11 @@ fn a_changed_mesh_is_reported_with_its_option() {
     let options = ["--a", "part.obj"];
     fs::write(&mesh, crate::TETRAHEDRON).unwrap();
     let table = "a_pz\n9\n";
-    assert!(finished(query(&scene, &options), table).status.success());
+    assert!(run_to_end(query(&scene, &options), table).status.success());
     fs::write(&mesh, crate::TETRAHEDRON.replace("v 1 0 0", "v 2 0 0")).unwrap();
     let mut command = query(&scene, &options);
     command.arg("--resume");
-    let output = finished(command, table);
+    let output = run_to_end(command, table);
     assert_eq!(output.status.code(), Some(2));
     let message = stderr(&output);
     assert_contains(&message, ": the file of --a has changed since; give");
@@ -347,15 +347,15 @@ fn folders_and_inputs_are_never_overwritten() {
     let one = "a_pz\n4\n";
     fs::create_dir(path(&scene, "folder")).unwrap();
     for out in ["folder", "no/such/file"] {
-        let output = finished(query(&scene, &["--out", out]), one);
+        let output = run_to_end(query(&scene, &["--out", out]), one);
         assert_eq!(output.status.code(), Some(1), "{out}: {}", stderr(&output));
     }
-    let output = finished(query(&scene, &["--out", ""]), one);
+    let output = run_to_end(query(&scene, &["--out", ""]), one);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     let mesh = path(&scene, "part.obj");
     fs::write(&mesh, crate::TETRAHEDRON).unwrap();
     let over = ["--out", "part.obj", "--a", "part.obj"];
-    let output = finished(query(&scene, &over), one);
+    let output = run_to_end(query(&scene, &over), one);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert_eq!(read(&mesh), crate::TETRAHEDRON);
 }
@@ -365,7 +365,7 @@ fn folders_and_inputs_are_never_overwritten() {
 fn devices_are_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
     let scene = empty_folder("devices");
-    let output = finished(query(&scene, &["--out", "/dev/null"]), "a_pz\n4\n");
+    let output = run_to_end(query(&scene, &["--out", "/dev/null"]), "a_pz\n4\n");
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(
         fs::metadata("/dev/null")

@@ -43,7 +43,7 @@ pub struct DynamicChecker {
     pairs: Vec<(Pair, f64)>,
 }
 
-/// The largest distances of a body's points from its last centre of rotation, kept from query to query.
+/// The largest distance of a body's points from its last centre of rotation, kept from query to query.
 #[derive(Clone, Copy, Debug, Default)]
 struct Reach(Option<(DVec3, f64)>);
 

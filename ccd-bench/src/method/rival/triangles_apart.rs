@@ -43,7 +43,8 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     // Nothing is above or below the plane of a needle, which has no normal.
     let cut = |face: &Face, heights| face.is_needle() || straddle(heights);
     if cut(&face_a, over_a) && cut(&face_b, over_b) {
-        let meeting = pierced(&face_a, over_a, b).or_else(|| pierced(&face_b, over_b, a));
+        let meeting =
+            piercing_point(&face_a, over_a, b).or_else(|| piercing_point(&face_b, over_b, a));
         if let Some(point) = meeting {
             return Nearest {
                 on_a: point,
@@ -71,7 +72,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
 /// Returns the nearest points of the triangles' edges, and their squared distance.
 #[inline(always)]
 fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
-    let (from_b, along_b) = (packed(b), packed(&edges(b)));
+    let (from_b, along_b) = (pack_vectors(b), pack_vectors(&edges(b)));
     let long_b = along_b.dot_each(along_b);
     let scale_b = reciprocal(long_b);
     let edges_a = edges(a);
@@ -155,7 +156,7 @@ impl Face {
     /// Returns the heights of points above the triangle's plane, times |normal|; all zero for a needle.
     #[inline(always)]
     fn heights(&self, points: &Triangle) -> f64x4 {
-        packed(points)
+        pack_vectors(points)
             .minus(Vectors::splat(self.corners[0]))
             .dot(self.normal)
     }
@@ -183,7 +184,7 @@ impl Face {
         }
         let squared = heights * heights * f64x4::splat(self.scale);
         let far = f64x4::splat(f64::INFINITY);
-        let (k, squared) = least(self.is_above(packed(points)).select(squared, far));
+        let (k, squared) = least(self.is_above(pack_vectors(points)).select(squared, far));
         let height = heights.to_array()[k];
         let k = k % 3;
         let foot = points[k] - height * self.scale * self.normal;
@@ -192,11 +193,11 @@ impl Face {
 }
 
 /// Returns the point where an edge of a triangle runs through a face, from the heights of its corners.
-fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
+fn piercing_point(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
     let share = heights / (heights - next);
-    let points = packed(corners).plus_each(share, packed(&edges(corners)));
+    let points = pack_vectors(corners).plus_each(share, pack_vectors(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
     let hits = (crosses & face.is_above(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
@@ -216,7 +217,7 @@ fn edges([a, b, c]: &Triangle) -> Triangle {
 
 /// Packs three vectors into four lanes, the first one twice.
 #[inline(always)]
-fn packed([a, b, c]: &Triangle) -> Vectors {
+fn pack_vectors([a, b, c]: &Triangle) -> Vectors {
     Vectors::new([*a, *b, *c, *a])
 }
 

@@ -2,7 +2,7 @@
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
-use crate::method::solver::{Solver, timed};
+use crate::method::solver::{Solver, answer_timed};
 use crate::method::{Method, Ours, USUAL_TOLERANCE};
 use crate::scene::Scene;
 use ccd_core::Settings;
@@ -90,7 +90,7 @@ impl<'s> Session<'s> {
     ) -> io::Result<QueryOutcome> {
         match &mut self.runner {
             Runner::InProcess(solver) => {
-                let timed = timed(solver.as_mut(), query, tolerance);
+                let timed = answer_timed(solver.as_mut(), query, tolerance);
                 Ok(QueryOutcome::Answered(timed))
             }
             Runner::Guarded(guarded) => {

@@ -21,7 +21,7 @@ const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 /// Draws a plane for each scene that was measured; `None` without any.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
     let scenes = charts.measured_scenes();
-    let shown = charts.shown(&Family::COMPARED);
+    let shown = charts.methods_with_styles(&Family::COMPARED);
     let cells = |is_shown: fn(&Shown<'_>) -> bool| {
         let methods = shown.iter().filter(move |method| is_shown(method));
         let of = |(method, _): &Shown<'_>| {

@@ -17,7 +17,7 @@ const HEIGHT: f64 = 440.0;
 
 /// Draws one plane for all shapes: a line over the sizes of one shape, or a marker for a shape of one size.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
-    let shown = charts.shown(&Family::COMPARED);
+    let shown = charts.methods_with_styles(&Family::COMPARED);
     let mut sizes = Sizes::new();
     for scene in charts.measured_scenes() {
         let size = sizes.entry((scene.shape(), scene.triangles)).or_default();

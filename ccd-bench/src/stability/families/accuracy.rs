@@ -11,21 +11,23 @@ use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 pub(super) fn families() -> Vec<Family> {
     vec![
         family("face onto face", face_onto_face)
-            .over("angle to parallel", negative_powers_of_ten(1..=15)),
+            .with_values("angle to parallel", negative_powers_of_ten(1..=15)),
         family("edge across edge", edge_across_edge)
-            .over("angle to parallel", negative_powers_of_ten(1..=15)),
+            .with_values("angle to parallel", negative_powers_of_ten(1..=15)),
         family("flat approach", flat_approach)
-            .over("angle to the face", negative_powers_of_ten(1..=12)),
+            .with_values("angle to the face", negative_powers_of_ten(1..=12)),
         family("cubes that hardly meet", barely_overlapping)
-            .over("overlap", negative_powers_of_ten(1..=15)),
+            .with_values("overlap", negative_powers_of_ten(1..=15)),
         family("rod that hardly reaches", barely_reaching_wall)
-            .over("share of its reach", negative_powers_of_ten(1..=12)),
-        family("linked rings", linked_rings).over("way to contact", negative_powers_of_ten(1..=12)),
+            .with_values("share of its reach", negative_powers_of_ten(1..=12)),
+        family("linked rings", linked_rings)
+            .with_values("way to contact", negative_powers_of_ten(1..=12)),
         family("corner onto face", corner_onto_face)
-            .over("angle to its diagonal", negative_powers_of_ten(1..=15)),
+            .with_values("angle to its diagonal", negative_powers_of_ten(1..=15)),
         family("peg turning in a hole", peg_in_a_hole)
-            .over("clearance", negative_powers_of_ten(1..=12)),
-        family("hardly turning", slight_rotation).over("radians", negative_powers_of_ten(1..=15)),
+            .with_values("clearance", negative_powers_of_ten(1..=12)),
+        family("hardly turning", slight_rotation)
+            .with_values("radians", negative_powers_of_ten(1..=15)),
     ]
 }
 

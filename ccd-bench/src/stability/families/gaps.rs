@@ -8,7 +8,7 @@ use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::greater;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, make| family(name, make).over("gap", negative_powers_of_ten(1..=12));
+    let family = |name, make| family(name, make).with_values("gap", negative_powers_of_ten(1..=12));
     vec![
         family("ball passing a box", ball_passing_a_box),
         family("cubes passing", cubes_passing),

@@ -1,7 +1,7 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
 use super::super::family::{BodyMotion, Expected, Family, Step};
-use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus};
+use super::super::shapes::{cuboid, extrude, ribbon, sheet, slit_plate, stacked_squares, torus};
 use super::{family, negative_powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
@@ -10,18 +10,20 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub(super) fn families() -> Vec<Family> {
     vec![
-        family("hooks pulled apart", hooks).over("slack", negative_powers_of_ten(1..=12)),
+        family("hooks pulled apart", hooks).with_values("slack", negative_powers_of_ten(1..=12)),
         family("ring onto a ring", ring_onto_ring)
-            .over("way to contact", negative_powers_of_ten(1..=12)),
+            .with_values("way to contact", negative_powers_of_ten(1..=12)),
         family("screw in its nut", screw)
-            .over("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
-        family("screw with little play", tight_screw).over(
+            .with_values("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
+        family("screw with little play", tight_screw).with_values(
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
         ),
-        family("sheet between two sheets", between).over("gap", negative_powers_of_ten(1..=12)),
-        family("plate through a slit", through_slit).over("gap", negative_powers_of_ten(1..=12)),
-        family("turned frames", turned_frame).over(
+        family("sheet between two sheets", between)
+            .with_values("gap", negative_powers_of_ten(1..=12)),
+        family("plate through a slit", through_slit)
+            .with_values("gap", negative_powers_of_ten(1..=12)),
+        family("turned frames", turned_frame).with_values(
             "degrees",
             vec![0.0, 1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 90.0, 120.0, 180.0],
         ),
@@ -32,7 +34,7 @@ pub(super) fn families() -> Vec<Family> {
 fn hooks(slack: f64) -> Result<Step> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
-    let hook = extruded(
+    let hook = extrude(
         &[-0.5, -0.3, 0.3, 0.5],
         &[0.0, bar, 2.0],
         0.5 * bar,
@@ -84,7 +86,10 @@ fn threads(turns: f64, play: f64) -> Result<Step> {
 fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free_step(
-        Step::new(sheet(1.0)?, stacked(&sheet(1.0)?, [-gap, gap].into_iter())?),
+        Step::new(
+            sheet(1.0)?,
+            stacked_squares(&sheet(1.0)?, [-gap, gap].into_iter())?,
+        ),
         gap,
         sliding,
     )

@@ -14,18 +14,19 @@ pub(super) fn families() -> Vec<Family> {
     let doubled =
         |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
     vec![
-        family("comb into comb", comb_into_comb).over("teeth", doubled(2..=9)),
-        family("ball onto a slab", ball_onto_slab).over("triangles", powers_of_ten(2..=6)),
+        family("comb into comb", comb_into_comb).with_values("teeth", doubled(2..=9)),
+        family("ball onto a slab", ball_onto_slab).with_values("triangles", powers_of_ten(2..=6)),
         family("tip of many triangles", tip_onto_slab)
-            .over("triangles at the tip", powers_of_ten(1..=4)),
+            .with_values("triangles at the tip", powers_of_ten(1..=4)),
         family("repeated and collapsed faces", cube_with_bad_faces)
-            .over("bad faces", powers_of_ten(0..=3)),
-        family("layers close behind each other", onto_layers).over("layers", powers_of_ten(0..=4)),
+            .with_values("bad faces", powers_of_ten(0..=3)),
+        family("layers close behind each other", onto_layers)
+            .with_values("layers", powers_of_ten(0..=4)),
         family("slab with a sliver", sliver)
-            .over("width of the sliver", negative_powers_of_ten(0..=12)),
-        family("field of solids", field_of_solids).over("solids", doubled(2..=12)),
+            .with_values("width of the sliver", negative_powers_of_ten(0..=12)),
+        family("field of solids", field_of_solids).with_values("solids", doubled(2..=12)),
         family("cones tip onto tip", tip_onto_tip)
-            .over("way aside", negative_powers_of_ten(1..=12)),
+            .with_values("way aside", negative_powers_of_ten(1..=12)),
     ]
 }
 

@@ -14,22 +14,24 @@ pub(super) fn families() -> Vec<Family> {
             .collect()
     };
     vec![
-        family("small against large", size_against_size).over("size against size", sizes(1..=9)),
-        family("unit of length", unit_of_length).over("size of the scene", sizes(2..=9)),
+        family("small against large", size_against_size)
+            .with_values("size against size", sizes(1..=9)),
+        family("unit of length", unit_of_length).with_values("size of the scene", sizes(2..=9)),
         family("far from the origin", far_from_the_origin)
-            .over("distance in sizes", powers_of_ten(0..=12)),
+            .with_values("distance in sizes", powers_of_ten(0..=12)),
         family("slender triangles", slender_needle)
-            .over("length against width", powers_of_ten(0..=12)),
+            .with_values("length against width", powers_of_ten(0..=12)),
         family("bullet and paper", bullet_and_paper)
-            .over("way against thickness", powers_of_ten(0..=9)),
-        family("margin", margin).over("margin against size", margins()),
+            .with_values("way against thickness", powers_of_ten(0..=9)),
+        family("margin", margin).with_values("margin against size", margins()),
         family("one inside the other", inside)
-            .over("size against size", negative_powers_of_ten(0..=9)),
-        family("unit of time", unit_of_time).over("duration", sizes(1..=9)),
-        family("moving together", moving_together).over("common travel", powers_of_ten(0..=9)),
+            .with_values("size against size", negative_powers_of_ten(0..=9)),
+        family("unit of time", unit_of_time).with_values("duration", sizes(1..=9)),
+        family("moving together", moving_together)
+            .with_values("common travel", powers_of_ten(0..=9)),
         family("far centre of rotation", far_centre)
-            .over("distance in sizes", powers_of_ten(0..=9)),
-        family("needle tip first", needle).over("width", negative_powers_of_ten(0..=12)),
+            .with_values("distance in sizes", powers_of_ten(0..=9)),
+        family("needle tip first", needle).with_values("width", negative_powers_of_ten(0..=12)),
     ]
 }
 

@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, values, make| family(name, make).over("time to the limit", values);
+    let family = |name, values, make| family(name, make).with_values("time to the limit", values);
     vec![
         family(
             "contact after the start",

@@ -10,10 +10,11 @@ use std::f64::consts::{PI, TAU};
 pub(super) fn families() -> Vec<Family> {
     let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
-        family("mace", swinging_arm).over("radians", spins),
-        family("drilling cube", falling_while_spinning).over("turns", powers_of_ten(-2..=4)),
-        family("rod turning into a wall", rod_into_a_wall).over("turns", powers_of_ten(0..=4)),
-        family("rods turning against each other", rods).over("turns", powers_of_ten(0..=4)),
+        family("mace", swinging_arm).with_values("radians", spins),
+        family("drilling cube", falling_while_spinning).with_values("turns", powers_of_ten(-2..=4)),
+        family("rod turning into a wall", rod_into_a_wall)
+            .with_values("turns", powers_of_ten(0..=4)),
+        family("rods turning against each other", rods).with_values("turns", powers_of_ten(0..=4)),
     ]
 }
 

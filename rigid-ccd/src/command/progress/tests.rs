@@ -1,6 +1,6 @@
 use super::*;
 
-fn shown(progress: &Progress) -> String {
+fn progress_line(progress: &Progress) -> String {
     line(&progress.bar, progress.total, &progress.steps)
 }
 
@@ -10,13 +10,13 @@ fn answered_rows_count_and_read_rows_do_not() {
     let progress = Progress::new(Total::Bytes(110));
     progress.answering(0, 10);
     progress.answering(4, 110);
-    assert_eq!(shown(&progress), "0 rows answered, 9 %");
+    assert_eq!(progress_line(&progress), "0 rows answered, 9 %");
     progress.step();
-    assert_eq!(shown(&progress), "1 row answered, 31 %");
+    assert_eq!(progress_line(&progress), "1 row answered, 31 %");
     for _ in 0..3 {
         progress.step();
     }
-    assert!(shown(&progress).ends_with(", 100 %"));
+    assert!(progress_line(&progress).ends_with(", 100 %"));
 }
 
 /// Tests that skipped rows count as answered when a run continues an earlier one, or begins at a later row.
@@ -25,7 +25,7 @@ fn rows_that_were_skipped_count_as_answered() {
     let progress = Progress::new(Total::Bytes(100));
     progress.answering(0, 60);
     progress.answering(2, 100);
-    assert_eq!(shown(&progress), "0 rows answered, 60 %");
+    assert_eq!(progress_line(&progress), "0 rows answered, 60 %");
 }
 
 #[test]

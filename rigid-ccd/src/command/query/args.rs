@@ -123,7 +123,7 @@ impl QueryArgs {
     }
 
     /// Returns the options that determine the tables, with their values.
-    pub(super) fn recorded(&self) -> Vec<(&'static str, String)> {
+    pub(super) fn recorded_options(&self) -> Vec<(&'static str, String)> {
         // The pattern is exhaustive: a new option does not compile until it is recorded or left out here.
         let QueryArgs {
             bodies:
@@ -187,8 +187,8 @@ impl QueryArgs {
             ("--counters", flag(*counters)),
             ("--no-micros", flag(*no_micros)),
         ];
-        recorded.extend(meshes.recorded());
-        recorded.extend(pieces.recorded());
+        recorded.extend(meshes.recorded_options());
+        recorded.extend(pieces.recorded_options());
         recorded
     }
 }

@@ -188,7 +188,7 @@ impl EarlierRun {
     }
 }
 
-/// Parses a checkpoint and verifies its [checksum](ended).
+/// Parses a checkpoint and verifies its [checksum](with_checksum).
 fn parse_checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, JournalLost> {
     let (checkpoint, _) = line.rsplit_once(' ').ok_or(JournalLost)?;
     if with_checksum(checkpoint.to_owned(), sum) == line {

@@ -2,7 +2,7 @@
 
 use super::super::tests::{bodies, parts};
 use super::*;
-use crate::scene::tests::thrown;
+use crate::scene::tests::random_throw;
 use crate::trajectory::Ballistic;
 use crate::{Body, HitKind, Pose, Solver};
 use ccd_core::Outcome;
@@ -118,7 +118,7 @@ fn bodies_that_stop_never_overlap() {
 fn check_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) {
     let by = stop.by.unwrap();
     let Impact { bodies, hit } = stop.contact.expect("no limit was reached");
-    assert_eq!(bodies, super::super::pairs::ordered(index, by));
+    assert_eq!(bodies, super::super::pairs::in_ascending_order(index, by));
     assert!(hit.time >= stop.time && hit.time <= 1.0, "{hit:?} {stop:?}");
     let way = if bodies[0] == index {
         hit.witness_b() - hit.witness_a()
@@ -346,7 +346,7 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
     let (mut stopped, mut crossed) = (0, 0);
     for round in 0..40 {
         let bodies = bodies(&mut rng);
-        let throws: Vec<Ballistic> = (0..12).map(|_| thrown(&mut rng)).collect();
+        let throws: Vec<Ballistic> = (0..12).map(|_| random_throw(&mut rng)).collect();
         let mut scene = Scene::with_threads(NonZeroUsize::MIN);
         for (k, throw) in throws.iter().enumerate() {
             scene.add(&bodies[k % 4], throw);

@@ -64,7 +64,7 @@ impl Test {
     const TEST_COUNT: usize = 15;
 
     /// Returns the test with the given number: corners first, then faces, then pairs of edges.
-    fn numbered(number: usize) -> Test {
+    fn from_number(number: usize) -> Test {
         match number {
             0..3 => Test::CornerFace(number),
             3..6 => Test::FaceCorner(number - 3),
@@ -90,7 +90,7 @@ impl OpenTests {
         let (mut kept, mut left) = (0, self.0);
         while left != 0 {
             let k = left.trailing_zeros();
-            if holds(Test::numbered(k as usize)) {
+            if holds(Test::from_number(k as usize)) {
                 kept |= 1 << k;
             }
             left &= left - 1;
