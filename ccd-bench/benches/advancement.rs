@@ -1,5 +1,5 @@
-//! Benchmarks whole queries: schedules and backends on the first rows of each scene. Every answer is checked against
-//! the truth before it is timed.
+//! Benchmarks whole queries, with every schedule and distance backend, on rows spread evenly over each scene. Every
+//! answer is checked against the truth before it is timed.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench advancement

@@ -1,4 +1,5 @@
-//! The distance of two pieces: claims of backends, and the bounds that are proven from them.
+//! The distance between two pieces: the interface of the backends that measure it, and the bounds that are proven from
+//! what they claim.
 
 pub(crate) mod common_normals;
 pub(crate) mod oracle;

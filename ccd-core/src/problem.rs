@@ -198,7 +198,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the problem with the caller's bodies, if surfaces replace them here; `None` otherwise.
+    /// Returns the problem about the bodies as the caller gave them, if [`Body::query_body_against`] has replaced one
+    /// by its triangulated surface; `None` if it replaced neither.
     pub(crate) fn with_given_bodies(&self) -> Option<Self> {
         let of = |side: &Side<'a>| Side {
             body: side.given.unwrap_or(side.body),

@@ -37,7 +37,7 @@ pub const MAX_NEWTON_STEPS: usize = 16;
 
 /// The free time at the first visit of two pieces above which no better plane is tried, in units of the duration.
 /// Measured: pairs of knots are visited 2 % more often, and a first visit takes half of the time.
-pub const FIRST_VISIT_FREE_TIME: f64 = 1.0 / 65536.0;
+pub const SUFFICIENT_FIRST_FREE_TIME: f64 = 1.0 / 65536.0;
 
 /// The largest number of distance measurements when the time of closest approach of two pieces is sought. It applies to
 /// each of two phases: before that time is between two clocks, and after. Each measurement may halve the interval; a

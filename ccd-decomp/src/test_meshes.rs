@@ -148,8 +148,8 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     capped(&outline, &caps)
 }
 
-/// Returns the outline of teeth that lean away from the first corner. All corners are visible from it, so that the
-/// fans of the caps are exact.
+/// Returns the outline of a quarter disc with a toothed rim. The first corner is its centre. All corners are visible
+/// from it, so that the fans of the caps are exact.
 pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {
         let share = f64::from(k) / f64::from(2 * count - 1);

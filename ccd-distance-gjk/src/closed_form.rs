@@ -100,8 +100,8 @@ fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -
     (best.direction, pierce::common_point(p, q, near))
 }
 
-/// Transforms both pieces to A's axes, with the origin in A's first point: rounding is then that of the pieces' size,
-/// not of their position.
+/// Transforms both pieces to A's axes with A's first point as origin, so that the rounding of later operations depends
+/// on the pieces' size and distance, not on where they lie in their bodies.
 #[inline]
 fn transform_to_local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);

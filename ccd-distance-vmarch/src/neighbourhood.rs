@@ -1,4 +1,4 @@
-//! Compares all pairs of features near a tie, in which rounding may have hidden a nearer pair from the march.
+//! Searches the features around a tied pair for a nearer pair, which rounding may have hidden from the march.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};

@@ -1,4 +1,4 @@
-//! The transition of the march from a corner against an edge `[VCLIP98 §3.2]`.
+//! The V-Clip step from a pair of a vertex and an edge to the next pair of features `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};

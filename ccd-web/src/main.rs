@@ -9,11 +9,11 @@ mod page;
 #[cfg(not(target_family = "wasm"))]
 #[derive(clap::Parser)]
 struct Args {
-    /// The file to write.
+    /// The HTML file to write.
     #[arg(default_value = "throw.html")]
     out: std::path::PathBuf,
-    /// Let the page check itself when it is opened: its answers against this machine's, and a throw by pointer. What is
-    /// wrong goes to the console.
+    /// Make the page test itself when it is opened: it compares its answers with those computed now, and throws a part
+    /// with simulated pointer events. What is wrong goes to the console.
     #[arg(long)]
     check: bool,
 }

@@ -141,8 +141,8 @@ pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &rigid_ccd::Unres
     with_attribute(py, error, "upper", upper)
 }
 
-/// Converts the exception of a Ctrl-C to an `Interrupted`; other exceptions of a signal or a callback are unchanged.
-/// Either has what is done.
+/// Turns the `KeyboardInterrupt` of a Ctrl-C into an `Interrupted`; any other exception, raised by a signal handler or
+/// a callback, stays as it is. Its attribute `results` has the rows answered by then.
 pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,

@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
 use std::f64::consts::TAU;
 
-/// The motion of a body together with the extent of the body.
+/// A body's motion, and a ball that contains the body and whose centre moves straight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MotionWithExtent {
     pub(crate) motion: Motion,

@@ -44,8 +44,8 @@ pub(crate) const PLANE_ROUNDING: f64 = 64.0 * U64;
 /// start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
 pub(crate) const LARGEST_PLANE_EXTENT: f64 = (1 << 26) as f64;
 
-/// A bound on the rounding error of the difference of two velocities, relative to the bodies' relative displacement.
-/// The subtraction is one operation; the displacement's own rounding adds as much.
+/// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
+/// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
 pub(crate) const DIFFERENCE_ROUNDING: f64 = 2.0 * U64;
 
 /// The factor on lengths and times at the end of an interval that covers their rounding: the sums and quotients that

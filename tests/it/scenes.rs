@@ -184,7 +184,7 @@ fn check_answer(
     Ok(())
 }
 
-/// Checks the answers for the same motions, given as user-defined trajectories.
+/// Checks the answers about a scene whose motions are given as user-defined trajectories.
 fn check_along(
     judge: &Judge<'_>,
     scene: &Scene,

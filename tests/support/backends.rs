@@ -18,7 +18,7 @@ pub enum Order {
     Naive,
 }
 
-/// The distance oracle of a backend.
+/// The algorithm with which a backend measures the distance of two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oracle {
     /// Uses closed forms, for pieces up to triangles.

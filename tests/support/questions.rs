@@ -27,7 +27,7 @@ impl Smooth for UserTrajectory {
     }
 }
 
-/// The oracle and the pieces of an answer. It is printed if an assertion fails.
+/// The distance oracle and the kinds of pieces with which an answer was found. It is printed if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OracleSetup {
     /// The distance oracle that gave the answer.

@@ -33,7 +33,8 @@ fn setting(name: &str, default: u32) -> u32 {
         .unwrap_or(default)
 }
 
-/// Checks random cases by a function. A failure prints the shrunk case in the format of the corpus.
+/// Runs `law` on `cases` random cases drawn from `strategy`. A failure prints the shrunk case in the format of the
+/// corpus.
 ///
 /// # Panics
 /// If the check fails for a case.

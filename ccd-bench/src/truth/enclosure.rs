@@ -166,9 +166,9 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     }
 }
 
-/// The largest argument for the polynomial, in radians, a little over π/4.
+/// The largest argument for the polynomial, in radians: a little over π/2. Reduced arguments are at most about π/4.
 const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
-/// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
+/// 2⁵⁰, the largest number of quarter turns to subtract: up to it, the number and its remainder modulo 4 are exact.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
 /// The factorial of 21, which is exact in f64: an odd number below 2⁵³ times 2¹⁸.
 const FACTORIAL_21: Interval = exact(51_090_942_171_709_440_000.0);

@@ -29,8 +29,8 @@ pub(super) struct Search<'a> {
 const BUDGET: u64 = 30_000_000;
 /// The shortest interval of time that is halved, as a fraction of the duration: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
-/// The number of doublings of the step in the search for a proof of contact after a time that cannot be excluded: it
-/// extends to about a thousandth of the duration.
+/// How often the step is doubled in the search for a proven contact after the first undecided time. The last step is
+/// about a thousandth of the duration.
 const MOST_DOUBLINGS: u32 = 36;
 /// The number of doublings after which all triangles are tested, not only those that came near first.
 const WIDER_EVERY: u32 = 6;

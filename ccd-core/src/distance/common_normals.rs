@@ -80,7 +80,7 @@ impl CommonNormals {
         let towards = unit(towards)?;
         let mut best = towards;
         for (k, offset) in self.offsets.iter().copied().enumerate() {
-            if self.falls(best, offset) {
+            if self.violates(best, offset) {
                 best = self.project_perpendicular(towards, offset, k)?;
             }
         }
@@ -94,10 +94,10 @@ impl CommonNormals {
         let mut best = unit_if_distinct(towards - level * level.dot(towards))?;
         let before = || self.offsets.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
-            if self.falls(best, offset) {
+            if self.violates(best, offset) {
                 let line = unit(across(level, offset))?;
                 best = unit_if_distinct(line * line.dot(towards))?;
-                if before().take(k).any(|offset| self.falls(best, offset)) {
+                if before().take(k).any(|offset| self.violates(best, offset)) {
                     return None;
                 }
             }
@@ -105,8 +105,8 @@ impl CommonNormals {
         Some(best)
     }
 
-    fn falls(&self, n: DVec3, offset: DVec3) -> bool {
-        // Written so that NaN counts as a fall.
+    fn violates(&self, n: DVec3, offset: DVec3) -> bool {
+        // Written so that NaN counts as a violation.
         !(n.dot(offset) >= -self.slack)
     }
 }

@@ -27,7 +27,8 @@ impl<T> Stack<T> {
         self.peak = 0;
     }
 
-    /// Returns the least clock of all items; infinite if there are none.
+    /// Returns the earliest clock, the time until which an item is proven apart, of all items; infinite if there are
+    /// none.
     pub(crate) fn least_clock(&self) -> f64 {
         let clocks = self.items.iter().map(|&(clock, _)| clock);
         clocks.fold(f64::INFINITY, lesser)

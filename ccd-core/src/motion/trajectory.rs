@@ -130,7 +130,7 @@ impl Stretch {
     }
 
     /// Returns a bound of the error of a start that was computed for another time.
-    pub(crate) fn rounding_of_start(&self, time: f64) -> Stray {
+    pub(crate) fn rounding_of_moved_start(&self, time: f64) -> Stray {
         let Stretch { motion, .. } = self;
         let turned = length(motion.spin()) * time.abs();
         let speed = length(motion.velocity()) + length(self.acceleration) * time.abs();
@@ -312,7 +312,7 @@ impl<S: Smooth + ?Sized> Trajectory for S {
             }
         }
         let stretch = tangent.with_start_at(-before)?;
-        let rounding = stretch.rounding_of_start(half) + self.rounding(from, to);
+        let rounding = stretch.rounding_of_moved_start(half) + self.rounding(from, to);
         Ok(Stretch {
             stray: stretch.stray + rounding,
             ..stretch
@@ -335,7 +335,7 @@ impl Trajectory for Motion {
             return Ok(Stretch::exact(*self));
         }
         let stretch = Stretch::exact(*self).with_start_at(from)?;
-        let stray = stretch.rounding_of_start(from);
+        let stray = stretch.rounding_of_moved_start(from);
         Ok(Stretch { stray, ..stretch })
     }
 }

@@ -96,7 +96,7 @@ impl<O: DistanceOracle> Naive<O> {
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
                 let step =
                     pair.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
-                        snapshot.directed_time(checked, kept, self.bound, reaches)
+                        snapshot.free_time_along_axis(checked, kept, self.bound, reaches)
                     });
                 match proven.on_advance(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),

@@ -192,7 +192,8 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         }
     }
 
-    /// Searches up to a time. Returns the time that is reached, or the outcome with its tolerance.
+    /// Continues the search for the first contact up to the time `until`, unless it is decided before. Returns the time
+    /// that is reached, or the outcome with its tolerance.
     fn search(&mut self, oracle: &mut O, until: f64) -> ControlFlow<(Outcome, f64), f64> {
         loop {
             let outcome = match self.run(oracle, until) {

@@ -33,7 +33,7 @@ impl Remarks {
         self.0.is_empty()
     }
 
-    /// Adds a number of elements to the remark of their kind.
+    /// Adds `count` elements to the remark about `what`, or makes a new remark.
     pub(crate) fn add(&mut self, what: &str, count: usize, line: Option<usize>) {
         let full = self.0.len() >= KINDS;
         match self.0.iter_mut().find(|remark| remark.what == what) {

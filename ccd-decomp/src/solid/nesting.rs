@@ -36,8 +36,8 @@ pub(crate) struct Nesting {
 }
 
 impl Nesting {
-    /// Examines a closed mesh, given its edges between welded vertices. Every edge has equally many faces in both
-    /// directions. A mesh of one part needs no reversal.
+    /// Finds the wrongly oriented shells of a closed mesh; `edges` are its edges between welded vertices. Every edge
+    /// has equally many faces in both directions. A mesh of one part needs no reversal.
     ///
     /// Exact. O(n log n) where few boxes of triangles and of shells meet those of other shells.
     pub(crate) fn new(mesh: &TriangleMesh, edges: &Edges) -> Self {

@@ -115,7 +115,11 @@ fn an_enclosing_tetrahedron_weighs_its_corners() {
 #[case([1.0, 0.0, 0.0], [0.2, 0.3, 0.5], 3)]
 #[case([0.5, 0.0, 0.5], [0.5, 0.5, 0.0], 2)]
 #[case([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], 1)]
-fn couples_keep_both_sides(#[case] a: [f64; 3], #[case] b: [f64; 3], #[case] pairs: usize) {
+fn paired_weights_sum_to_both_weights(
+    #[case] a: [f64; 3],
+    #[case] b: [f64; 3],
+    #[case] pairs: usize,
+) {
     let couples: Vec<_> = PairedWeights::new(a, b).collect();
     assert_eq!(couples.len(), pairs);
     let (mut left, mut right) = ([0.0; 3], [0.0; 3]);

@@ -13,8 +13,8 @@ fn corners(tape: &mut Tape) -> [DVec3; 3] {
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }
 
-/// Compares the difference of two transformed vertices with exact fractions. Errors of the rotation and translation are
-/// excluded: they move all vertices alike.
+/// Measures the largest rounding error of the difference of two placed vertices, by exact fractions. Errors of the
+/// rotation and translation are excluded: they move all vertices alike.
 #[test]
 fn worst_placing() {
     let found = Worst::of("PLACING", 6_000).search(|tape| {

@@ -13,7 +13,8 @@ pub(crate) struct Scene {
     pub(crate) chain: Chain,
     /// The bodies of the arm's links, each in its link's frame.
     pub(crate) links: Vec<Body>,
-    /// For each link, the links nearer to the base that it may hit: those that are apart from it in the home position.
+    /// For each link, the links before it to test it against: all but its neighbour and those within 0.01 of it in the
+    /// home position.
     pub(crate) others: Vec<Vec<usize>>,
     pub(crate) obstacles: Vec<(Body, Motion)>,
 }

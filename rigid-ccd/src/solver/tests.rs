@@ -39,7 +39,8 @@ fn bodies_beside_each_other_do_not_overlap() {
     assert!(matches!(any, Outcome::Overlapping { .. }), "{any:?}");
 }
 
-/// Tests a body that begins inside another one, although later segments are examined first.
+/// Tests that a body that begins inside another one is found there, even by queries that examine later segments first;
+/// `any_contact` may be undecided.
 #[cfg(feature = "meshes")]
 #[test]
 fn a_body_that_begins_inside_is_never_said_to_be_outside() {

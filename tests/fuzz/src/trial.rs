@@ -20,13 +20,13 @@ pub struct Trial {
     pub proven: bool,
 }
 
-/// A fault of an answer.
+/// A wrong answer or a panic of one method, with the outcomes of all methods that answered; a panic has none.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub fault: Fault,
     pub by: (Kind, Method),
     pub text: String,
-    pub others: String,
+    pub outcomes: String,
 }
 
 impl fmt::Display for Trial {
@@ -45,13 +45,13 @@ impl Failure {
             fault,
             by: (kind, method),
             text,
-            others,
+            outcomes,
         } = self;
         let Settings {
             margin, tolerance, ..
         } = case.config;
         format!(
-            "{fault:?} {kind} {method}, margin {margin:e}, tolerance {tolerance:e}\n{text}\n{others}\
+            "{fault:?} {kind} {method}, margin {margin:e}, tolerance {tolerance:e}\n{text}\n{outcomes}\
              {command}\n{}",
             case.reproducer()
         )
@@ -133,7 +133,7 @@ fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
     let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));
     let (faults, proven) = judge.faults(given);
-    let others: String = given
+    let outcomes: String = given
         .iter()
         .map(|g| format!("  {} {}: {:?}\n", g.bodies.kind, g.method, g.answer.outcome))
         .collect();
@@ -141,7 +141,7 @@ fn judge(trial: &mut Trial, given: &[GivenAnswer<'_>]) {
         fault,
         by: (given[k].bodies.kind, given[k].method),
         text,
-        others: others.clone(),
+        outcomes: outcomes.clone(),
     });
     trial.failures.extend(failures);
     trial.proven = proven;
@@ -175,7 +175,7 @@ fn failure_of_panic(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> F
         fault: Fault::Panic,
         by,
         text: text.unwrap_or_default(),
-        others: String::new(),
+        outcomes: String::new(),
     }
 }
 

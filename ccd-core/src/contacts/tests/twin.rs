@@ -146,7 +146,7 @@ type Key = [Feature; 2];
 
 /// Returns the pairs of features of two meshes within reach.
 pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expected {
-    let mut offers = Offers {
+    let mut offers = CollectedPairs {
         reach,
         rounding,
         sure: BTreeMap::new(),
@@ -175,14 +175,15 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
     offers.reported([a, b])
 }
 
-struct Offers {
+/// The pairs of features within reach: those that certainly are, with their distances, and those that may be.
+struct CollectedPairs {
     reach: f64,
     rounding: f64,
     sure: BTreeMap<Key, f64>,
     doubtful: BTreeSet<Key>,
 }
 
-impl Offers {
+impl CollectedPairs {
     /// Adds a pair if its distance is within reach up to rounding.
     fn offer(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {

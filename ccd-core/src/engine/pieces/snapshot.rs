@@ -16,7 +16,7 @@ use crate::rounding::{RATE_F64, RESTING};
 use crate::shortcuts::Shortcut;
 use crate::shortcuts::turning_pieces::{MovingPiece, TurningPiece};
 use crate::tuning::{
-    ASSUMED_STEPS, FIRST_VISIT_FREE_TIME, MAX_NEWTON_STEPS, RESTED, ROTATION_GAP_SHARE,
+    ASSUMED_STEPS, MAX_NEWTON_STEPS, RESTED, ROTATION_GAP_SHARE, SUFFICIENT_FIRST_FREE_TIME,
 };
 use glam::DVec3;
 use std::cell::Cell;
@@ -98,7 +98,7 @@ impl<'p> Snapshot<'p> {
     pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
         match self.fixed_axis_time(direct.normal, direct.slack)? {
-            free if free >= FIRST_VISIT_FREE_TIME => Some(free),
+            free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
             free => self.longest_free_time(checked, kept, &direct, free),
         }
     }
@@ -136,7 +136,7 @@ impl<'p> Snapshot<'p> {
     ///
     /// # Guarantee
     /// No guarantee with [`Bound::Published`].
-    pub(crate) fn directed_time(
+    pub(crate) fn free_time_along_axis(
         &self,
         checked: &Checked,
         kept: f64,

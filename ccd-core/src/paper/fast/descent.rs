@@ -139,7 +139,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return;
         };
         let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
-        let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
+        let free = snapshot.free_time_along_axis(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
         node.near = self.hulls.feature_owners(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
@@ -182,7 +182,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let step = pair.advance_with(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
             node.lower = checked.lower;
             found.distance = lesser(found.distance, checked.upper);
-            snapshot.directed_time(checked, kept, bound, reaches)
+            snapshot.free_time_along_axis(checked, kept, bound, reaches)
         });
         if let Step::Contact(contact) = step
             && s > 0.0

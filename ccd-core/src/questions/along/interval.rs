@@ -117,7 +117,7 @@ impl Trajectory for Reversed<'_> {
             shift: greater(before, after) * off,
             turn: length(stretch.motion.spin()) * off,
         };
-        let rounding = end.rounding_of_start(last - first);
+        let rounding = end.rounding_of_moved_start(last - first);
         let Stretch { motion, .. } = end;
         let [velocity, spin] = [-motion.velocity(), -motion.spin()];
         Ok(Stretch {

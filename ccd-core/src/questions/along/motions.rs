@@ -90,7 +90,8 @@ impl Motions {
         self.span.length() * (stray / self.stray).powf(1.0 / self.deviation_exponent())
     }
 
-    /// Estimates the length of a stretch in which the deviation is a fixed share of the change of a distance at `rate`.
+    /// Estimates how long a stretch must be for its deviation to be `DEVIATION_SHARE` of the change of a distance that
+    /// changes at `rate`.
     pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
         let whole = self.span.length();
         whole

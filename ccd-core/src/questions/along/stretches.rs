@@ -25,7 +25,7 @@ pub(super) struct Stretches<'j, 'a> {
     /// The stretch that was proven last, with its deviation.
     proven: Option<(Span, f64)>,
     /// The time at which the query started; `None` if there is no deadline. No clock is read then.
-    charged_from: Option<Instant>,
+    started_at: Option<Instant>,
 }
 
 impl<'j, 'a> Stretches<'j, 'a> {
@@ -42,7 +42,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             budgets: Budgets::default(),
             looked_at_start: false,
             proven: None,
-            charged_from: query.terms.deadline.map(|_| Instant::now()),
+            started_at: query.terms.deadline.map(|_| Instant::now()),
         }
     }
 
@@ -73,7 +73,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         }
         let spent = self.budgets.spent_on_part(self.stats.work());
         let budget = terms.budget.checked_sub(spent);
-        let deadline = match (terms.deadline, self.charged_from) {
+        let deadline = match (terms.deadline, self.started_at) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {
                 Some(left) => Some(left),
                 None => return Err(Limit::Deadline),
@@ -136,7 +136,8 @@ impl<'j, 'a> Stretches<'j, 'a> {
         )
     }
 
-    /// Returns whether the deviations are hardly larger than in a stretch of length 0: only rounding remains.
+    /// Returns whether the deviations are at most twice those of a stretch of length 0, so that they are mostly
+    /// rounding and a cut does not help.
     fn is_limited_by_rounding(&self, motions: &Motions) -> Result<bool, InputError> {
         let least = Motions::new(self.query, motions.span.start())?;
         Ok(motions.stray <= 2.0 * least.stray)

@@ -96,7 +96,7 @@ fn shares_are_shares() {
         NEAREST_SHARE,
         PLACES,
         ROTATION_GAP_SHARE,
-        FIRST_VISIT_FREE_TIME,
+        SUFFICIENT_FIRST_FREE_TIME,
         MIN_NEWTON_GROWTH,
         RESTED,
         NODE_GAP,

@@ -148,7 +148,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     );
 }
 
-/// Tests a body on a screw that passes the same place again after later turns.
+/// Tests a screw motion that meets the other body only in its second turn.
 #[test]
 fn later_turns_count() {
     let triangle = |at: DVec3| [at, at + 0.02 * DVec3::Z, at + 0.02 * DVec3::X];

@@ -155,7 +155,8 @@ fn classify_remaining(target: &Target<'_>, voxels: &Voxels, contents: &mut [Voxe
     }
 }
 
-/// Adds the voxel corners in the solid to the parts of the adjacent voxels, except corners inside one part.
+/// Adds each voxel corner that is in the solid to every part with a voxel at that corner. Corners whose eight voxels
+/// all belong to one part are left out.
 fn add_corners(
     target: &Target<'_>,
     voxels: &Voxels,

@@ -91,15 +91,15 @@ struct AngularOrder<'m> {
 }
 
 impl<'m> AngularOrder<'m> {
-    /// Creates the order, starting at the first face. Returns `None` if a face is degenerate or a coordinate is too
-    /// near to 0 for exact predicates.
+    /// Creates the angular order of the faces around an edge, counted from the first of them. Returns `None` if a face
+    /// is degenerate or a coordinate is too near to 0 for exact predicates.
     fn new(mesh: &'m TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Self> {
         let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
         let first = *apexes.first()?;
-        let is_fine = too_fine(&[v, w]).or(too_fine(&apexes)).is_some();
+        let is_too_fine = too_fine(&[v, w]).or(too_fine(&apexes)).is_some();
         let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
-        if is_fine || apexes.iter().any(flat) {
+        if is_too_fine || apexes.iter().any(flat) {
             return None;
         }
         Some(AngularOrder {
@@ -123,8 +123,8 @@ impl<'m> AngularOrder<'m> {
         self.ends.map(|v| self.mesh.vertices()[v as usize])
     }
 
-    /// Returns the class of a point's angle from the first face. The classes are 0 for no angle, 1 below half a turn,
-    /// 2 for half a turn, 3 above.
+    /// Classifies the angle about the edge from the first face to a point: 0 for none, 1 below half a turn, 2 for half
+    /// a turn, 3 above. The classes are 0 for no angle, 1 below half a turn, 2 for half a turn, 3 above.
     fn angle_class(&self, point: DVec3) -> u32 {
         let [v, w] = self.points();
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;

@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) struct Segment {
     motion: Motion,
     /// The rotation vector `e` that is left over, divided by the duration.
-    leftover: DVec3,
+    leftover_spin: DVec3,
 }
 
 /// The largest allowed leftover rotation in radians: half a turn would leave the number of turns ambiguous.
@@ -31,32 +31,35 @@ impl Segment {
         if spin == DVec3::ZERO {
             return Ok(Segment {
                 motion: Motion::between(from, to, centre, duration)?,
-                leftover: DVec3::ZERO,
+                leftover_spin: DVec3::ZERO,
             });
         }
         let way = to.transform_point(centre) - from.transform_point(centre);
         Ok(Segment {
             motion: Motion::about(from, way / duration, spin, centre)?,
-            leftover: leftover([&from, &to], spin, duration) / duration,
+            leftover_spin: leftover([&from, &to], spin, duration) / duration,
         })
     }
 
     /// Returns the motion at a time after the first pose, with the velocities of that time.
     pub(super) fn at(&self, time: f64) -> Result<Motion, InputError> {
-        let Segment { motion, leftover } = self;
-        if time == 0.0 && *leftover == DVec3::ZERO {
+        let Segment {
+            motion,
+            leftover_spin,
+        } = self;
+        if time == 0.0 && *leftover_spin == DVec3::ZERO {
             return Ok(*motion);
         }
         let (near, centre) = (motion.pose(time), motion.centre());
-        let (pose, spin) = if *leftover == DVec3::ZERO {
+        let (pose, spin) = if *leftover_spin == DVec3::ZERO {
             (near, motion.spin())
         } else {
-            let turn = DQuat::from_scaled_axis(*leftover * time);
+            let turn = DQuat::from_scaled_axis(*leftover_spin * time);
             let rotation = turn * near.rotation();
             let place = near.transform_point(centre) - rotation * centre;
             (
                 Pose::new(place, rotation)?,
-                *leftover + turn * motion.spin(),
+                *leftover_spin + turn * motion.spin(),
             )
         };
         Motion::about(pose, motion.velocity(), spin, centre)
@@ -64,7 +67,7 @@ impl Segment {
 
     /// Bounds the angular acceleration: the angular velocity is `e + exp(s e) w`, per unit of time.
     pub(super) fn angular_acceleration(&self) -> f64 {
-        length(self.leftover) * length(self.motion.spin())
+        length(self.leftover_spin) * length(self.motion.spin())
     }
 }
 

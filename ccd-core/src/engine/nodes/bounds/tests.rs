@@ -243,7 +243,7 @@ fn free_with_other<L: Simd, C: Children, P: OtherNode>(
     *pairs.free_with_other(axis)
 }
 
-/// Returns the free times for the same rates with other second derivatives.
+/// Returns the [free times](clock::free_time) of eight pairs with these gaps, rates and second derivatives.
 fn clocks(
     level: Level,
     aparts: &[f32; LANES],

@@ -47,7 +47,8 @@ impl Query<'_> {
 pub(super) struct StretchResult {
     pub(super) lower: f64,
     pub(super) upper: f64,
-    /// The amount by which the deviations widen the bounds for the bodies.
+    /// The most by which the bodies' distance differs from that of the approximate motions: the sum of both bodies'
+    /// deviations.
     pub(super) blur: f64,
     /// The time in the stretch at which the motions are nearest.
     pub(super) time: f64,
@@ -75,8 +76,8 @@ impl StretchResult {
         width > tolerance && self.blur <= width
     }
 
-    /// Returns the end of the stretch at which the motions are nearest, if they would get nearer beyond it by more than
-    /// the deviations; `None` otherwise.
+    /// Returns the first or last time of the stretch if the motions are nearest there and approach so fast beyond it
+    /// that, over another such length, the distance would fall by more than the deviations; `None` otherwise.
     pub(super) fn end_with_decrease_beyond(&self, motions: &Motions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (

@@ -3,7 +3,7 @@
 use super::*;
 use crate::tests::scene::Scene;
 
-/// Returns the scene with bodies that together exceed their shapes by `excess`.
+/// Returns the scene with an excess of half of `excess` on each body.
 fn exceeding(mut scene: Scene, excess: f64) -> Scene {
     scene.bodies = scene
         .bodies

@@ -68,7 +68,7 @@ fn a_directed_time_is_the_gap_over_both_advances() {
             let rate = rate(&snapshot, normal, bound, reaches);
             let expected = (checked.lower - kept) / rate;
             let horizon = 1.0 - snapshot.clock;
-            let time = snapshot.directed_time(&checked, kept, bound, reaches);
+            let time = snapshot.free_time_along_axis(&checked, kept, bound, reaches);
             match time {
                 Some(time) => {
                     let allowed = ((checked.lower - kept) / time - rate) / allowance;

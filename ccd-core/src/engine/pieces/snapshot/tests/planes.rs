@@ -123,7 +123,7 @@ fn the_plane_of_the_longest_time_counts() {
         turning += usize::from(time(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
         let expected = match along(&&direct) {
-            first if first >= FIRST_VISIT_FREE_TIME => first,
+            first if first >= SUFFICIENT_FIRST_FREE_TIME => first,
             _ => time(free),
         };
         let first = time(snapshot.first_free_time(&checked, kept));
