@@ -85,8 +85,8 @@ pub enum Outcome {
         /// if the query was about the distance.
         upper: f64,
     },
-    /// The bodies are in contact at the first time and at the last. They do not touch before the first or after the
-    /// last, and may part in between.
+    /// The first and the last time of contact were found; the bodies may part in between. They do not touch before the
+    /// first or after the last, and may part in between.
     Interval {
         /// The first time of contact, and its kind.
         first: Hit,

@@ -41,7 +41,8 @@ pub enum ContactsError {
 }
 
 impl Problem<'_> {
-    /// Returns all features that are in contact at a clock; see [`Query::contacts_at`](crate::Query::contacts_at).
+    /// Returns all pairs of features in contact at `clock`, a share of the duration from 0 to 1; see
+    /// [`Query::contacts_at`](crate::Query::contacts_at).
     pub(crate) fn contacts_at(&self, clock: f64) -> Result<Vec<FeaturePair>, ContactsError> {
         let frames = [self.a.path.frame(clock), self.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);

@@ -17,7 +17,7 @@ pub const U32: f32 = f32::EPSILON / 2.0;
 /// The share of its distance by which a skipped pair may be nearer than the nearest measured pair of pieces. Bounds of
 /// nodes are rounded by at most this share ([`CLOCK_F32`]). With it, one pair suffices if many pairs share a corner, or
 /// lie in two planes.
-pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
+pub const SKIPPED_NEARER_SHARE: f64 = 1.0 / 65536.0;
 
 /// The range of squared lengths that are computed with a relative error of a few `u`. A component whose own square
 /// underflows, below 2.2e-308, is negligible in this range.

@@ -28,7 +28,7 @@ pub enum Shortcut {
     Screw,
     /// Bounds flat nodes that approach face to face in f64, where f32 is too coarse.
     FlatNodes,
-    /// Tries planes that turn with a large node, for small nodes beside it.
+    /// Separates small nodes from a large turning one by planes that turn with it.
     TurningNodes,
     /// Tries planes that turn with a piece, for pieces beside it.
     TurningPieces,

@@ -18,7 +18,8 @@ pub const WORK_BETWEEN_CLOCK_READS: u64 = 256;
 /// tolerance suffices for the search. Twice this share is reserved, for rounding and for the change together.
 pub const PERIOD_CHANGE_SHARE: f64 = 0.25;
 
-/// The share of the duration below which the time to search has to be reduced for a search period by period.
+/// The largest share of the duration that a search period by period may have to search. If it is more, the whole
+/// duration is searched at once.
 pub const MAX_PERIOD_SHARE: f64 = 0.5;
 
 /// The share of a gap that the rotation of a piece past a fixed plane has to use up before a plane that turns with the

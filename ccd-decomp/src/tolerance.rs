@@ -177,7 +177,7 @@ pub(crate) const SPREAD_PIECES: usize = 64;
 /// Unit: triangles. The boxes of fewer triangles also overlap, but are few.
 pub(crate) const FAN_TRIANGLES: u32 = 32;
 
-/// The number of axis-aligned boxes that may meet the box of a shape before oriented boxes are tested.
+/// How many boxes of a tree have to meet a shape's axis-aligned box before the oriented boxes are tested too.
 ///
 /// Unit: boxes. A smaller value is slower for triangles that are not slivers.
 pub(crate) const BOXES_BEFORE_ORIENTED: usize = 32;

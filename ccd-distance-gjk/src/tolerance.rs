@@ -1,6 +1,7 @@
 //! All numeric tolerances of this crate, each with its unit, derivation, and purpose.
 
-/// The share of the nearest points' distance that an axis must certify for a search to end.
+/// The least share of the distance between the nearest points found that the support gap along the axis must reach for
+/// a search to end.
 ///
 /// Witnesses of pieces of size s carry rounding of about u·s. Their difference, of length d, is
 /// therefore tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above d =

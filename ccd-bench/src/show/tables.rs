@@ -15,7 +15,7 @@ use std::collections::HashMap;
 /// A table of texts, for a terminal or a README.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable {
-    /// The name of the table in the markers of a README.
+    /// The name that a marker `<!-- ccd chart: NAME -->` in a README gives for this table.
     pub name: String,
     /// The title above the table.
     pub title: String,

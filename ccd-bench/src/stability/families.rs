@@ -27,7 +27,7 @@ pub fn families() -> Vec<Family> {
     .collect()
 }
 
-/// Returns a family of the given name without values of its parameter.
+/// Returns a family with the given name, whose parameter is still unnamed and without values.
 fn family(name: &'static str, make: fn(f64) -> Result<Step>) -> Family {
     Family {
         name,

@@ -14,7 +14,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::math::order::lesser;
 use crate::problem::Problem;
-use crate::rounding::NEAREST_SHARE;
+use crate::rounding::SKIPPED_NEARER_SHARE;
 use lists::Lists;
 use std::ops::ControlFlow;
 
@@ -172,7 +172,7 @@ impl<'p> Nearest<'p> {
     fn search_radius(&self) -> f64 {
         let upper = self.upper_bound();
         if upper <= self.problem.contact_distance() {
-            upper * (1.0 - NEAREST_SHARE)
+            upper * (1.0 - SKIPPED_NEARER_SHARE)
         } else {
             upper
         }

@@ -33,8 +33,8 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
-/// Returns on which side of the line from `a` to `b` a point is, in the view along a coordinate axis against its
-/// direction. `Greater` is to the left.
+/// Returns on which side of the line from `a` to `b` a point is, seen from the positive end of a coordinate axis.
+/// `Greater` is to the left.
 ///
 /// # Guarantee
 /// Like [`side`].

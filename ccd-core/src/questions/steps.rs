@@ -145,7 +145,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         memory.queue.clear();
         let current = problem.reporting_start_contact();
         Steps {
-            part: first_part(&current),
+            part: first_round(&current),
             current,
             start: problem.start,
             problem,
@@ -223,7 +223,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             );
             match parting {
                 Some(parting) => {
-                    self.part = first_part(&parting);
+                    self.part = first_round(&parting);
                     self.current = parting;
                     self.start = StartPolicy::Report;
                 }
@@ -239,7 +239,8 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         }
     }
 
-    /// Searches the current problem or part up to a time. Returns the time that is reached, or the outcome.
+    /// Searches the current problem, or the current round of it if the motions repeat, up to a time. Returns the time
+    /// that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.part {
@@ -277,7 +278,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
     }
 }
 
-fn first_part<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
+fn first_round<'a>(problem: &Problem<'a>) -> Option<(Rounds<'a>, Problem<'a>)> {
     let rounds = Rounds::for_problem(problem)?;
     let part = rounds.between_clocks();
     Some((rounds, part))

@@ -42,7 +42,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        if self.is_f32_coarse && siblings.removed_count() < MAX_NEWTON_STEPS {
+        if self.is_f32_coarse && siblings.times_advanced() < MAX_NEWTON_STEPS {
             part_flat(problem, siblings, s)
         } else {
             None

@@ -1,4 +1,4 @@
-//! Errors of reading a mesh.
+//! What can be wrong with a mesh file: its content, its size, or a format that is not read.
 
 use crate::messages::{LFS_ADVICE, Prefix};
 use ccd_core::limits::MAX_COORDINATE;
@@ -102,7 +102,7 @@ pub enum MeshFault {
     /// The file is a pointer of Git LFS, not the mesh itself.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
-    /// The mesh has no vertices.
+    /// The file was read, but contains no vertices: it may be cut off, or not be a mesh.
     #[error("has no vertices; is it a mesh, and all of it?")]
     NoVertices,
     /// The mesh has no faces.

@@ -103,7 +103,8 @@ impl Format {
         }
     }
 
-    /// Parses a file's content. `linked` holds the contents of the files that it refers to.
+    /// Parses a file's content as this format; pointers of Git LFS and STEP files are recognised and refused first.
+    /// `linked` holds the contents of the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
         let unmarked = text::utf8(bytes);
         if is_lfs_pointer(&unmarked) {

@@ -27,7 +27,7 @@ pub struct Report {
     /// A bound on how far the pieces extend beyond the solid or the open surface, in the mesh's unit of length. It is
     /// the [excess](ccd_core::Body::excess) of the body. Contacts may be early by it. 0 for exact kinds.
     pub sticks_out: f64,
-    /// A number that is not used, because the format of stored bodies has one here.
+    /// An unused number, kept because the format of stored bodies has a field here.
     pub(super) reserved: usize,
     /// Whether the body is solid. A closed mesh is solid unless it was made hollow.
     pub volume: Volume,

@@ -132,8 +132,8 @@ impl BoxTree {
 /// The number of elements above which subtrees are built in parallel.
 const PARALLEL_ELEMENTS: usize = 4096;
 
-/// Appends the subtree over some elements to `nodes`, and sorts these elements; `first` is the index of the first
-/// one.
+/// Appends the subtree over `elements` to `nodes`, and reorders `elements` so that those of each node are consecutive;
+/// `first` is the index of `elements[0]` in the list of the whole tree.
 ///
 /// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {

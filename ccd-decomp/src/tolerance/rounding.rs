@@ -60,4 +60,4 @@ pub(crate) const NEEDLE: f64 = 1e-4;
 
 /// The minimum sine of the angle at a corner of a facet whose plane is used. The error of the facet's normal is then
 /// at most `4 U64 / 1e-6`, less than [`NEAREST_SLACK`].
-pub(crate) const WELL_SHAPED: f64 = 1e-6;
+pub(crate) const MIN_CORNER_SINE: f64 = 1e-6;

@@ -39,7 +39,7 @@ impl BadRows {
         }
     }
 
-    /// Returns the number of bad rows.
+    /// Returns the number of unreadable rows so far, also of those that were not printed.
     pub fn count(&self) -> usize {
         self.count
     }

@@ -93,7 +93,8 @@ impl Skin<'_> {
         named.collect()
     }
 
-    /// Returns the mesh number of a corner, from its own piece or another piece at the same position.
+    /// Returns the number of a corner's vertex in the mesh. If its own piece does not have it, this is the least number
+    /// among pieces with a point at the same position.
     pub(super) fn mesh_number(&self, corner: u32) -> Option<u32> {
         let Corner {
             place: here, id, ..

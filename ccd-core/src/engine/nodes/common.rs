@@ -23,7 +23,8 @@ pub(crate) struct NodeContext<'p> {
     spins: [Option<(Vec3, f32)>; 2],
     /// The gap that every clock proves, rounded up.
     pub(crate) gap: f32,
-    /// The gap that the clocks of pairs of nodes keep if possible, rounded up.
+    /// The gap, [`Problem::node_gap`], that two nodes keep until the clock of their pair, unless `gap` and the rounding
+    /// are larger; rounded up.
     pub(crate) node_gap: f32,
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,

@@ -21,8 +21,8 @@ pub(crate) struct Siblings {
     other_is_piece: bool,
     /// The pairs for which a second visit is better than a split, as bits.
     revisit: u8,
-    /// The number of pairs that were removed to wait alone.
-    removed_count: u8,
+    /// How many times the pair that waits alone was advanced; 0 for the pairs of a split.
+    times_advanced: u8,
 }
 
 /// What to do with a pair whose clock has run out.
@@ -60,7 +60,7 @@ impl Siblings {
             split_child: 1,
             other_is_piece: false,
             revisit: 0,
-            removed_count: 0,
+            times_advanced: 0,
         }
     }
 
@@ -75,7 +75,7 @@ impl Siblings {
             split_child: expansion.bounds.split_child,
             other_is_piece: expansion.bounds.other_is_piece,
             revisit: expansion.bounds.revisit,
-            removed_count: 0,
+            times_advanced: 0,
         }
     }
 
@@ -121,10 +121,10 @@ impl Siblings {
         }
     }
 
-    /// Returns the number of pairs that were removed to wait alone.
+    /// Returns how many times the pair that waits alone was advanced: 0 for the pairs of a split.
     #[inline]
-    pub(crate) fn removed_count(&self) -> usize {
-        usize::from(self.removed_count)
+    pub(crate) fn times_advanced(&self) -> usize {
+        usize::from(self.times_advanced)
     }
 
     /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
@@ -132,7 +132,7 @@ impl Siblings {
         Siblings {
             free: FreeTimes::of_lane(self.free.take_least()),
             since: clock,
-            removed_count: self.removed_count.saturating_add(1),
+            times_advanced: self.times_advanced.saturating_add(1),
             ..*self
         }
     }

@@ -161,8 +161,8 @@ impl Search<'_> {
         told.unwrap_or(TestResult::Undecided)
     }
 
-    /// Tests the extreme points of a connected part. If all of them are on the outer surface, the touching pieces
-    /// decide about the part.
+    /// Tests whether an extreme point of a connected part of the inner body is inside the outer body. If all of them
+    /// are on the outer surface, the touching pieces decide about the part.
     fn test_part(&self, shell: &Shell, touching: &[u32]) -> TestResult {
         let result = self.test_points(*shell);
         let pieces = self.inner.body.pieces();

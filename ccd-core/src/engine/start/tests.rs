@@ -10,7 +10,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
-use crate::rounding::NEAREST_SHARE;
+use crate::rounding::SKIPPED_NEARER_SHARE;
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
 use crate::schedule::{BestFirst, Naive};
@@ -87,7 +87,7 @@ fn a_start_within_any_margin_costs_one_distance() {
         };
         let separation = contact.separation;
         assert!(separation.lower <= 0.4 && separation.upper >= 0.4);
-        assert!(separation.upper - separation.lower < 2.0 * NEAREST_SHARE);
+        assert!(separation.upper - separation.lower < 2.0 * SKIPPED_NEARER_SHARE);
         visits.push(answer.stats.work());
     }
     assert!(visits.iter().all(|&visits| visits < 1_000), "{visits:?}");
@@ -139,7 +139,7 @@ fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
             "{number}: {found:e} {separation:?}"
         );
         let loose = separation.upper - separation.lower;
-        let slack = 2.0 * NEAREST_SHARE * separation.upper + 8.0 * problem.rounding;
+        let slack = 2.0 * SKIPPED_NEARER_SHARE * separation.upper + 8.0 * problem.rounding;
         assert!(loose <= slack, "{number}: {separation:?}");
         let visits = full.stats.iterations;
         for budget in 0..visits.min(80) {

@@ -38,7 +38,7 @@ struct Descent<'d, O: DistanceOracle> {
     best: BestPair,
 }
 
-/// The rate of change of the distance of two pieces at a clock.
+/// The distance of two pieces at one clock, and its rate of change.
 #[derive(Clone, Copy)]
 struct Slope {
     clock: f64,

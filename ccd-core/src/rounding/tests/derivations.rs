@@ -93,7 +93,7 @@ fn extreme_lengths_scale_to_ordinary_squares() {
 #[test]
 fn shares_are_shares() {
     for share in [
-        NEAREST_SHARE,
+        SKIPPED_NEARER_SHARE,
         PLACES,
         ROTATION_GAP_SHARE,
         SUFFICIENT_FIRST_FREE_TIME,

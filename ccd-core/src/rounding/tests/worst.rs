@@ -147,12 +147,12 @@ fn frame_f64() {
     let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
         let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        Some(share(off_frame(&frame), FRAME_F64))
+        Some(share(orthonormality_error(&frame), FRAME_F64))
     });
     found.is_within(200.0);
 }
 
-fn off_frame(frame: &DMat3) -> f64 {
+fn orthonormality_error(frame: &DMat3) -> f64 {
     let columns = [0, 1, 2].map(|k| Double3::from(frame.col(k)));
     let one = |same: bool| Double::from(f64::from(u8::from(same)));
     let pairs = (0..9).map(|k| (k / 3, k % 3));

@@ -1,4 +1,5 @@
-//! Compares bodies proven apart with samples of their distance, and with exact balls.
+//! Tests that bodies proven apart by balls or boxes keep the gap at sampled times, and that two spheres are proven
+//! apart exactly if they keep it.
 
 use super::keep_apart;
 use crate::body::Body;

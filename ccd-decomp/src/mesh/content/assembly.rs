@@ -23,7 +23,7 @@ pub(crate) struct Assembly {
 /// An object: a shape of its own, and members, which are other objects at given transforms.
 #[derive(Debug, Default)]
 pub(crate) struct Object {
-    /// Triangles whose corners are all among its vertices; it may be empty.
+    /// The object's own triangles, possibly none; their corners index the vertices of this shape.
     pub(crate) shape: Polygons,
     pub(crate) members: Vec<PlacedObject>,
 }

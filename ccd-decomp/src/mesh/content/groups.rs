@@ -3,7 +3,8 @@
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 
-/// The groups of a list of faces. Each face is in one group, and each group has a face.
+/// A partition of a list of faces into groups, which may have names. Each face is in one group, and each group has a
+/// face.
 #[derive(Debug)]
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,

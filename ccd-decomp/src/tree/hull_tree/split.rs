@@ -8,7 +8,7 @@ use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-/// The centres of all pieces, each the mean of the piece's points.
+/// Splits sets of pieces in two, across the direction in which their centres spread most.
 pub(super) struct Splitter {
     centres: Vec<DVec3>,
 }

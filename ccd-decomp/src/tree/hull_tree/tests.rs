@@ -1,4 +1,5 @@
-//! Tests hull trees over pieces of every shape: hulls contain their pieces, and mark the facets of pieces.
+//! Tests hull trees over pieces of every shape: each hull is that of the points below it, and features not marked
+//! `Free` lie on one of its pieces.
 
 use super::*;
 use crate::exact::predicates::side;

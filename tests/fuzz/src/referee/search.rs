@@ -9,7 +9,7 @@ use crate::vector::{Number, larger, smaller};
 
 /// The maximum number of steps of one pair, and of all pairs, before the rest of the time is sampled.
 const PAIR_STEPS: usize = 300;
-const ALL_STEPS: usize = 60_000;
+const MAX_TOTAL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
 /// The search for the first time at which two bodies are nearer than allowed.
@@ -93,7 +93,7 @@ impl<'a> Search<'a> {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
             self.steps += 1;
-            if self.steps > ALL_STEPS {
+            if self.steps > MAX_TOTAL_STEPS {
                 break;
             }
             let GapRate { gap, rate, bend } = self.measure(i, j, t);

@@ -135,7 +135,7 @@ impl GrowingRectangle {
         self.high = self.high.max(point.truncate() - reach);
     }
 
-    /// Repairs sides that have passed each other, for which every position between them is valid.
+    /// Moves two opposite sides that have passed each other to the middle between them: every position there is valid.
     fn repair_crossed_sides(&mut self) {
         let middle = 0.5 * (self.low + self.high);
         self.low = self.low.min(middle);

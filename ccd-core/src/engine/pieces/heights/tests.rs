@@ -222,7 +222,8 @@ impl ReferenceHeights {
         self.check_descent(heights, 0.7);
     }
 
-    /// Compares the largest descent by rotation with samples.
+    /// Checks that `descent_until` is no less than the largest sampled descent by rotation, and at most 1e-3 more; or
+    /// `None`, if the piece has many points.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
         let many = heights.piece.bounding_ball().is_some();
         let Some(descent) = heights.descent_until(horizon) else {

@@ -108,7 +108,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
     assert!(some > 2_000 && forever > 2_000, "{some} {forever}");
 }
 
-/// Tests that claims without slack, or with invalid numbers, get no free time.
+/// Tests that the free time along an axis is 0 if the slack is not positive, or if the slack or the axis is NaN.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

@@ -67,7 +67,8 @@ impl Setting<'_> {
         [normal.dot(way), rate]
     }
 
-    /// Returns the bound of the second derivative, exact and as computed without allowances.
+    /// Returns the bound of the second derivative twice: in double-double arithmetic, and in f64 without the allowances
+    /// for rounding.
     fn second_derivatives(&self, tau: f64) -> [Double; 2] {
         let [spin, own] = self.motions.map(|motion| Double3::from(motion.spin()));
         let [away, velocity] = self.motions.map(|motion| Double3::from(motion.velocity()));

@@ -8,7 +8,7 @@ use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// A reader of accessors, which spends the file's allowance.
+/// Reads accessors, and charges their elements to the limit on what the file may expand to.
 pub(super) struct Accessors<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,

@@ -2,7 +2,7 @@
 
 use super::super::target::Target;
 use crate::bounds::Bounds;
-use crate::tolerance::WELL_SHAPED;
+use crate::tolerance::MIN_CORNER_SINE;
 use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -82,7 +82,7 @@ impl Plane {
         let area = |(u, v): &(DVec3, DVec3)| u.cross(*v).length_squared();
         let (u, v) = sides.max_by(|one, other| area(one).total_cmp(&area(other)))?;
         let normal = u.cross(v);
-        let good = normal.length() > WELL_SHAPED * u.length() * v.length();
+        let good = normal.length() > MIN_CORNER_SINE * u.length() * v.length();
         let normal = unit(normal).filter(|_| good)?;
         Some(Plane {
             normal,

@@ -1,5 +1,5 @@
 use crate::rational::Exact3;
-use crate::tolerance::{NEAREST_SLACK, WELL_SHAPED};
+use crate::tolerance::{MIN_CORNER_SINE, NEAREST_SLACK};
 use crate::worst::{Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -7,16 +7,16 @@ use ccd_core::vector::unit;
 /// Searches for the largest error of the normal of an accepted facet, as a fraction of the error of distances.
 #[test]
 fn worst_normal() {
-    let found = Worst::of("WELL_SHAPED, a normal", 20_000).search(|tape| {
+    let found = Worst::of("MIN_CORNER_SINE, a normal", 20_000).search(|tape| {
         let along = DVec3::from(tape.vector(-20..=0));
-        let aside = DVec3::from(tape.vector(-8..=0)) * (2.0 * WELL_SHAPED * tape.size(0..=20));
+        let aside = DVec3::from(tape.vector(-8..=0)) * (2.0 * MIN_CORNER_SINE * tape.size(0..=20));
         let corners = [DVec3::ZERO, along, along * tape.any(-3..=0) + aside];
         let far = DVec3::from(tape.vector(-20..=0));
         let [a, b, c] = corners.map(|p| p + far);
         let (u, v) = (b - a, c - a);
         let across = u.cross(v);
         // The condition for accepting a plane.
-        let good = across.length() > WELL_SHAPED * u.length() * v.length();
+        let good = across.length() > MIN_CORNER_SINE * u.length() * v.length();
         let found = unit(across).filter(|_| good)?;
         let [a, b, c] = [a, b, c].map(Exact3::of);
         let exact = b.minus(&a).cross(&c.minus(&a));
