@@ -241,12 +241,12 @@ impl FromStr for BodySource {
             }
             _ => {
                 let source: MeshSource = text.parse()?;
-                match is_stored(&source.file) && source.part.is_none() {
-                    true if source.adjustments == Adjustments::NONE => {
-                        Ok(BodySource::Stored(source.file))
-                    }
-                    true => Err(SourceError::Prepared { file: source.file }),
-                    false => Ok(BodySource::Mesh(source)),
+                if !is_stored(&source.file) || source.part.is_some() {
+                    Ok(BodySource::Mesh(source))
+                } else if source.adjustments == Adjustments::NONE {
+                    Ok(BodySource::Stored(source.file))
+                } else {
+                    Err(SourceError::Prepared { file: source.file })
                 }
             }
         }

@@ -147,22 +147,19 @@ impl PyBody {
                 return Err(input_error(format!("{}: is no file", path.display())));
             }
             std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
-            let model = match is_stored(&path) && part.is_none() {
-                true if as_prepared => Model::load(&path).map_err(input_error)?,
-                true => {
-                    let error = SourceError::Prepared { file: path };
-                    return Err(input_error(error));
-                }
-                false => {
-                    let source = MeshSource {
-                        file: path,
-                        part,
-                        adjustments,
-                    };
-                    let (mesh, _) = source.read().map_err(input_error)?;
-                    prepare(&mesh, detail)
-                        .map_err(|error| input_error(format!("{source}: {error}")))?
-                }
+            let model = if !is_stored(&path) || part.is_some() {
+                let source = MeshSource {
+                    file: path,
+                    part,
+                    adjustments,
+                };
+                let (mesh, _) = source.read().map_err(input_error)?;
+                prepare(&mesh, detail).map_err(|error| input_error(format!("{source}: {error}")))?
+            } else if as_prepared {
+                Model::load(&path).map_err(input_error)?
+            } else {
+                let error = SourceError::Prepared { file: path };
+                return Err(input_error(error));
             };
             PyBody::from_model(model)
         })

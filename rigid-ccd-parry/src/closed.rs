@@ -1,6 +1,7 @@
 //! Tests whether a mesh is closed.
 
 use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
 use std::collections::HashMap;
 
 /// Returns an edge that triangles use more often in one direction than in the other; `None` for a closed mesh.
@@ -22,10 +23,10 @@ pub(crate) fn open_edge(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Option<[u
         }
         for k in 0..3 {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
-            match from < to {
-                true => *balance.entry([from, to]).or_default() += 1,
-                false if from > to => *balance.entry([to, from]).or_default() -= 1,
-                false => {}
+            match from.cmp(&to) {
+                Ordering::Less => *balance.entry([from, to]).or_default() += 1,
+                Ordering::Greater => *balance.entry([to, from]).or_default() -= 1,
+                Ordering::Equal => {}
             }
         }
     }

@@ -321,16 +321,14 @@ impl Form {
 
     /// Returns the sub-shape index of a piece of the body.
     fn sub_shape_of_piece(&self, body: &Body, piece: usize) -> u32 {
-        let inside = match body.pieces().all_triangles() {
-            true => {
-                let mut inside = Combination::segment([0, 1], 0.5);
-                inside.push(2, 0.5);
-                inside
-            }
-            false if self.parts.len() == 1 && self.triangles.is_empty() => {
-                return self.parts[0].number;
-            }
-            false => Combination::point(0),
+        let inside = if body.pieces().all_triangles() {
+            let mut inside = Combination::segment([0, 1], 0.5);
+            inside.push(2, 0.5);
+            inside
+        } else if self.parts.len() == 1 && self.triangles.is_empty() {
+            return self.parts[0].number;
+        } else {
+            Combination::point(0)
         };
         match body.pieces().feature(piece, &inside) {
             Feature::Face(number) | Feature::Vertex(number) => number,

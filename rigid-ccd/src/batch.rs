@@ -51,9 +51,7 @@ impl<'q> Bodies<'q> {
         let [course_a, course_b] = course.trajectories();
         Query::new((a, course_a), (b, course_b), course.duration(), settings)
     }
-}
 
-impl Bodies<'_> {
     /// Returns the clearance and the bodies' excess, against which the table of results compares distances.
     pub fn compared(self, clearance: Option<f64>) -> Compared {
         Compared {

@@ -137,10 +137,10 @@ fn a_hull_across_the_inner_corner_of_an_l_is_found() {
         let in_bar = |wide: fn(&DVec3) -> f64| all().all(|p| wide(p) <= 1.0);
         // The L has only two points on or beyond the line from (2, 1) to (1, 2): the ends of the line.
         let sum = |corner: &[DVec3; 3]| corner.iter().map(|p| p.x + p.y).fold(0.0, greater);
-        match in_bar(|p| p.x) || in_bar(|p| p.y) {
-            true => Some(false),
-            false if sum(&corners[0]) >= 3.0 && sum(&corners[1]) >= 3.0 => Some(true),
-            false => None,
+        if in_bar(|p| p.x) || in_bar(|p| p.y) {
+            Some(false)
+        } else {
+            (sum(&corners[0]) >= 3.0 && sum(&corners[1]) >= 3.0).then_some(true)
         }
     });
     assert!(found >= 20, "{found}");

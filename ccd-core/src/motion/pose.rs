@@ -121,7 +121,7 @@ fn unit(rotation: DQuat) -> Option<DQuat> {
 /// A rigid transform as a rotation matrix and a translation, the form that is cheapest to apply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// The rotation matrix; its columns are the images of the axes. Its columns are the images of the axes.
+    /// The rotation matrix; its columns are the images of the axes.
     pub rotation: DMat3,
     /// The translation; it is the image of the origin.
     pub translation: DVec3,

@@ -161,11 +161,14 @@ impl Stray {
     /// Returns a bound of the deviation of a point that is at most `reach` from the motion's centre.
     pub fn at(&self, reach: f64) -> f64 {
         let Stray { shift, turn } = *self;
-        match turn > 0.0 {
-            true => shift + turn * reach,
-            // Without a turn the bound is exact for any `reach`. A value that is no bound becomes NaN.
-            false if turn == 0.0 => shift,
-            false => f64::NAN,
+        if turn > 0.0 {
+            shift + turn * reach
+        } else if turn == 0.0 {
+            // Without a turn the bound is exact for any `reach`.
+            shift
+        } else {
+            // A value that is no bound becomes NaN.
+            f64::NAN
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Searches one period instead of all, for bodies that turn many times. A *round* is a number of periods that are
 //! searched together.
 //!
-//! A *round* is a number of periods. The distances in each of them differ from those in the first by at most a known
+//! The distances in each period of a round differ from those in the first by at most a known
 //! change, see `motion/period.rs`. Bodies that keep that change beyond the margin in the first period keep the margin
 //! in all of them. If they come nearer, but are not in contact, the next round has fewer periods. If even two periods
 //! differ by too much, some are searched in full, ever more of them in a row. The work therefore depends on how much

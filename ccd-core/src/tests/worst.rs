@@ -128,11 +128,13 @@ impl Found {
 
 /// Returns an error as a share of an allowance. If the allowance is 0, any error takes an infinite share.
 pub(crate) fn share(error: f64, allowance: f64) -> f64 {
-    match allowance > 0.0 {
-        true => error / allowance,
-        false if error > 0.0 => f64::INFINITY,
+    if allowance > 0.0 {
+        error / allowance
+    } else if error > 0.0 {
+        f64::INFINITY
+    } else {
         // There is no error, by this much. Written so that NaN stays.
-        false => error,
+        error
     }
 }
 

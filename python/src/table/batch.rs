@@ -65,10 +65,12 @@ pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
     let has_paths = schema.field_with_name(TIME).is_ok();
     for field in schema.fields() {
         let kind = decoded_type(field.data_type());
-        let (fits, needed) = match field.name() == ID {
-            true if has_paths => (is_name(kind), "text, numbers or times"),
-            true => (true, ""),
-            false => (is_numeric(kind), "numbers"),
+        let (fits, needed) = if field.name() != ID {
+            (is_numeric(kind), "numbers")
+        } else if has_paths {
+            (is_name(kind), "text, numbers or times")
+        } else {
+            (true, "")
         };
         if !fits {
             let (name, kind) = (field.name(), field.data_type());

@@ -14,7 +14,7 @@ use ccd_core::rounding::STRETCH_F64;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::vector::length;
 use ccd_core::{
-    Answer, Body, InputError, Motion, Movement, Query, Settings, StartPolicy, Trajectory,
+    Answer, Body, InputError, Motion, Movement, Query, Settings, StartPolicy, Stretch, Trajectory,
 };
 use ccd_distance_gjk::Direct;
 use std::collections::BinaryHeap;
@@ -279,13 +279,17 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         }
         let (member, time) = (&self.scene.members[index], self.stops[index].time);
         let stretch = member.movement.stretch(time, time)?;
-        let reach = member.body.span() + length(stretch.motion.centre());
-        Ok(stretch.stray.at(reach))
+        Ok(stretch.stray.at(reach(member.body, &stretch)))
     }
 
     fn moves(&self, index: usize) -> bool {
         self.scene.members[index].mobility == Mobility::Moving && self.stops[index].by.is_none()
     }
+}
+
+/// Bounds the distance of a body's points from the centre of a stretch's motion.
+fn reach(body: &Body, stretch: &Stretch) -> f64 {
+    body.span() + length(stretch.motion.centre())
 }
 
 /// Bounds how far a body is off when it continues from a pose that is rounded.
@@ -294,7 +298,7 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     let motion = &stretch.motion;
     let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
-    let reach = body.span() + centre;
+    let reach = reach(body, &stretch);
     let stray = stretch.stray.at(reach);
     Ok(stray + STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }

@@ -84,14 +84,14 @@ impl<N: Number> Vector<N> {
     #[inline]
     pub fn scaled(self) -> Self {
         let size = self.largest();
-        match size > 0.0 && size.is_finite() {
+        if !(size > 0.0 && size.is_finite()) {
+            self
+        } else if size < 1e-290 {
             // Scale in two steps, because the reciprocal of a denormal overflows.
-            true if size < 1e-290 => {
-                let v = self * N::from_f64(2f64.powi(600));
-                v * N::from_f64(1.0 / power_of_two(v.largest()))
-            }
-            true => self * N::from_f64(1.0 / power_of_two(size)),
-            false => self,
+            let v = self * N::from_f64(2f64.powi(600));
+            v * N::from_f64(1.0 / power_of_two(v.largest()))
+        } else {
+            self * N::from_f64(1.0 / power_of_two(size))
         }
     }
 

@@ -3,13 +3,11 @@
 use crate::rounding::{BOX_F64, THIN_F32, U64};
 use glam::{DVec3, Vec3};
 
-/// An oriented box and a ball with the same centre, which both contain all pieces below, and the children. Both contain
-/// all pieces below.
+/// An oriented box and a ball with the same centre, which both contain all pieces below, and the children.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) centre: DVec3,
-    /// The axes of the box as unit vectors, the direction of the least extent last. The last one is the box's thinnest
-    /// direction.
+    /// The axes of the box as unit vectors, the direction of the least extent last.
     pub(crate) axes: [Vec3; 3],
     pub(crate) half: [f32; 3],
     pub(crate) radius: f32,

@@ -158,13 +158,15 @@ impl Crossings {
         };
         let height = f64::from(sign) * a.dot(b.cross(c));
         let normal = size((b - a).cross(c - a));
-        let height = match ahead == [Sign::Positive; 3] {
-            true => Sign::Positive,
-            _ if height.abs() <= start.slack * normal => Sign::Unclear,
-            false => match Sign::of_number(height, size(a) * size(b) * size(c)) {
+        let height = if ahead == [Sign::Positive; 3] {
+            Sign::Positive
+        } else if height.abs() <= start.slack * normal {
+            Sign::Unclear
+        } else {
+            match Sign::of_number(height, size(a) * size(b) * size(c)) {
                 Sign::Unclear => sign_by_edges(triangle, corners, sign),
                 clear => clear,
-            },
+            }
         };
         match height {
             Sign::Positive => self.beyond += sign,

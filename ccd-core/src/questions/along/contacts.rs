@@ -18,8 +18,7 @@ pub(super) struct ProvenContacts {
 pub(super) enum StretchResult {
     /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined.
     Done,
-    /// A limit was reached, and the bodies are apart until the given time of the query. The bodies are apart until the
-    /// given time of the query.
+    /// A limit was reached, and the bodies are apart until the given time of the query.
     Stopped(f64, Limit),
     /// The motions are in contact at the given time of the stretch.
     Near(f64, Option<Contact>),

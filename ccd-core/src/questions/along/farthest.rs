@@ -251,8 +251,7 @@ impl<O: DistanceOracle> GreatestDistanceSearch<'_, '_, '_, O> {
 /// How the bodies are placed at a time: apart, meeting, or one inside the other.
 enum Placement {
     Apart(Contact),
-    /// The surfaces meet, or nearly so, and one of the bodies may be inside the other. One of the bodies may be inside
-    /// the other.
+    /// The surfaces meet, or nearly so, and one of the bodies may be inside the other.
     Meeting(Contact),
     /// A point that is in both bodies.
     Inside(DVec3),

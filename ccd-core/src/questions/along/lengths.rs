@@ -45,14 +45,14 @@ pub(super) fn length<O: DistanceOracle>(
     scratch: &mut Scratch,
 ) -> Result<f64, InputError> {
     let query = stretches.query();
-    let seen = match time > 0.0 {
-        true => seen.map(|contact| (contact, motions.approach(time, &contact))),
+    let seen = if time > 0.0 {
+        seen.map(|contact| (contact, motions.approach(time, &contact)))
+    } else if motions.span.length() > MEASURED_SHARE * query.duration {
         // Halves mostly suffice, and cost less.
-        false if motions.span.length() > MEASURED_SHARE * query.duration => {
-            return Ok(f64::INFINITY);
-        }
+        return Ok(f64::INFINITY);
+    } else {
         // The motions begin beside the bodies. They do not show the distance of the bodies, which is measured.
-        false => stretches.measure(motions.span.from, oracle, scratch)?,
+        stretches.measure(motions.span.from, oracle, scratch)?
     };
     Ok(match seen {
         Some(seen) => length_from_distance(query, motions, seen),

@@ -180,12 +180,12 @@ impl Profile {
         for (n, [low, high], [other_low, other_high]) in common.chain(own) {
             let least = (low - other_high) - needed_gap;
             let most = (high - other_low) + needed_gap;
-            met = match n.y > 0.0 {
-                true => intersection(met, [least / n.y, most / n.y]),
+            if n.y > 0.0 {
+                met = intersection(met, [least / n.y, most / n.y]);
+            } else if least > 0.0 || most < 0.0 {
                 // This surface separates the nodes for any shift. Written so that NaN is no gap.
-                false if least > 0.0 || most < 0.0 => return [f64::INFINITY, f64::NEG_INFINITY],
-                false => met,
-            };
+                return [f64::INFINITY, f64::NEG_INFINITY];
+            }
             if met[0] > met[1] {
                 return met;
             }
@@ -251,13 +251,13 @@ pub(crate) fn keep_apart(
     if least > most {
         return true;
     }
-    let met = match way.pitch.abs() > 0.0 {
-        true => {
-            let [one, other] = [least, most].map(|shift| -shift / way.pitch);
-            whole_numbers_in([lesser(one, other), greater(one, other)])
-        }
-        false if least > 0.0 || most < 0.0 => return true,
-        false => [f64::NEG_INFINITY, f64::INFINITY],
+    let met = if way.pitch.abs() > 0.0 {
+        let [one, other] = [least, most].map(|shift| -shift / way.pitch);
+        whole_numbers_in([lesser(one, other), greater(one, other)])
+    } else if least > 0.0 || most < 0.0 {
+        return true;
+    } else {
+        [f64::NEG_INFINITY, f64::INFINITY]
     };
     let [least, most] = intersection(turning.turn_range(still, way), met);
     least > most
