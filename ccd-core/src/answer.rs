@@ -34,7 +34,6 @@ pub struct Answer {
 /// | any contact | free, contact, overlapping, unresolved |
 /// | contact interval | free, interval, unresolved |
 /// | closest approach, distance | measured, overlapping, unresolved; with a required [clearance](crate::Settings::clearance) also free and contact |
-/// | greatest distance | measured, unresolved |
 ///
 /// # Guarantee
 /// All times and bounds hold in floating point: nothing touches before a first contact. Contacts and their distances
@@ -93,16 +92,14 @@ pub enum Outcome {
         /// The last time of contact, and its kind.
         last: Hit,
     },
-    /// The requested distance is between two bounds.
+    /// The least distance is between a lower bound and the distance of the nearest pieces.
     Measured {
-        /// A lower bound of the least distance, or of the greatest one.
+        /// A lower bound of the least distance.
         lower: f64,
-        /// An upper bound of the same distance.
-        upper: f64,
-        /// The time of the measurement that gave one of the bounds, and the nearest pieces at that time. It gave the
-        /// upper bound of the least distance, or the lower bound of the greatest one. `None` if the bodies overlap at
-        /// all times that were measured.
-        at: Option<(f64, Contact)>,
+        /// The time at which the bodies are nearest, as far as known.
+        time: f64,
+        /// The nearest pieces at that time. Their distance is an upper bound of the least distance.
+        contact: Contact,
     },
     /// A limit, such as the budget, was reached before the answer was known.
     Unresolved(Unresolved),
@@ -177,11 +174,17 @@ impl Outcome {
             Outcome::Interval { first, .. } => Ok(Some(first)),
             // Bodies that may touch count as in contact.
             Outcome::Measured {
-                lower, at: nearest, ..
-            } => match nearest {
-                Some((time, contact)) if !(lower > 0.0) => at(time, HitKind::Contact(contact)),
-                _ => Ok(None),
-            },
+                lower,
+                time,
+                contact,
+            } => {
+                // Written so that NaN is a contact.
+                if lower > 0.0 {
+                    Ok(None)
+                } else {
+                    at(time, HitKind::Contact(contact))
+                }
+            }
             Outcome::Unresolved(known) => Err(known),
         }
     }
@@ -205,10 +208,10 @@ impl Outcome {
     pub fn upper(&self) -> f64 {
         match *self {
             Outcome::Free { .. } => f64::INFINITY,
-            Outcome::Contact { contact, .. } | Outcome::Touching { contact } => {
-                contact.separation.upper
-            }
-            Outcome::Overlapping { upper, .. } | Outcome::Measured { upper, .. } => upper,
+            Outcome::Contact { contact, .. }
+            | Outcome::Touching { contact }
+            | Outcome::Measured { contact, .. } => contact.separation.upper,
+            Outcome::Overlapping { upper, .. } => upper,
             Outcome::Interval { first, .. } => first
                 .contact()
                 .map_or(0.0, |contact| contact.separation.upper),
@@ -220,22 +223,22 @@ impl Outcome {
     /// or measured.
     pub fn time(&self) -> Option<f64> {
         match *self {
-            Outcome::Contact { time, .. } => Some(time),
+            Outcome::Contact { time, .. } | Outcome::Measured { time, .. } => Some(time),
             Outcome::Touching { .. } | Outcome::Overlapping { .. } => Some(0.0),
             Outcome::Interval { first, .. } => Some(first.time),
-            Outcome::Free { .. } | Outcome::Measured { .. } | Outcome::Unresolved(_) => {
-                self.nearest().map(|(time, _)| time)
-            }
+            Outcome::Free { .. } => None,
+            Outcome::Unresolved(known) => known.at.map(|(time, _)| time),
         }
     }
 
     /// Returns the pieces in contact, or those between which a distance was measured, with the time.
     pub fn nearest(&self) -> Option<(f64, Contact)> {
         match *self {
-            Outcome::Contact { time, contact } => Some((time, contact)),
+            Outcome::Contact { time, contact } | Outcome::Measured { time, contact, .. } => {
+                Some((time, contact))
+            }
             Outcome::Touching { contact } => Some((0.0, contact)),
             Outcome::Interval { first, .. } => first.contact().map(|contact| (first.time, contact)),
-            Outcome::Measured { at, .. } => at,
             Outcome::Unresolved(known) => known.at,
             Outcome::Free { .. } | Outcome::Overlapping { .. } => None,
         }
@@ -279,22 +282,13 @@ impl Outcome {
     /// Returns the difference of the measured bounds; 0 if nothing was measured.
     pub(crate) fn width(&self) -> f64 {
         match *self {
-            Outcome::Measured { lower, upper, .. } => upper - lower,
+            Outcome::Measured { lower, contact, .. } => contact.separation.upper - lower,
             _ => 0.0,
         }
     }
 
-    /// Creates the outcome of a query about the least distance, from a lower bound and the contact measured at `time`.
-    pub(crate) fn from_least_distance(lower: f64, time: f64, contact: Contact) -> Self {
-        Outcome::Measured {
-            lower,
-            upper: contact.separation.upper,
-            at: Some((time, contact)),
-        }
-    }
-
     /// Replaces each contact by `map(contact, time)`, and takes the upper bounds of the least distance from the new
-    /// contacts. This is not for queries about the greatest distance.
+    /// contacts.
     pub(crate) fn map_contacts(self, mut map: impl FnMut(Contact, f64) -> Contact) -> Self {
         match self {
             Outcome::Contact { time, contact } => Outcome::Contact {
@@ -313,9 +307,13 @@ impl Outcome {
             },
             Outcome::Measured {
                 lower,
-                at: Some((time, contact)),
-                ..
-            } => Outcome::from_least_distance(lower, time, map(contact, time)),
+                time,
+                contact,
+            } => Outcome::Measured {
+                lower,
+                time,
+                contact: map(contact, time),
+            },
             Outcome::Unresolved(known) => Outcome::Unresolved(
                 Unresolved {
                     at: known.at.map(|(time, contact)| (time, map(contact, time))),
@@ -324,10 +322,7 @@ impl Outcome {
                 .with_measured_upper_bound(),
             ),
             // The contacts of an interval are those of two first contacts, which have already been mapped.
-            Outcome::Free { .. }
-            | Outcome::Overlapping { .. }
-            | Outcome::Measured { .. }
-            | Outcome::Interval { .. } => self,
+            Outcome::Free { .. } | Outcome::Overlapping { .. } | Outcome::Interval { .. } => self,
         }
     }
 

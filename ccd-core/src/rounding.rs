@@ -197,14 +197,6 @@ pub fn attached_rounding(turns: f64) -> f64 {
     U64 * (96.0 + 8.0 * turns)
 }
 
-/// The error of the distance of two moving points computed in f64, relative to the lengths of their positions, of their
-/// centres, and of their displacements.
-///
-/// In units of `u`: places and their difference 3; a velocity 10 of a speed, times the time 1, added to the offset 1,
-/// and the length of that 3; the difference of two lengths doubles it; second derivatives and deviations 8. That is
-/// below 40; 64 are taken.
-pub const FARTHEST_F64: f64 = 64.0 * U64;
-
 /// The decrease of a pair's distance below that at the start at which the pair counts as approaching, in units of the
 /// distance's rounding. It is for pairs in contact at the start. Four units cover the rounding of both distances, and
 /// the rounding that a rate of zero accumulates over the whole duration.

@@ -73,10 +73,6 @@ pub const MIN_CUT_SHARE: f64 = 1.0 / 1024.0;
 /// trajectories. If there are more, some share one: a trajectory of a user may have any number of corners.
 pub const MAX_BUDGET_PARTS: usize = 1 << 16;
 
-/// The growth of the distance in a stretch of time up to which the stretch is not cut further in the search for the
-/// greatest distance. It is in units of the width of a measured distance: the bounds would hardly be closer.
-pub const SETTLED_GROWTH: f64 = 0.25;
-
 /// The longest step when tracking the distance of two pieces, in radians of both bodies' rotations together. The
 /// distance usually has at most one minimum within it.
 pub const MAX_FOLLOW_ROTATION: f64 = 0.25;

@@ -31,7 +31,6 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(queries::first_contact, module)?)?;
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;
-    module.add_function(wrap_pyfunction!(queries::greatest_distance, module)?)?;
     module.add_function(wrap_pyfunction!(queries::distance, module)?)?;
     module.add_function(wrap_pyfunction!(table_queries::answer_table, module)?)?;
     module.add_function(wrap_pyfunction!(pages::write_pages, module)?)?;

@@ -47,7 +47,6 @@ impl Asked<'_> {
     /// Returns the number that an unresolved answer proves, of which a larger one is the better bound.
     fn proven(&self, known: &Unresolved) -> f64 {
         match self.question {
-            Question::GreatestDistance => -known.upper,
             question if question.is_for_a_distance() => known.lower,
             _ => known.safe_until,
         }
@@ -127,10 +126,8 @@ fn ask(
         ),
     };
     let duration = pair.duration(duration)?;
-    if question != Question::GreatestDistance {
-        warn(py, pair.remarks(duration), 1)?;
-        warn_of_tolerance([a, b], settings.tolerance, 1)?;
-    }
+    warn(py, pair.remarks(duration), 1)?;
+    warn_of_tolerance([a, b], settings.tolerance, 1)?;
     let bodies = pair.moving();
     let asked = Asked {
         question,
@@ -248,32 +245,6 @@ pub(crate) fn closest_approach<'py>(
     let settings = read(settings, APPROACH_SETTINGS)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::ClosestApproach, bodies, duration, &settings)?;
-    distance_of_answer(py, &answer, &settings)
-}
-
-/// Brackets the greatest distance over time of two moving bodies, to within the tolerance.
-///
-/// At the `time` of the answer it is at least `lower`, and it is never more than `upper`. Arguments and exceptions are those
-/// of `first_contact`, without a margin. What the bodies exceed their shapes by, their `sticks_out`, is in `upper`.
-///
-/// >>> from rigid_ccd import Body, Motion, greatest_distance
-/// >>> ball, leaves = Body.sphere(0.5), Motion([1.5, 0, 0], velocity=[1, 0, 0])
-/// >>> round(greatest_distance(ball, ball, leaves).upper, 2)
-/// 1.5
-#[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
-pub(crate) fn greatest_distance<'py>(
-    py: Python<'py>,
-    a: &Bound<'_, PyAny>,
-    b: &Bound<'_, PyAny>,
-    motion_a: Option<&Bound<'_, PyAny>>,
-    motion_b: Option<&Bound<'_, PyAny>>,
-    duration: Option<f64>,
-    settings: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let settings = read(settings, DISTANCE_SETTINGS)?;
-    let bodies = [(a, motion_a), (b, motion_b)];
-    let answer = ask(py, Question::GreatestDistance, bodies, duration, &settings)?;
     distance_of_answer(py, &answer, &settings)
 }
 

@@ -118,7 +118,7 @@ fn known_settings(question: Question) -> Vec<&'static str> {
 /// Refuses settings that are invalid for every query.
 fn check(asked: TableQuestion<'_>) -> PyResult<()> {
     match asked.settings.clearance {
-        Some(_) if !asked.question.is_for_a_clearance() => {
+        Some(_) if !asked.question.is_for_a_distance() => {
             return Err(refuse(
                 "clearance: only the least distance is compared with one; use margin, or distance_upper",
             ));

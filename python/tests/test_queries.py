@@ -18,7 +18,6 @@ from rigid_ccd import (
     closest_approach,
     distance,
     first_contact,
-    greatest_distance,
     is_free,
 )
 
@@ -60,7 +59,6 @@ def test_bounds_hold_for_the_cylinders_that_bodies_exceed() -> None:
     found = distance(wheel, wheel, *places)
     assert found.lower < 0.09 and 0.1 <= found.upper <= found.lower + 2 * wheel.sticks_out + 1e-3
     a, b = (Motion.still(place) for place in places)
-    assert greatest_distance(wheel, wheel, a, b, 1).upper >= 0.1
     stored = pickle.loads(pickle.dumps(wheel))
     assert distance(stored, stored, *places).upper == found.upper
     flies = Motion([2.1, -1, 0], turned, velocity=[0, 2, 0])
@@ -81,16 +79,6 @@ def test_a_clearance_is_kept_or_violated() -> None:
         closest_approach(BALL, WALL, flies, clearance=-1)
     with pytest.raises(TypeError, match="clearance"):
         distance(BALL, WALL, clearance=1)  # type: ignore[call-arg]
-
-
-def test_the_greatest_distance_has_a_time() -> None:
-    flies = Motion([-3, 0, 0], velocity=[2, 0, 0])
-    farthest = greatest_distance(BALL, WALL, flies)
-    assert farthest.lower <= 2.4 <= farthest.upper <= farthest.lower + 1e-3 and farthest.time == 0
-    passes = greatest_distance(BALL, WALL, Motion([-1, 0, 0], velocity=[4, 0, 0]), tolerance=1e-6)
-    assert passes.lower <= 2.4 <= passes.upper <= passes.lower + 1e-6 and passes.time == 1
-    with pytest.raises(TypeError, match="clearance"):
-        greatest_distance(BALL, WALL, flies, clearance=1)  # type: ignore[call-arg]
 
 
 def test_what_touches_at_the_start_is_told() -> None:

@@ -20,7 +20,6 @@
 //! | answer one query | [`first_contact`] |
 //! | ask only whether two bodies stay apart | [`Solver::is_free`] |
 //! | ask how close they come, and when | [`Solver::closest_approach`], [`Solver::distance`] at rest |
-//! | ask how far apart they get, and when | [`Solver::greatest_distance`] |
 //! | ask from when until when they are in contact | [`Solver::contact_interval`] |
 //! | follow a spline, a path of poses, a throw, an arm's link | [`trajectory`] |
 //! | answer many on all cores, in order | [`first_contacts`], [`ParallelSolver`] |

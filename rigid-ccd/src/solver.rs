@@ -230,38 +230,6 @@ impl<O: DistanceOracle> Solver<O> {
         self.depth_first.closest_approach(&query, &mut self.oracle)
     }
 
-    /// Brackets the greatest distance of two moving bodies, to within the tolerance, with its time and the nearest
-    /// pieces then.
-    ///
-    /// The distance is that of the nearest points at each time, and 0 where the bodies overlap. The margin and the start
-    /// policy play no role.
-    ///
-    /// # Guarantee
-    /// The bodies are never farther apart than the upper bound, and at that time at least the lower bound; so are the shapes
-    /// that they [exceed](Body::with_excess).
-    ///
-    /// # Errors
-    /// Those of [`Solver::first_contact`].
-    ///
-    /// ```
-    /// use rigid_ccd::{Body, Motion, Pose, Solver};
-    /// // A lid lifts from its case, and must stay within 3 mm.
-    /// let (lid, case) = (Body::cuboid([100.0, 100.0, 2.0])?, Body::cuboid([100.0, 100.0, 50.0])?);
-    /// let lifts = Motion::new(Pose::at([0.0, 0.0, 52.1])?, [0.0, 0.0, 2.0], [0.0; 3])?;
-    /// let found = Solver::new().greatest_distance((&lid, lifts), (&case, Motion::STILL), 1.0)?.outcome;
-    /// assert!(found.upper() < 3.0 && found.lower() > 2.0);
-    /// # Ok::<(), rigid_ccd::Error>(())
-    /// ```
-    pub fn greatest_distance<'b>(
-        &mut self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
-        duration: f64,
-    ) -> Result<Answer, InputError> {
-        let query = query_with_settings(a, b, duration, &self.settings)?;
-        self.depth_first.greatest_distance(&query, &mut self.oracle)
-    }
-
     /// Brackets the distance of two bodies at rest, as narrowly as f64 allows, with the nearest pieces.
     ///
     /// # Errors
@@ -298,7 +266,6 @@ impl<O: DistanceOracle> Solver<O> {
             Question::ClosestApproach | Question::Distance => {
                 self.depth_first.closest_approach(query, oracle)
             }
-            Question::GreatestDistance => self.depth_first.greatest_distance(query, oracle),
         }
     }
 }

@@ -306,11 +306,7 @@ impl<'s> Case<'s> {
     fn check_closest(&self, closest: &Outcome, tally: &mut Tally) -> CheckResult {
         self.samples
             .check_lower_bound(closest.lower(), |_| true, "closest")?;
-        if let Outcome::Measured {
-            at: Some((time, contact)),
-            ..
-        } = closest
-        {
+        if let Outcome::Measured { time, contact, .. } = closest {
             tally.measured += 1;
             let distance = self.scene.distance(*time);
             let upper = contact.separation.upper;

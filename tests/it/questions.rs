@@ -47,7 +47,6 @@ fn check_every_question(case: &Case) -> CheckResult {
                 .and_then(|()| judge.check_any(&answers.any, bodies))
                 .and_then(|()| judge.check_closest(&answers.closest, bodies))
                 .and_then(|()| judge.check_clearance(answers.cleared.0, &answers.cleared.1, bodies))
-                .and_then(|()| judge.check_greatest(&answers.greatest))
                 .and_then(|()| judge.check_interval(&answers.interval, bodies))
                 .map_err(|why| format!("along: {why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }

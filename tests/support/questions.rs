@@ -5,7 +5,6 @@ use crate::backends::Oracle;
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::Schedule;
-use ccd_core::order::greater;
 use ccd_core::schedule::{BestFirst, DepthFirst};
 use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settings, Smooth};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
@@ -58,8 +57,6 @@ pub struct AnswersAlong {
     pub closest: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
     pub cleared: (f64, Answer),
-    /// The answer about the greatest distance.
-    pub greatest: Answer,
     /// The answer about the first and the last contact.
     pub interval: Answer,
 }
@@ -187,21 +184,11 @@ fn answers_along_of<O: DistanceOracle>(
     let (required, keeping) = required_near(&closest, config);
     let keeping = ccd_core::Query::new(a, b, query.duration, &keeping).expect("a well-posed query");
     let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
-    // The schedule samples many times: each step lasts until the bodies have moved by about their distance,
-    // or by the tolerance if they slide or overlap. Hundreds are enough here.
-    let travel = query.a.reach(query.duration) + query.b.reach(query.duration);
-    let looks = greater(0.1 * closest.outcome.upper(), 1e-3 * travel);
-    let coarse = Settings {
-        tolerance: greater(config.tolerance, looks),
-        ..config.clone()
-    };
-    let coarse = ccd_core::Query::new(a, b, query.duration, &coarse).expect("a well-posed query");
     AnswersAlong {
         first: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
         any: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
         closest,
         cleared: (required, cleared),
-        greatest: (depth_first.greatest_distance(&coarse, &mut oracle)).expect(well_posed),
         interval: (best_first.contact_interval(&along, &mut oracle)).expect(well_posed),
     }
 }

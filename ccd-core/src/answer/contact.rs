@@ -73,8 +73,7 @@ pub struct Separation {
     /// no separating axis was found.
     pub lower: f64,
     /// An upper bound of the distance: the distance of the witnesses, plus rounding. Answers about the
-    /// [least](crate::schedule::DepthFirst::closest_approach) or the
-    /// [greatest](crate::schedule::DepthFirst::greatest_distance) distance add the excess of both bodies.
+    /// [least distance](crate::schedule::DepthFirst::closest_approach) add the excess of both bodies.
     pub upper: f64,
     /// The unit vector from A to B along which the gap `lower` was computed.
     pub normal: DVec3,

@@ -18,7 +18,7 @@ pub struct Unresolved {
     pub lower: f64,
     /// An upper bound of the requested distance; infinite if none is known.
     pub upper: f64,
-    /// The time at which the least or greatest distance was measured, and the nearest pieces at that time. `None` if
+    /// The time at which the least distance was measured, and the nearest pieces at that time. `None` if
     /// none was measured.
     pub at: Option<(f64, Contact)>,
 }

@@ -11,9 +11,8 @@ impl Body {
     /// # Guarantee
     /// The guarantee of distances holds for the shape if the body contains the shape, and no point of the body is
     /// farther than the excess from the shape; neither is checked. Lower bounds and times are those of the body.
-    /// Upper bounds of the [least distance](crate::schedule::DepthFirst::closest_approach) and of the [greatest
-    /// one](crate::schedule::DepthFirst::greatest_distance) are larger by the excess of both bodies. A first contact
-    /// states the distance of the bodies themselves.
+    /// Upper bounds of the [least distance](crate::schedule::DepthFirst::closest_approach) are larger by the
+    /// excess of both bodies. A first contact states the distance of the bodies themselves.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a length that is not from 0 to [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).

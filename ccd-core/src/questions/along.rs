@@ -8,7 +8,6 @@ pub(crate) mod any;
 pub(crate) mod closest;
 mod contacts;
 mod drive;
-pub(crate) mod farthest;
 pub(crate) mod first;
 pub(crate) mod interval;
 mod lengths;

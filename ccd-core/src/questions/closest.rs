@@ -214,7 +214,11 @@ fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<O
     let lower = sample.lower(found.lower());
     Ok(
         match found.map_contacts(|contact, _| sample.widen_contact(contact)) {
-            Outcome::Measured { upper, at, .. } => Outcome::Measured { lower, upper, at },
+            Outcome::Measured { time, contact, .. } => Outcome::Measured {
+                lower,
+                time,
+                contact,
+            },
             Outcome::Unresolved(known) => Outcome::Unresolved(Unresolved {
                 lower: greater(0.0, lower),
                 ..known
@@ -248,9 +252,11 @@ fn distance_at_rest<O: DistanceOracle>(
     meter: &mut Meter,
 ) -> Result<Outcome, Beyond> {
     Ok(match at_start(problem, beyond, oracle, meter) {
-        Some(Outcome::Touching { contact }) => {
-            Outcome::from_least_distance(greater(0.0, contact.separation.lower), 0.0, contact)
-        }
+        Some(Outcome::Touching { contact }) => Outcome::Measured {
+            lower: greater(0.0, contact.separation.lower),
+            time: 0.0,
+            contact,
+        },
         Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         Some(Outcome::Unresolved(known)) => {
             unresolved_outcome(greater(0.0, least_distance(problem)), known.limit)
@@ -287,10 +293,9 @@ fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
 /// Returns whether the bodies come within the tolerance after the start, and not at the start.
 pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
     match *found {
-        Outcome::Measured {
-            at: Some((time, contact)),
-            ..
-        } => time > 0.0 && contact.separation.upper <= tolerance,
+        Outcome::Measured { time, contact, .. } => {
+            time > 0.0 && contact.separation.upper <= tolerance
+        }
         _ => false,
     }
 }

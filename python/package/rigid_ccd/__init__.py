@@ -37,7 +37,6 @@ from ._rigid_ccd import (
     closest_approach,
     distance,
     first_contact,
-    greatest_distance,
     is_free,
 )
 from ._tables import (
@@ -46,7 +45,6 @@ from ._tables import (
     contact_intervals,
     distances,
     first_contacts,
-    greatest_distances,
 )
 
 __all__ = [
@@ -73,7 +71,5 @@ __all__ = [
     "distances",
     "first_contact",
     "first_contacts",
-    "greatest_distance",
-    "greatest_distances",
     "is_free",
 ]

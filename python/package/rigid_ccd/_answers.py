@@ -35,7 +35,6 @@ class Contact:
 class Distance:
     """Bounds of the least distance of two bodies, to within the tolerance, or as narrow as a clearance requires.
 
-    For `greatest_distance` they bound the greatest distance: at `time` it is at least `lower`, and it never exceeds `upper`.
 
     Bodies may exceed their shapes by their `sticks_out`. Then the bounds are those of the shapes: what both bodies stick out
     by is in `upper`, and no clearance is "violated" by the bodies alone.

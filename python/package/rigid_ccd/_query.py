@@ -27,7 +27,7 @@ class TableQuery:
 
     Args:
         a, b: bodies, or the paths of mesh files or prepared bodies (`Body.save`), which each process reads.
-        ask: "first-contact", "is-free", "contact-interval", "closest-approach", "greatest-distance" or
+        ask: "first-contact", "is-free", "contact-interval", "closest-approach" or
             "distance".
         paths: a table with a column t is refused: a path that is cut in two has a stretch that nobody looks at. "whole"
             says that all rows of an id are in one table, as after a group-by.

@@ -26,7 +26,6 @@ __all__ = [
     "closest_approach",
     "distance",
     "first_contact",
-    "greatest_distance",
     "is_free",
     "write_pages",
 ]
@@ -203,14 +202,6 @@ def closest_approach(
     motion_b: _Course | None = None,
     duration: float | None = None,
     **settings: Unpack[_OfApproaches],
-) -> Distance: ...
-def greatest_distance(
-    a: Body,
-    b: Body,
-    motion_a: _Course | None = None,
-    motion_b: _Course | None = None,
-    duration: float | None = None,
-    **settings: Unpack[_OfDistances],
 ) -> Distance: ...
 def distance(
     a: Body,

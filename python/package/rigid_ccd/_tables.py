@@ -11,7 +11,7 @@ Motions: TypeAlias = Any
 """An Arrow table of any library, or a dict of arrays."""
 
 Ask: TypeAlias = Literal[
-    "first-contact", "is-free", "contact-interval", "closest-approach", "greatest-distance", "distance"
+    "first-contact", "is-free", "contact-interval", "closest-approach", "distance"
 ]
 
 
@@ -103,15 +103,6 @@ def closest_approaches(a: Body, b: Body, motions: Motions, **settings: Unpack[Di
     in `distance_upper`.
     """
     return answer("closest-approach", a, b, motions, **settings)
-
-
-def greatest_distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOfTables]) -> Table:
-    """Brackets the greatest distance in each row, to within the tolerance: at `time` it is at least `distance_lower`, and
-    it is never more than `distance_upper`.
-
-    Arguments and exceptions are those of `closest_approaches`, without a clearance.
-    """
-    return answer("greatest-distance", a, b, motions, **settings)
 
 
 def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOfTables]) -> Table:

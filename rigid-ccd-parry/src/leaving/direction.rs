@@ -71,11 +71,7 @@ fn direction_between_cores(
         .distance((a.body(), poses[0]), (b.body(), poses[1]))
         .ok()?;
     match found.outcome {
-        Outcome::Measured {
-            lower,
-            at: Some((_, contact)),
-            ..
-        } if lower > 0.0 => Some(contact.separation.normal),
+        Outcome::Measured { lower, contact, .. } if lower > 0.0 => Some(contact.separation.normal),
         _ => None,
     }
 }

@@ -16,20 +16,17 @@ pub enum Question {
     ContactInterval,
     /// How close do they come, and when?
     ClosestApproach,
-    /// How far apart do they get, and when?
-    GreatestDistance,
     /// How far apart are they at the start; of a path, in each row?
     Distance,
 }
 
 impl Question {
     /// All questions, in the order of the command's help.
-    pub const ALL: [Question; 6] = [
+    pub const ALL: [Question; 5] = [
         Question::FirstContact,
         Question::IsFree,
         Question::ContactInterval,
         Question::ClosestApproach,
-        Question::GreatestDistance,
         Question::Distance,
     ];
 
@@ -40,22 +37,13 @@ impl Question {
             Question::IsFree => "is-free",
             Question::ContactInterval => "contact-interval",
             Question::ClosestApproach => "closest-approach",
-            Question::GreatestDistance => "greatest-distance",
             Question::Distance => "distance",
         }
     }
 
     /// Returns whether the answer is a distance rather than a time of contact.
     pub fn is_for_a_distance(self) -> bool {
-        matches!(
-            self,
-            Question::ClosestApproach | Question::GreatestDistance | Question::Distance
-        )
-    }
-
-    /// Returns whether the answer is a distance that can be compared with a clearance.
-    pub fn is_for_a_clearance(self) -> bool {
-        self.is_for_a_distance() && self != Question::GreatestDistance
+        matches!(self, Question::ClosestApproach | Question::Distance)
     }
 
     /// Returns whether the answer has a single time at which all contacts can be listed.

@@ -109,7 +109,6 @@ fn page_context(args: &QueryArgs) -> Asked {
         (_, Question::IsFree) => Claim::Any,
         (_, Question::Distance) => Claim::Then,
         _ if leaves_start_contacts(args) => Claim::FirstLater,
-        (_, Question::GreatestDistance) => Claim::Farthest,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
             Claim::First
         }
@@ -156,11 +155,6 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
 /// Refuses options that do not apply to the question of `--ask`.
 fn check_question(args: &QueryArgs) -> Result<()> {
     let ask = args.ask;
-    if args.clearance.is_some() && ask == Question::GreatestDistance {
-        bail!(
-            "--clearance is a distance to keep; compare column distance_upper with one not to exceed"
-        );
-    }
     if args.clearance.is_some() && !ask.is_for_a_distance() {
         bail!(
             "--clearance needs --ask closest-approach or distance; --margin keeps a distance otherwise"
@@ -191,9 +185,6 @@ fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
     }
     if args.bound == Some(BoundKind::Published) {
         bail!("--check needs certified answers, which --bound published does not give");
-    }
-    if ask == Question::GreatestDistance {
-        bail!("--check has no use with --ask {ask}; compare column distance_upper");
     }
     if ask.is_for_a_distance() && args.clearance.is_none() {
         bail!(

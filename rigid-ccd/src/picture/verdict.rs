@@ -24,8 +24,6 @@ pub enum Claim {
     Any,
     /// The time at which the distance was measured.
     Then,
-    /// The time at which the distance is greatest.
-    Farthest,
     /// The time of the first contact by the published bound, which is no proof.
     Published,
     /// A time from a table of results, whose question and bound are unknown.
@@ -65,12 +63,6 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         }
         Status::Measured if asked.claim == Claim::Then => {
             format!("At {time}: {}.", describe_distance(row))
-        }
-        Status::Measured if asked.claim == Claim::Farthest => {
-            format!(
-                "Farthest at {time}: {}. Proven: never farther.",
-                describe_distance(row)
-            )
         }
         Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
         Status::Kept => match row.distance_upper {
@@ -142,7 +134,7 @@ fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
         (Claim::FirstLater, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
         ),
-        (Claim::Any | Claim::Then | Claim::Farthest, _) => {
+        (Claim::Any | Claim::Then, _) => {
             format!("{at} at {time}: {touching}. There may be an earlier one.")
         }
         (Claim::Published, _) => {

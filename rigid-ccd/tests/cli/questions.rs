@@ -147,17 +147,6 @@ fn a_clearance_that_is_decided_ends_the_search() {
 }
 
 #[test]
-fn the_greatest_distance_is_bracketed() {
-    for table in [PASSING_MOTION, "t,a_px\n0,-3\n0.5,-1.5\n1,4\n"] {
-        let row = only_row(&ask("greatest-distance", &BALLS, table));
-        assert_eq!(row.text("status"), "measured");
-        let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
-        assert!(lower <= upper && upper - lower <= 1e-3, "{lower} {upper}");
-        assert!(lower > 1.0 && [0.0, 1.0].contains(&row.number("time")));
-    }
-}
-
-#[test]
 fn the_distance_is_that_of_the_start() {
     let row = only_row(&ask("distance", &FALLING_CUBE, DROP));
     assert_eq!((row.text("status"), row.text("time")), ("measured", "0.0"));
@@ -281,10 +270,6 @@ fn options_without_a_use_are_refused() {
             "--clearance needs --ask closest-approach or distance",
         ),
         (
-            &["--ask", "greatest-distance", "--clearance", "1"],
-            "compare column distance_upper",
-        ),
-        (
             &["--ask", "distance", "--margin", "1"],
             "use --clearance instead of --margin",
         ),
@@ -310,7 +295,7 @@ fn options_without_a_use_are_refused() {
         ),
         (
             &["--ask", "nothing"],
-            "first-contact, is-free, contact-interval, closest-approach, greatest-distance, distance",
+            "first-contact, is-free, contact-interval, closest-approach, distance",
         ),
     ] {
         let message = Run::query(&FALLING_CUBE)
@@ -366,7 +351,6 @@ fn a_check_fails_unless_every_row_is_proven() {
     Run::query(&BALLS).args(&["--check"]).stdin(&two).ends(2);
     for (options, refusal) in [
         (&["--ask", "distance"][..], "--check needs --clearance"),
-        (&["--ask", "greatest-distance"], "--check has no use"),
         (
             &["--schedule", "fast", "--bound", "published"],
             "--check needs certified answers",

@@ -239,7 +239,7 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
 #[test]
 fn a_verdict_matches_the_question_and_the_proof() {
     let scene = Scene::new("view-claims");
-    let cases: [(&[&str], &str, &str); 9] = [
+    let cases: [(&[&str], &str, &str); 8] = [
         (
             &[],
             "First contact at 0.62",
@@ -274,11 +274,6 @@ fn a_verdict_matches_the_question_and_the_proof() {
             &["--ask", "closest-approach", "--clearance", "0.3"],
             "The clearance of 0.3 is violated: at 0.",
             " apart.",
-        ),
-        (
-            &["--ask", "greatest-distance"],
-            "Farthest at 0: between 2.49",
-            "Proven: never farther.",
         ),
         (&["--ask", "distance"], "At 0: between 2.49", "apart."),
     ];

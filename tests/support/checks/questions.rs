@@ -4,7 +4,7 @@ use super::{CheckResult, Judge, check_contact};
 use crate::law;
 use crate::query::Bodies;
 use crate::referee::Finding;
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::lesser;
 use ccd_core::{Answer, Clearance, Contact, Outcome};
 
 impl Judge<'_> {
@@ -39,10 +39,7 @@ impl Judge<'_> {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
-            Outcome::Measured {
-                at: Some((time, contact)),
-                ..
-            } => {
+            Outcome::Measured { time, contact, .. } => {
                 let least = self.least_sample();
                 law!(
                     lower <= least + rounding,
@@ -107,42 +104,6 @@ impl Judge<'_> {
             outcome.clearance(required) != Clearance::Unverified
                 || upper - lower <= answer.tolerance && upper <= required + answer.tolerance,
             "{required} is not verified within {lower} and {upper}"
-        );
-        Ok(())
-    }
-
-    /// Checks the bounds of a greatest distance. They are never below a sampled distance, never above that at the
-    /// given time, and no farther apart than the tolerance.
-    ///
-    /// # Errors
-    /// Describes how the answer is wrong.
-    pub fn check_greatest(&self, answer: &Answer) -> CheckResult {
-        let rounding = self.query.rounding();
-        let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
-        let Outcome::Measured { .. } = answer.outcome else {
-            return Err("unresolved".into());
-        };
-        if !self.nested {
-            let farthest = self.samples.iter().map(|sample| sample.1);
-            let farthest = farthest.fold(0.0, greater);
-            // Where bodies overlap, their surfaces may be apart.
-            let meets = !matches!(self.finding, Finding::Free { .. });
-            law!(
-                meets || farthest <= upper + rounding,
-                "upper {upper} is below the distance {farthest}"
-            );
-        }
-        if let Some(time) = answer.outcome.time() {
-            let gap = self.referee.gap(time);
-            law!(
-                gap >= lower - rounding,
-                "lower {lower} is above the distance {gap} at {time}"
-            );
-        }
-        law!(
-            upper - lower <= answer.tolerance,
-            "{lower} and {upper} are more than {} apart",
-            answer.tolerance
         );
         Ok(())
     }

@@ -37,11 +37,11 @@ impl LeastDistanceSearch {
     pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
         let best = self.best.ok_or(Beyond { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
-        Ok(Outcome::from_least_distance(
+        Ok(Outcome::Measured {
             lower,
-            problem.time(best.clock),
+            time: problem.time(best.clock),
             contact,
-        ))
+        })
     }
 
     pub(crate) fn unresolved_outcome(&self, problem: &Problem<'_>, limit: Limit) -> Outcome {

@@ -39,10 +39,9 @@ impl Required {
         // A finer tolerance may not be certified in f64.
         decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
         let outcome = match self.decision_for(near.outcome) {
-            Outcome::Measured {
-                at: Some((time, contact)),
-                ..
-            } if self.certainly_violating() > 0.0 => decision.decide_nearer(time, contact)?,
+            Outcome::Measured { time, contact, .. } if self.certainly_violating() > 0.0 => {
+                decision.decide_nearer(time, contact)?
+            }
             found => found,
         };
         let outcome = match outcome {
@@ -162,5 +161,9 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
 
 fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    Outcome::from_least_distance(lower, time, contact.cap_lower_bound(lower))
+    Outcome::Measured {
+        lower,
+        time,
+        contact: contact.cap_lower_bound(lower),
+    }
 }

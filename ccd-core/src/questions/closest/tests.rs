@@ -43,8 +43,8 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         match outcome {
             Outcome::Measured {
                 lower,
-                at: Some((time, contact)),
-                ..
+                time,
+                contact,
             } => {
                 let upper = outcome.upper();
                 assert!(upper - lower <= tolerance, "{number}: {outcome:?}");
@@ -232,11 +232,7 @@ fn bodies_at_rest_have_a_distance() {
         let found = distance(&problem, 0.0);
         let slack = 2.0 * problem.rounding;
         match outcome {
-            Outcome::Measured {
-                lower,
-                at: Some((_, contact)),
-                ..
-            } => {
+            Outcome::Measured { lower, contact, .. } => {
                 apart += 1;
                 let upper = contact.separation.upper;
                 assert!(lower <= found + slack && found <= upper * (1.0 + 1e-9) + slack);

@@ -55,7 +55,6 @@ Questions (--ask):
   is-free                   do they touch at all? `time` is that of any contact, found sooner
   contact-interval          when do they first touch, when last? Column `last_time` follows the others
   closest-approach          how close do they come, and when? Bounds to within --tolerance
-  greatest-distance         how far apart do they get, and when? Bounds to within --tolerance
   distance                  how far apart are they at the start; of paths, in each row?
 
 Table of results:
@@ -72,12 +71,12 @@ Table of results:
             unresolved      a limit was reached; no contact before `time`, not known after
             error           the row is not a valid query; most cells are empty
   time                      certified: no contact before it; from 0 to the duration; of a distance,
-                            when the bodies are nearest, or farthest apart
+                            when the bodies are nearest
   distance_lower, distance_upper
                             bounds of the distance at `time`; of closest-approach: distance_lower
-                            holds at all times; of greatest-distance: distance_upper; empty when
-                            `free`, which proves the margin alone. What bodies exceed their shape by
-                            is in distance_upper of a distance, not of a contact
+                            holds at all times; empty when `free`, which proves the margin alone. What
+                            bodies exceed their shape by is in distance_upper of a distance, not of
+                            a contact
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z
                             a pair of nearest points, world frame, at `time`

@@ -69,7 +69,7 @@ impl Status {
 
     /// Returns the status of an outcome. Distances are compared to `clearance`, if there is one.
     pub fn of(question: Question, outcome: &Outcome, clearance: Option<f64>) -> Self {
-        if let (true, Some(required)) = (question.is_for_a_clearance(), clearance) {
+        if let (true, Some(required)) = (question.is_for_a_distance(), clearance) {
             return match outcome.clearance(required) {
                 Clearance::Kept => Status::Kept,
                 Clearance::Violated => Status::Violated,

@@ -245,8 +245,8 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
 fn distances_are_compared_to_the_clearance() {
     let measured = |lower| Outcome::Measured {
         lower,
-        upper: contact().separation.upper,
-        at: Some((1.5, contact())),
+        time: 1.5,
+        contact: contact(),
     };
     let (nearest, at_zero) = (measured(0.05), measured(0.0));
     let unresolved = Outcome::Unresolved(Unresolved {

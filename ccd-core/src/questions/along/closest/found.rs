@@ -143,8 +143,8 @@ impl BestSoFar {
         match *outcome {
             Outcome::Measured {
                 lower,
-                at: Some((time, contact)),
-                ..
+                time,
+                contact,
             } => {
                 self.take(motions.time(time), motions.contact(contact));
                 seen.lower = lower;
@@ -180,7 +180,11 @@ impl BestSoFar {
             return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::from_least_distance(lower, time, contact.cap_lower_bound(lower));
+        let nearest = Outcome::Measured {
+            lower,
+            time,
+            contact: contact.cap_lower_bound(lower),
+        };
         self.answer(query, stretches, nearest)
     }
 
