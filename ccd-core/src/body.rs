@@ -1,6 +1,5 @@
 //! A rigid body: convex pieces, a tree over them, and whether they bound a solid.
 
-pub(crate) mod combination;
 pub(crate) mod excess;
 pub(crate) mod facets;
 pub(crate) mod facing;
@@ -24,7 +23,6 @@ pub(crate) mod tree;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::tuning::MIN_BOX_FILL;
-use combination::Combination;
 use feature::Feature;
 use feature_lookup::{face_at, prepare};
 use glam::DVec3;
@@ -33,7 +31,7 @@ use hierarchy::Hierarchy;
 use hull_tree::convex::support_of;
 #[cfg(feature = "hull-tree")]
 use hull_tree::{HullTree, HullTreeError};
-use piece::Piece;
+use piece::{Combination, Piece};
 use pieces::Pieces;
 use shell::{Shell, shells};
 use std::any::Any;

@@ -2,6 +2,7 @@
 //! what they claim.
 
 pub(crate) mod common_normals;
+pub(crate) mod containment;
 pub(crate) mod oracle;
 pub(crate) mod overlap;
 pub(crate) mod separation;

@@ -2,15 +2,13 @@
 //!
 //! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one at a time, in
 //! f64). `search.rs` has the steps of every search: the next waiting pair is proven apart for longer, or split.
-//! `best_first.rs` takes the pair of least clock from `queue.rs`, `depth_first.rs` the newest one from `stack.rs`.
-//! `proven.rs` keeps what is proven on the way. `start.rs` measures bodies in contact at the start, `nearest.rs` the
-//! bodies at one clock. `answer.rs` runs a search under the query's policy for the start, within the limits of
-//! `meter.rs`.
+//! `best_first.rs` takes the pair of least clock from `queue.rs`. `proven.rs` keeps what is proven on the way.
+//! `start.rs` measures bodies in contact at the start, `nearest.rs` the bodies at one clock. `answer.rs` runs a search
+//! under the query's policy for the start, within the limits of `meter.rs`.
 
 pub(crate) mod answer;
 pub(crate) mod best_first;
 pub(crate) mod capacity;
-pub(crate) mod depth_first;
 pub(crate) mod meter;
 pub(crate) mod nearest;
 pub(crate) mod nodes;
@@ -19,7 +17,4 @@ pub(crate) mod proven;
 pub(crate) mod queue;
 pub(crate) mod scratch;
 pub(crate) mod search;
-pub(crate) mod solve;
-pub(crate) mod stack;
 pub(crate) mod start;
-mod waiting;

@@ -106,12 +106,12 @@ pub use answer::{
     Answer, Clearance, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,
     Unresolved,
 };
-pub use body::combination::Combination;
 pub use body::facets::Facets;
 pub use body::feature::Feature;
 pub use body::hierarchy::{Hierarchy, HierarchyNode};
 #[cfg(feature = "hull-tree")]
 pub use body::hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, Loops};
+pub use body::piece::Combination;
 pub use body::piece::Piece;
 pub use body::pieces::Pieces;
 pub use body::polytope::{Face, Facet, Origin, Polytope};

@@ -10,7 +10,6 @@ pub(crate) mod pose;
 pub(crate) mod relative;
 pub(crate) mod track;
 pub(crate) mod trajectory;
-pub(crate) mod trig;
 
 use crate::error::InputError;
 use crate::math::vector::length;

@@ -15,6 +15,7 @@ use crate::shortcuts::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
 use glam::DVec3;
+use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -93,7 +94,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Creates the problem of two bodies whose centres may accelerate, for schedules that handle
-    /// [accelerations](crate::engine::solve::Solve::takes_accelerations).
+    /// [accelerations](crate::engine::answer::Solve::takes_accelerations).
     pub(crate) fn accelerated(
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
@@ -164,6 +165,13 @@ impl<'a> Problem<'a> {
     #[inline]
     pub(crate) fn uses(&self, shortcut: Shortcut) -> bool {
         self.shortcuts.has(shortcut)
+    }
+
+    /// Returns whether a body turns at least twice.
+    #[inline]
+    pub(crate) fn turns_many_times(&self) -> bool {
+        let turns = |side: &Side<'_>| side.path.rate >= 2.0 * TAU;
+        turns(&self.a) || turns(&self.b)
     }
 
     /// Returns piece `a` of A and piece `b` of B.

@@ -1,9 +1,11 @@
 //! Questions other than the first contact of two motions, each as a rule on the steps of a search.
 //!
-//! `any.rs` asks whether bodies touch at all, `closest.rs` how close they come. `steps.rs` searches for a first contact
-//! up to a time, and continues later. `along.rs` asks about bodies that move along trajectories.
+//! `any.rs` asks whether bodies touch at all, `closest.rs` how close they come; both search as
+//! `depth_first.rs` does. `steps.rs` searches for a first contact up to a time, and continues later. `along.rs` asks
+//! about bodies that move along trajectories.
 
 pub(crate) mod along;
 pub(crate) mod any;
 pub(crate) mod closest;
+pub(crate) mod depth_first;
 pub(crate) mod steps;

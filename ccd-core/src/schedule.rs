@@ -2,15 +2,15 @@
 
 use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::Solve;
 pub use crate::engine::best_first::BestFirst;
-pub use crate::engine::depth_first::DepthFirst;
-use crate::engine::solve::Solve;
 use crate::error::InputError;
 #[cfg(feature = "hull-tree")]
 pub use crate::paper::fast::Fast;
 pub use crate::paper::naive::Naive;
 use crate::query::Query;
 use crate::questions::along::first;
+pub use crate::questions::depth_first::DepthFirst;
 pub use crate::questions::steps::{FirstContact, Progress};
 pub use crate::shortcuts::{Shortcut, Shortcuts};
 

@@ -3,9 +3,7 @@
 //!
 //! The README of this folder has the scene that needs each of them, and what it saves there.
 
-pub(crate) mod approach;
-pub(crate) mod balls;
-pub(crate) mod boxes;
+pub(crate) mod bounding_volumes;
 pub(crate) mod closer_look;
 mod flat_nodes;
 mod placed;

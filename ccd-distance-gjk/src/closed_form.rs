@@ -7,13 +7,13 @@ mod pierce;
 mod tests;
 
 use crate::tolerance::{INTERSECTION_SHARE, MIN_CERTIFIED_SHARE};
-use axis::{Candidates, support_gap};
+use axis::Candidates;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
 use ccd_core::{
     Claim, Combination, DistanceOracle, GiveUp, Instructions, Piece, PiecePair, vectorize,
 };
-use nearest::{Corners, Nearest, nearest};
+use nearest::{Corners, Nearest, nearest, support_gap};
 
 /// An oracle for the distance of two points, segments or triangles in closed form, degenerate ones included.
 ///

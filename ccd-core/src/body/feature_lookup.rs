@@ -1,7 +1,7 @@
 //! Finds the mesh's vertex, edge or face that contains a point of a polytope.
 
-use super::combination::Combination;
 use super::facets::range;
+use super::piece::Combination;
 use super::piece::Piece;
 use super::polytope::Origin;
 use crate::math::order::greater;

@@ -19,9 +19,9 @@ pub use error::{HullFault, HullTreeError};
 pub use hull::{FacetClass, Hull, HullNode};
 pub use loops::Loops;
 
-use super::combination::Combination;
 use super::facets::range;
 use super::hierarchy::{Hierarchy, HierarchyNode};
+use super::piece::Combination;
 use super::piece::Piece;
 use super::pieces::Pieces;
 use convex::support_of;

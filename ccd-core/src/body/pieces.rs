@@ -5,10 +5,10 @@ pub(crate) mod builder;
 mod serial;
 mod unpack;
 
-use super::combination::Combination;
 use super::facets::{Facets, range};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
+use super::piece::Combination;
 use super::piece::{Piece, Slot};
 use super::polytope::{Face, Origin};
 use super::side_table::SideTable;

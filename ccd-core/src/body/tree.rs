@@ -3,7 +3,6 @@
 mod build;
 mod fit;
 mod group;
-mod node;
 pub(crate) mod point_query;
 pub(crate) mod ray;
 mod slab;
@@ -12,9 +11,8 @@ mod whole;
 
 pub(crate) use build::Layout;
 pub(crate) use group::{
-    BoxGroup, LANES, Members, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
+    Below, BoxGroup, LANES, Members, Node, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
 };
-pub(crate) use node::{Below, Node};
 pub(crate) use slab::Slab;
 pub(crate) use whole::BodyBox;
 

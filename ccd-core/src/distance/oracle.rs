@@ -1,7 +1,7 @@
 //! The interface of backends that compute the distance of two pieces.
 
 use crate::body::Body;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::motion::pose::Frame;
 use glam::DVec3;

@@ -3,7 +3,7 @@
 pub(crate) mod sharp;
 
 use super::oracle::{Claim, PiecePair};
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit_or_any};
 use glam::DVec3;

@@ -1,17 +1,16 @@
 //! Runs a search under the query's policy for contacts at the start.
 
-mod given;
-
 use super::meter::Meter;
 use super::scratch::Scratch;
 use super::start::at_start;
 use crate::answer::{Answer, Outcome, Stats};
+use crate::contacts::given::{contact_for_given_bodies, outcome_for_given_bodies};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
+use crate::shortcuts::rounds::Rounds;
 use crate::touching_plane::TouchingPlane;
-pub(crate) use given::{contact_for_given_bodies, outcome_for_given_bodies};
 
 /// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.
 ///
@@ -78,6 +77,20 @@ fn answer_under_policy<O: DistanceOracle>(
         )
     })
     .answer()
+}
+
+/// Searches a problem round by round if its motions are periodic, and as a whole otherwise.
+#[inline]
+pub(crate) fn in_rounds(
+    problem: &Problem<'_>,
+    meter: &mut Meter,
+    mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
+) -> Outcome {
+    let is_periodic = problem.turns_many_times();
+    match is_periodic.then(|| Rounds::for_problem(problem)).flatten() {
+        Some(rounds) => rounds.run(meter, search),
+        None => search(problem, meter),
+    }
 }
 
 /// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
@@ -154,4 +167,17 @@ pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f6
         }
         _ => problem.tolerance,
     }
+}
+
+/// A schedule as the engine calls it.
+pub(crate) trait Solve<O: DistanceOracle> {
+    /// Returns whether the schedule handles accelerations of the bodies' centres. Otherwise they count as deviations
+    /// from a straight path.
+    fn takes_accelerations(&self) -> bool;
+
+    /// Answers a query about the first contact of moving bodies.
+    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer;
+
+    /// Returns the scratch memory that is kept between queries.
+    fn scratch(&mut self) -> &mut Scratch;
 }

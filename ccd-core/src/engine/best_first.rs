@@ -1,16 +1,15 @@
 //! Best-first search: always examines the pair whose proof expires first.
 
-use super::answer::answer;
+use super::answer::{Solve, answer, in_rounds};
 use super::meter::Meter;
-use super::proven::{Proven, free_by_bounding_volumes};
+use super::proven::Proven;
 use super::queue::Queue;
 use super::scratch::Scratch;
 use super::search::{Advance, Item, Question, Search};
-use super::solve::Solve;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
-use crate::shortcuts::rounds::in_rounds;
+use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
 use std::ops::ControlFlow;
 
 /// The default schedule: a best-first search in order of time.

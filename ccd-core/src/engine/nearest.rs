@@ -8,7 +8,7 @@ use super::nodes::expand::measure;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
-use super::waiting::{QueueFull, Rank, Waiting};
+use super::queue::{QueueFull, Rank, Waiting};
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};

@@ -9,7 +9,5 @@ pub(crate) mod clock;
 pub(crate) mod common;
 pub(crate) mod eight_pairs;
 pub(crate) mod expand;
-mod free_times;
 pub(crate) mod shape;
 pub(crate) mod siblings;
-mod turn;

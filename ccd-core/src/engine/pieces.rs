@@ -2,10 +2,9 @@
 //!
 //! `pair.rs` decides about a pair. A `snapshot.rs` of the pair calls the oracle, and computes how long a plane keeps
 //! the pieces apart, by the `heights.rs` of their points. `level.rs` has the pieces that come to touch on the ground
-//! that the bodies rest on. A `meeting.rs` has the surfaces around the nearest points of the pieces.
+//! that the bodies rest on.
 
 pub(crate) mod heights;
 mod level;
-pub(crate) mod meeting;
 pub(crate) mod pair;
 pub(crate) mod snapshot;

@@ -2,22 +2,13 @@
 
 use super::meter::Meter;
 use super::pieces::pair::Step;
-use super::start::{containment_outcome, overlap_outcome, touching};
+use super::start::{overlap_outcome, touching};
 use crate::answer::{Contact, Limit, Outcome};
+use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::shortcuts::{Shortcut, balls, boxes};
 use std::ops::ControlFlow;
-
-/// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
-pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
-    let by_balls = problem.uses(Shortcut::Balls) && balls::keep_apart(problem);
-    let is_free = by_balls || problem.uses(Shortcut::Boxes) && boxes::keep_apart(problem);
-    is_free.then(|| Outcome::Free {
-        proven_gap: problem.proven_gap(),
-    })
-}
 
 /// The facts proven about the bodies as a whole, independent of pairs that still wait.
 #[derive(Debug, Default)]
@@ -68,7 +59,7 @@ impl Proven {
         // Bodies that are let go were examined when their contact was found.
         match problem.start {
             StartPolicy::Leave => None,
-            StartPolicy::Report => containment_outcome(problem, &[], &mut Vec::new()),
+            StartPolicy::Report => containment_at_start(problem, &[], &mut Vec::new()),
         }
     }
 

@@ -5,7 +5,7 @@ use super::nodes::common::NodeContext;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::{Pair, Step};
-use super::waiting::{QueueFull, Rank, Waiting};
+use super::queue::{QueueFull, Rank, Waiting};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;

@@ -1,13 +1,11 @@
 //! Handles bodies in contact at the start: measures their distance, or proves that they overlap.
 
-mod containment;
-
 use super::meter::Meter;
 use super::nearest::{Nearest, SearchEnd};
 use crate::answer::{Contact, Limit, Outcome, Overlap};
+use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
-use containment::Containment;
 
 /// Returns the outcome for bodies of which two pieces are in contact at the start: touching, with their distance, or
 /// overlapping.
@@ -58,26 +56,12 @@ fn measure_at_start<O: DistanceOracle>(
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
             let (pairs, pieces) = lists.touching();
-            containment_outcome(problem, pairs, pieces).or(touching)
+            containment_at_start(problem, pairs, pieces).or(touching)
         }
     };
     lists.clear();
     meter.scratch_memory().nearest = lists;
     outcome
-}
-
-/// Returns the outcome if one body is inside the other, or if that is undecided. No two pieces intersect; `touching`
-/// are the pairs without a separating axis, and `pieces` is scratch memory.
-pub(crate) fn containment_outcome(
-    problem: &Problem<'_>,
-    touching: &[[u32; 2]],
-    pieces: &mut Vec<u32>,
-) -> Option<Outcome> {
-    match containment::at_start(problem, touching, pieces) {
-        Containment::Inside(overlap) => Some(Outcome::overlapping(overlap)),
-        Containment::Outside => None,
-        Containment::Undecided => Some(Outcome::unresolved(0.0, Limit::Undecided)),
-    }
 }
 
 /// Returns the outcome for two pieces that overlap.

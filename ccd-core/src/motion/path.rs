@@ -4,7 +4,7 @@
 use super::Motion;
 use super::bound::Velocities;
 use super::pose::Frame;
-use super::trig::sin_cos;
+use super::track::sin_cos;
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use glam::{DMat3, DVec3};

@@ -1,8 +1,8 @@
 //! The motion of one body in the frame of another.
 
 use super::path::Path;
-use super::trig::sin_cos;
-use crate::math::packed::{Packed, PackedMatrix, Row, row, rows};
+use super::track::sin_cos;
+use crate::math::simd::{Packed, PackedMatrix, Row, row, rows};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 

@@ -8,15 +8,13 @@ mod reach;
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::answer;
+use crate::engine::answer::{Solve, answer, in_rounds};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::Proven;
 use crate::engine::scratch::Scratch;
-use crate::engine::solve::Solve;
 use crate::motion::bound::Bound;
 use crate::problem::Problem;
-use crate::shortcuts::rounds::in_rounds;
 use descent::Descent;
 use front::Front;
 use hull_pair::HullPair;

@@ -2,6 +2,7 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::answer::Solve;
 use crate::engine::answer::answer;
 use crate::engine::capacity::empty;
 use crate::engine::meter::Meter;
@@ -9,7 +10,6 @@ use crate::engine::pieces::pair::Pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::engine::proven::Proven;
 use crate::engine::scratch::Scratch;
-use crate::engine::solve::Solve;
 use crate::math::order::lesser;
 use crate::motion::bound::Bound;
 use crate::problem::{Problem, Side};

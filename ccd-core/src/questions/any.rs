@@ -2,18 +2,18 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::answer_in_any_order;
-use crate::engine::depth_first::DepthFirst;
+use crate::engine::answer::{answer_in_any_order, in_rounds};
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
-use crate::engine::proven::{Proven, free_by_bounding_volumes};
+use crate::engine::proven::Proven;
 use crate::engine::search::{Advance, Question, Search};
 use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::shortcuts::rounds::in_rounds;
+use crate::questions::depth_first::DepthFirst;
+use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {

@@ -2,18 +2,18 @@
 
 use super::along::first::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
+use crate::contacts::given::outcome_for_given_bodies;
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{
-    achieved_tolerance, outcome_for_given_bodies, problem_after_start_contact,
-};
+use crate::engine::answer::{achieved_tolerance, problem_after_start_contact};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
-use crate::engine::proven::{Proven, free_by_bounding_volumes};
+use crate::engine::proven::Proven;
 use crate::engine::search::{Question, Search};
 use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::settings::StartPolicy;
+use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
 use crate::shortcuts::closer_look::CloserLook;
 use crate::shortcuts::rounds::Rounds;
 use std::ops::ControlFlow;

@@ -5,7 +5,7 @@ mod distances;
 mod worst;
 
 use super::distance_rounding;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::body::pieces::Pieces;
 use crate::distance::oracle::{Claim, PiecePair};
 use crate::distance::separation;

@@ -3,8 +3,7 @@
 //! In f32 the rounding of the gap between two large plates is that of their size. For a finer tolerance all of their
 //! nodes would be split before a single pair of pieces is near enough. Their slabs are known in f64.
 
-use super::approach::Approach;
-use super::placed::Placed;
+use super::placed::{Approach, Placed};
 use crate::body::tree::{NodeId, NodeOrTriangle, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};

@@ -10,35 +10,15 @@
 use super::Shortcut;
 use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::engine::meter::Meter;
-use crate::engine::proven::free_by_bounding_volumes;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{PathWithReach, Period};
 use crate::problem::{Problem, Side};
 use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
 use crate::settings::StartPolicy;
+use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
 use crate::tuning::{MAX_PERIOD_SHARE, MAX_SCREW_DRIFT, PERIOD_CHANGE_SHARE};
-use std::f64::consts::TAU;
 use std::ops::ControlFlow;
-
-/// Searches a problem round by round if its motions are periodic, and as a whole otherwise.
-#[inline]
-pub(crate) fn in_rounds(
-    problem: &Problem<'_>,
-    meter: &mut Meter,
-    mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
-) -> Outcome {
-    let Some(mut rounds) = Rounds::for_problem(problem) else {
-        return search(problem, meter);
-    };
-    loop {
-        let outcome = search(&rounds.between_clocks(), meter);
-        match rounds.on_outcome(&outcome, meter) {
-            ControlFlow::Continue(()) => {}
-            ControlFlow::Break(outcome) => return outcome,
-        }
-    }
-}
 
 /// A problem with periodic motions, and what is proven of it so far.
 #[derive(Debug)]
@@ -69,10 +49,26 @@ impl<'a> Rounds<'a> {
     /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
-        if turns_many_times(problem) && free_by_bounding_volumes(problem).is_none() {
+        if problem.turns_many_times() && free_by_bounding_volumes(problem).is_none() {
             Rounds::for_many_turns(problem)
         } else {
             None
+        }
+    }
+
+    /// Searches round by round, until one of them has the outcome.
+    #[cold]
+    pub(crate) fn run(
+        mut self,
+        meter: &mut Meter,
+        mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
+    ) -> Outcome {
+        loop {
+            let outcome = search(&self.between_clocks(), meter);
+            match self.on_outcome(&outcome, meter) {
+                ControlFlow::Continue(()) => {}
+                ControlFlow::Break(outcome) => return outcome,
+            }
         }
     }
 
@@ -242,12 +238,6 @@ impl<'a> Rounds<'a> {
     }
 }
 
-#[inline]
-fn turns_many_times(problem: &Problem<'_>) -> bool {
-    let turns = |side: &Side<'_>| side.path.rate >= 2.0 * TAU;
-    turns(&problem.a) || turns(&problem.b)
-}
-
 /// A period that represents the whole duration, for questions about distances.
 #[derive(Debug)]
 pub(crate) struct Sample<'a> {
@@ -263,7 +253,7 @@ impl<'a> Sample<'a> {
     /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
-        if turns_many_times(problem) {
+        if problem.turns_many_times() {
             Sample::for_many_turns(problem)
         } else {
             None

@@ -3,7 +3,7 @@
 use super::*;
 use crate::answer::{Answer, Outcome};
 use crate::body::Body;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;

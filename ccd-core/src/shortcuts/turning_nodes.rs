@@ -12,7 +12,7 @@ use crate::engine::nodes::axis::Axis;
 use crate::engine::nodes::clock;
 use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
 use crate::engine::nodes::shape::{Children, OtherNode};
-use crate::math::lanes::{Vec3x8, splat};
+use crate::math::simd::{Vec3x8, splat};
 use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};

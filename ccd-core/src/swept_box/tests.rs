@@ -2,7 +2,7 @@
 //! larger than necessary.
 
 use super::*;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};

@@ -6,7 +6,7 @@ use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use crate::answer::Outcome;
 use crate::body::Body;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;

@@ -1,7 +1,7 @@
 //! Oracles for tests: a slow one for pieces of up to three points, and one that returns false claims.
 
 use super::nearest::{Triangle, nearest, point};
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, DistanceOracle, GiveUp, PiecePair};
 use crate::distance::separation::support_gap;
 use glam::DVec3;

@@ -5,7 +5,7 @@ use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
 use crate::answer::{Outcome, Unresolved};
 use crate::body::Body;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::math::order::lesser;
 use crate::math::vector::unit;
 use crate::motion::Motion;

@@ -4,7 +4,6 @@ use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal, splat};
 use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
-use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
 /// A unit vector and the support gap along it.
@@ -20,14 +19,6 @@ impl Axis {
         direction: DVec3::ZERO,
         gap: f64::NEG_INFINITY,
     };
-}
-
-/// Returns the support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by the length of `n`.
-#[inline(always)]
-pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
-    let [a, b, c] = p.map(|x| n.dot(x));
-    let [d, e, f] = q.map(|y| n.dot(y));
-    lesser(lesser(d, e), f) - greater(greater(a, b), c)
 }
 
 /// Candidates for the separating axis of two triangles, with the gaps along them.

@@ -3,10 +3,19 @@
 use crate::lanes::{Lanes3, clamp_unit, reciprocal, splat};
 use ccd_core::fearless_simd::{Level, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
 
 /// The corners of a triangle, a segment or a point; fewer than three repeat the last.
 pub(crate) type Corners = [DVec3; 3];
+
+/// Returns the support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by the length of `n`.
+#[inline(always)]
+pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
+    let [a, b, c] = p.map(|x| n.dot(x));
+    let [d, e, f] = q.map(|y| n.dot(y));
+    lesser(lesser(d, e), f) - greater(greater(a, b), c)
+}
 
 /// The nearest points of two triangles, by the weights of their corners.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 mod sample;
 
 use super::group::round_up_to_f32;
-use super::node::{Below, Node};
+use super::group::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};

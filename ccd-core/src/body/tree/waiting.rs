@@ -2,8 +2,7 @@
 
 use super::NodeId;
 
-/// A stack of nodes that allocates nothing unless the tree is deeper than any balanced one. It allocates nothing,
-/// unless the tree is deeper than any balanced one.
+/// A stack of nodes that allocates nothing unless the tree is deeper than any balanced one.
 pub(super) struct NodeStack {
     inline_nodes: [NodeId; INLINE_CAPACITY],
     count: usize,

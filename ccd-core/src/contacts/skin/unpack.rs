@@ -1,8 +1,8 @@
 //! Converts pieces to triangles with mesh numbers.
 
 use super::{Corner, Face, PointBits, Skin};
-use crate::body::combination::Combination;
 use crate::body::feature::Feature;
+use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;

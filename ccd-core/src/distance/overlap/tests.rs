@@ -2,7 +2,7 @@
 
 use super::{InnerPolytope, Intersection, intersects};
 use crate::body::Body;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{Claim, DistanceOracle, PiecePair};
 use crate::distance::separation;

@@ -1,7 +1,7 @@
 //! Improves the axis of a checked claim, from the features that contain the nearest points.
 
 use super::{Checked, support_gap};
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::PiecePair;
 use crate::math::vector::{across, unit};

@@ -3,7 +3,7 @@
 use super::sharp::sharpen;
 use super::*;
 use crate::body::Body;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::body::support::Support;
 use crate::distance::oracle::DistanceOracle;

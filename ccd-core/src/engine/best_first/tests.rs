@@ -3,8 +3,8 @@
 use super::*;
 use crate::answer::Unresolved;
 use crate::answer::{Contact, Stats};
-use crate::body::combination::Combination;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
+use crate::body::piece::Combination;
 use crate::body::{Body, Volume};
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::{greater, lesser};

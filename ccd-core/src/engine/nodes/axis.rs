@@ -1,7 +1,7 @@
 //! Finds separating axes of eight pairs of nodes at once.
 
 use super::shape::{Children, OtherNode};
-use crate::math::lanes::{TINY, Vec3x8, choose, splat};
+use crate::math::simd::{TINY, Vec3x8, choose, splat};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.

@@ -1,6 +1,6 @@
 //! Computes for how long gaps stay open, in f32.
 
-use crate::math::lanes::splat;
+use crate::math::simd::splat;
 use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 

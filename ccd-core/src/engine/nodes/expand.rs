@@ -2,14 +2,14 @@
 
 use super::bounds::{Bounds, bound};
 use super::common::NodeContext;
+use super::eight_pairs::BodyRotation;
 use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
-use super::turn::BodyRotation;
 use crate::body::tree::{
     Below, LANES, Members, Node, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
 };
 use crate::math::order::greater;
-use crate::math::packed::{Packed, PackedMatrix, as_vec3};
+use crate::math::simd::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{RelativeState, View};
 use crate::problem::{Side, Which};
 use crate::rounding::{REACH_F32, WAY_F32};

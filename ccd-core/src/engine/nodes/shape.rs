@@ -1,7 +1,7 @@
 //! The geometry of nodes, in the coordinates of the split group.
 
 use crate::body::tree::{BoxGroup, TriangleGroup};
-use crate::math::lanes::{TINY, Vec3x8, choose, load, splat};
+use crate::math::simd::{TINY, Vec3x8, choose, load, splat};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 

@@ -1,7 +1,7 @@
 //! The pairs that one split creates: they wait in the queue together, and are removed one by one.
 
+use super::bounds::FreeTimes;
 use super::expand::{Expansion, Split};
-use super::free_times::FreeTimes;
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::{Problem, Side, Which};

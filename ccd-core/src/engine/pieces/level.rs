@@ -45,8 +45,12 @@ impl Snapshot<'_> {
     ///
     /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
     /// between the faces there.
-    pub(crate) fn choose_plane(&self, ids: [u32; 2], from: DVec3) -> Option<PlaneContact> {
-        let plane = self.problem.touching.as_ref()?;
+    pub(crate) fn choose_plane(
+        &self,
+        plane: &TouchingPlane,
+        ids: [u32; 2],
+        from: DVec3,
+    ) -> Option<PlaneContact> {
         let resting = RESTING * self.problem.rounding;
         let of = |plane_body: Which| {
             let normal = self.plane_normal(plane_body)?;

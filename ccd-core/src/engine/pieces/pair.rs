@@ -3,7 +3,7 @@
 use super::level::PlaneContact;
 use super::snapshot::Snapshot;
 use crate::answer::{Contact, Separation};
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::distance::separation::Checked;
@@ -117,9 +117,9 @@ impl<C: Default + Clone> Pair<C> {
                 }
             }
             let level = || {
-                snapshot
-                    .choose_plane(ids, checked.witness_a)
-                    .map(Goal::PlaneContact)
+                let plane = problem.touching.as_ref()?;
+                let level = snapshot.choose_plane(plane, ids, checked.witness_a)?;
+                Some(Goal::PlaneContact(level))
             };
             let goal = match self.goal {
                 Goal::Apart => self
@@ -157,12 +157,13 @@ impl<C: Default + Clone> Pair<C> {
             free_time(snapshot, &checked, kept)
         };
         let step = step_after(s, free).or_else(|| {
+            let plane = problem.touching.as_ref()?;
             let began = if is_resting {
                 &Snapshot::new(problem, self.a, self.b, 0.0)
             } else {
                 snapshot
             };
-            let level = began.choose_plane(ids, checked.witness_a)?;
+            let level = began.choose_plane(plane, ids, checked.witness_a)?;
             self.goal = Goal::PlaneContact(level);
             step_after(s, snapshot.plane_time(&level, checked.witness_a))
         });

@@ -1,7 +1,7 @@
 //! Compares the queue with a sorted list.
 
 use super::Queue;
-use crate::engine::waiting::{Rank, Waiting};
+use crate::engine::queue::{Rank, Waiting};
 use crate::math::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;

@@ -2,9 +2,9 @@
 
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, GiveUp};
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;

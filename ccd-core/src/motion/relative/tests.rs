@@ -1,7 +1,7 @@
 //! Compares the relative motion with the frames of both bodies.
 
 use super::{RelativeState, View};
-use crate::math::packed::{Packed, PackedMatrix, rows};
+use crate::math::simd::{Packed, PackedMatrix, rows};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;

@@ -1,5 +1,7 @@
 //! Compares tracks with their defining formula, and three bounds with samples.
 
+mod sin_cos;
+
 use super::{Angle, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};

@@ -1,9 +1,9 @@
 //! Pairs of nodes of two hull trees.
 
 use crate::body::Body;
-use crate::body::combination::Combination;
 use crate::body::hierarchy::HierarchyNode;
 use crate::body::hull_tree::{FacetClass, HullTree};
+use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::Claim;
 use crate::problem::Problem;

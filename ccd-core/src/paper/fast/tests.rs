@@ -2,13 +2,13 @@
 
 use super::{BestFirst, Fast};
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
-use crate::body::combination::Combination;
 use crate::body::hull_tree::{Hull, HullNode, HullTree, Loops};
+use crate::body::piece::Combination;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
 use crate::distance::oracle::{Claim, GiveUp};
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;

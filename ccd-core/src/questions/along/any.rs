@@ -7,12 +7,12 @@ use super::motions::{Motions, Span};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::depth_first::DepthFirst;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::any::start_contact_as_any;
+use crate::questions::depth_first::DepthFirst;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {

@@ -7,7 +7,7 @@ use super::motions::{Motions, Span};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;

@@ -6,7 +6,7 @@ mod distances;
 
 use crate::answer::Outcome;
 use crate::body::Body;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::motion::Motion;

@@ -8,7 +8,7 @@ use crate::engine::meter::Meter;
 use crate::engine::nearest::{Nearest, SearchEnd};
 use crate::math::order::greater;
 use crate::problem::Problem;
-use crate::shortcuts::balls::{least_distance, nearest_clock};
+use crate::shortcuts::bounding_volumes::{least_distance, nearest_clock};
 use crate::tuning::{FOLLOW_ACCURACY, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 

@@ -10,9 +10,9 @@ use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::Step;
 use crate::engine::proven::Proven;
 use crate::engine::search::{Advance, Question, Search};
-use crate::engine::stack::Stack;
 use crate::math::order::lesser;
 use crate::problem::Problem;
+use crate::questions::depth_first::Stack;
 use crate::shortcuts::closer_look::CloserLook;
 use std::ops::ControlFlow;
 

@@ -6,9 +6,9 @@ mod required;
 
 use super::*;
 use crate::answer::Clearance;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, GiveUp};
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;

@@ -209,7 +209,7 @@ fn worst_views() {
         let arm = y - to.path.centre;
         let found = crate::vectorize!(level, level => {
             let seen = view.at(level, s);
-            let arm = crate::math::packed::Packed::new(level, arm);
+            let arm = crate::math::simd::Packed::new(level, arm);
             (seen.rotation * arm + seen.offset).unpacked()
         });
         let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));

@@ -1,3 +1,5 @@
+mod approach;
+
 use super::Placed;
 use crate::body::Body;
 use crate::body::polytope::Polytope;

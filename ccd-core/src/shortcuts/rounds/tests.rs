@@ -3,7 +3,7 @@
 use super::*;
 use crate::answer::Answer;
 use crate::body::Body;
-use crate::engine::solve::Solve;
+use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::query::Query;
@@ -15,6 +15,7 @@ use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, direction, distance, magnitude, rng, rotation, soup, within,
 };
 use glam::{DQuat, DVec3};
+use std::f64::consts::TAU;
 
 fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)

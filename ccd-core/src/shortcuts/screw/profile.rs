@@ -10,7 +10,7 @@ use super::super::placed::Placed;
 use super::outline::{LinearApproximation, Outline};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
-use crate::motion::trig::sin_cos;
+use crate::motion::track::sin_cos;
 use crate::rounding::{RATE_F64, TURNS_F64, profile_rounding};
 use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};

@@ -1,5 +1,6 @@
 //! Compares every gap, rate and free time in f32 with its value in f64 along the same axis.
 
+mod free_times;
 mod setting;
 mod shares;
 mod splits;
@@ -9,8 +10,8 @@ use super::*;
 use crate::body::tree::LANES;
 use crate::engine::nodes::axis::Axis;
 use crate::engine::nodes::clock;
-use crate::math::lanes::{Vec3x8, load};
 use crate::math::order::{greater, lesser};
+use crate::math::simd::{Vec3x8, load};
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tuning::{MAX_TURNING_PLANE_TIME, MUCH_LARGER_RATIO};

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::Body;
-use crate::body::combination::Combination;
+use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;

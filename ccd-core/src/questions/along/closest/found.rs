@@ -8,7 +8,7 @@ use crate::questions::along::motions::{Motions, Span};
 use crate::questions::along::stretches::Stretches;
 use crate::questions::closest::ladder::{Ladder, Rung};
 use crate::settings::Terms;
-use crate::shortcuts::balls::least_distance;
+use crate::shortcuts::bounding_volumes::least_distance;
 use crate::tuning::MIN_CUT_SHARE;
 
 impl Query<'_> {

@@ -4,9 +4,9 @@ use super::{Sample, Solid};
 use crate::body::tree::{
     Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
 };
+use crate::engine::nodes::eight_pairs::BodyRotation;
 use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
-use crate::engine::nodes::turn::BodyRotation;
 use crate::math::order::greater;
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};

@@ -7,8 +7,8 @@ use super::shares::{Shares, share_of_clock};
 use super::{AxisValues, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
-use crate::math::lanes::Vec3x8;
 use crate::math::order::greater;
+use crate::math::simd::Vec3x8;
 use crate::rounding::{
     ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_AXIS_F32, LEAST_BEND_F32, LEAST_GAP_F32, U32,
 };

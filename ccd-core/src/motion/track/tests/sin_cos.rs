@@ -1,6 +1,6 @@
-use super::sin_cos;
 use crate::limits::MAX_TURN;
 use crate::math::order::greater;
+use crate::motion::track::sin_cos;
 use crate::rounding::U64;
 use crate::tests::double::Double;
 use crate::tests::worst::{Worst, share};

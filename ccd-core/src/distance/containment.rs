@@ -2,7 +2,7 @@
 
 mod beside;
 
-use crate::answer::Overlap;
+use crate::answer::{Limit, Outcome, Overlap};
 use crate::body::Body;
 use crate::body::shell::Shell;
 use crate::body::tree::point_query::is_clear;
@@ -14,19 +14,9 @@ use crate::rounding::INSIDE;
 use beside::beside_edges;
 use glam::DVec3;
 
-/// Whether one body is inside the other, if no two pieces intersect.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Containment {
-    /// A point of one body is inside the other's solid; the proof names the point.
-    Inside(Overlap),
-    /// No tested point of either body is inside the other.
-    Outside,
-    /// Some tested point could not be decided.
-    Undecided,
-}
-
-/// Decides whether a point of one body is inside the other body's solid at the start. `touching` are the pairs of
-/// pieces without a separating axis; no pair intersects. The list `pieces` is scratch memory.
+/// Returns the outcome if a point of one body is inside the other body's solid at the start, or if that is undecided.
+/// `touching` are the pairs of pieces without a separating axis; no pair intersects. The list `pieces` is scratch
+/// memory.
 ///
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. If none is found, the following parts
@@ -43,13 +33,13 @@ pub(crate) enum Containment {
 /// holds for a part within a thousandth of an edge's length from that edge.
 ///
 /// O((parts + pairs that touch) · log n) where rays meet few triangles.
-pub(crate) fn at_start(
+pub(crate) fn containment_at_start(
     problem: &Problem<'_>,
     touching: &[[u32; 2]],
     pieces: &mut Vec<u32>,
-) -> Containment {
+) -> Option<Outcome> {
     if !(problem.a.body.may_be_hollow() || problem.b.body.may_be_hollow()) {
-        return Containment::Outside;
+        return None;
     }
     let (a, b) = (Placed::of(&problem.a), Placed::of(&problem.b));
     let reach = INSIDE * problem.rounding;
@@ -67,11 +57,12 @@ pub(crate) fn at_start(
         }
     };
     let result = [look(&b, &a, 0), look(&a, &b, 1)];
+    let inside = |overlap| Some(Outcome::overlapping(overlap));
     match result {
-        [TestResult::Inside(p), _] => Containment::Inside(Overlap::AInsideB(problem.world(p))),
-        [_, TestResult::Inside(p)] => Containment::Inside(Overlap::BInsideA(problem.world(p))),
-        [TestResult::Nothing, TestResult::Nothing] => Containment::Outside,
-        _ => Containment::Undecided,
+        [TestResult::Inside(p), _] => inside(Overlap::AInsideB(problem.world(p))),
+        [_, TestResult::Inside(p)] => inside(Overlap::BInsideA(problem.world(p))),
+        [TestResult::Nothing, TestResult::Nothing] => None,
+        _ => Some(Outcome::unresolved(0.0, Limit::Undecided)),
     }
 }
 

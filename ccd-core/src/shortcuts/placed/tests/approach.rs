@@ -1,13 +1,12 @@
 //! Compares rates and second derivatives of two triangles with double-double arithmetic.
 
-use super::Approach;
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{Problem, Side};
 use crate::rounding::RATE_F64;
 use crate::settings::Settings;
-use crate::shortcuts::placed::Placed;
+use crate::shortcuts::placed::{Approach, Placed};
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{Tape, Worst, share};

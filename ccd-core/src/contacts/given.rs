@@ -1,10 +1,10 @@
 //! Translates answers about the surfaces of convex bodies to the pieces that these surfaces bound.
 
+use super::meeting::SurroundingSurfaces;
 use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::meeting::SurroundingSurfaces;
 use crate::engine::pieces::pair;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::order::{greater, lesser};

@@ -1,8 +1,8 @@
 //! The surfaces of two bodies around the nearest points of two pieces.
 
-use super::snapshot::Snapshot;
 use crate::distance::common_normals::CommonNormals;
 use crate::engine::meter::Meter;
+use crate::engine::pieces::snapshot::Snapshot;
 use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 

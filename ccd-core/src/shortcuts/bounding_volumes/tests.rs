@@ -1,13 +1,12 @@
 //! Tests that bodies proven apart by balls or boxes keep the gap at sampled times, and that two spheres are proven
 //! apart exactly if they keep it.
 
-use super::keep_apart;
+use super::{balls_keep_apart, boxes_keep_apart};
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
-use crate::shortcuts::boxes;
 use crate::tests::scene::{
     Passage, RngExt, SoupKind, body, direction, distance, magnitude, rng, rotation, soup, within,
 };
@@ -15,12 +14,12 @@ use glam::DVec3;
 
 #[test]
 fn bodies_told_apart_by_balls_keep_their_gap_at_all_sampled_times() {
-    told_apart_keep_their_gap(keep_apart);
+    told_apart_keep_their_gap(balls_keep_apart);
 }
 
 #[test]
 fn bodies_told_apart_by_boxes_keep_their_gap_at_all_sampled_times() {
-    told_apart_keep_their_gap(boxes::keep_apart);
+    told_apart_keep_their_gap(boxes_keep_apart);
 }
 
 fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
@@ -93,7 +92,7 @@ fn balls_are_told_apart_up_to_the_gap() {
                 1.0,
                 &config,
             );
-            assert_eq!(keep_apart(&problem.unwrap()), expected);
+            assert_eq!(balls_keep_apart(&problem.unwrap()), expected);
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Compares free times with a sorted list.
 
-use super::{FreeTimes, LANE_BITS};
 use crate::body::tree::LANES;
-use crate::math::lanes::load;
+use crate::engine::nodes::bounds::{FreeTimes, LANE_BITS};
+use crate::math::simd::load;
 use crate::settings::Instructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use crate::vectorize;

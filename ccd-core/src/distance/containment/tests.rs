@@ -1,7 +1,7 @@
 //! Tests the inside and outside of solids, points on the surface, and nested shells.
 
-use super::{Containment, at_start};
-use crate::answer::Overlap;
+use super::containment_at_start;
+use crate::answer::{Limit, Outcome, Overlap};
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
@@ -20,16 +20,16 @@ fn solid(triangles: &[Triangle]) -> Body {
 
 fn contained(a: &Body, b: &Body) -> Option<Overlap> {
     match touching_at_start(a, b, &[]) {
-        Containment::Inside(overlap) => Some(overlap),
-        Containment::Outside => None,
-        Containment::Undecided => panic!("too near to tell"),
+        Some(Outcome::Overlapping { overlap, .. }) => Some(overlap),
+        None => None,
+        found => panic!("too near to tell: {found:?}"),
     }
 }
 
-fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Containment {
+fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Option<Outcome> {
     let moving = |body| Moving::from((body, Motion::still(Pose::IDENTITY)));
     let problem = Problem::about(moving(a), moving(b), 1.0, &Settings::DEFAULT).unwrap();
-    at_start(&problem, touching, &mut Vec::new())
+    containment_at_start(&problem, touching, &mut Vec::new())
 }
 
 fn contains(body: &Body, point: DVec3) -> Option<bool> {
@@ -149,9 +149,9 @@ fn a_part_on_the_surface_is_left_to_its_pieces() {
     let cube = solid(&cube(1.0, 1));
     let all: Vec<[u32; 2]> = (0..cube.pieces().len() as u32).map(|k| [0, k]).collect();
     let found = touching_at_start(&triangle, &cube, &all);
-    assert_eq!(found, Containment::Outside);
+    assert_eq!(found, None);
     let found = touching_at_start(&triangle, &cube, &[]);
-    assert_eq!(found, Containment::Undecided);
+    assert_eq!(found, Some(Outcome::unresolved(0.0, Limit::Undecided)));
 }
 
 #[test]
@@ -213,11 +213,14 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let found = |sheet: &Body| touching_at_start(&solid, sheet, &touching);
     assert!(matches!(
         found(&sheet),
-        Containment::Inside(Overlap::BInsideA(_))
+        Some(Outcome::Overlapping {
+            overlap: Overlap::BInsideA(_),
+            ..
+        })
     ));
     // A triangle that rests on a tip is not inside.
     let above = Body::new(&pieces(&moved(&[plate], DVec3::Z)), Volume::Surface).unwrap();
-    assert_eq!(found(&above), Containment::Outside);
+    assert_eq!(found(&above), None);
 }
 
 /// Tests a case that the fuzz target `query` found: no face meets the needle but at an edge, and its end is inside.
@@ -235,7 +238,10 @@ fn a_lone_needle_through_an_edge_is_inside() {
     assert_eq!(touching.len(), 2);
     assert!(matches!(
         touching_at_start(&solid(&cube), &needle, &touching),
-        Containment::Inside(Overlap::BInsideA(_))
+        Some(Outcome::Overlapping {
+            overlap: Overlap::BInsideA(_),
+            ..
+        })
     ));
 }
 
@@ -253,7 +259,7 @@ fn points_near_very_long_faces_are_decided() {
 }
 
 /// Tests a plate along the plane y = 0, so thin that no face proves an intersection; x and z are its half extents.
-fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
+fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Option<Outcome> {
     let cube = solid(&cube(1.0, n));
     let plate = Body::cuboid([x, 1e-33, z]).unwrap();
     let problem = Problem::about(
@@ -264,7 +270,7 @@ fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
     )
     .unwrap();
     let touching: Vec<[u32; 2]> = (0..cube.pieces().len() as u32).map(|k| [0, k]).collect();
-    at_start(&problem, &touching, &mut Vec::new())
+    containment_at_start(&problem, &touching, &mut Vec::new())
 }
 
 #[test]
@@ -272,11 +278,11 @@ fn a_thin_piece_is_examined_at_its_corners() {
     // The middle of the plate is outside, and half of its corners are inside.
     let found = plate_in_cube(1, 1.5 * DVec3::X, [1.5, 0.25]);
     assert!(
-        matches!(found, Containment::Inside(Overlap::AInsideB(p)) if p.x == 0.0),
+        matches!(found, Some(Outcome::Overlapping { overlap: Overlap::AInsideB(p), .. }) if p.x == 0.0),
         "{found:?}"
     );
     let beside = plate_in_cube(1, 3.0 * DVec3::X, [1.5, 0.25]);
-    assert_eq!(beside, Containment::Outside);
+    assert_eq!(beside, None);
 }
 
 #[test]
@@ -284,11 +290,11 @@ fn a_thin_piece_is_examined_beside_edges_on_it() {
     // All corners of the plate are outside, and so is its middle: two faces of the cube meet on it.
     let found = plate_in_cube(2, 2.0 * DVec3::X, [2.5, 3.0]);
     assert!(
-        matches!(found, Containment::Inside(Overlap::AInsideB(p)) if p.abs().max_element() < 1.0),
+        matches!(found, Some(Outcome::Overlapping { overlap: Overlap::AInsideB(p), .. }) if p.abs().max_element() < 1.0),
         "{found:?}"
     );
     let beside = plate_in_cube(2, 4.0 * DVec3::X, [2.5, 3.0]);
-    assert_eq!(beside, Containment::Outside);
+    assert_eq!(beside, None);
 }
 
 /// Tests that thick pieces, and pieces without a known outline, are not tested beside edges. A piece without known
@@ -301,10 +307,7 @@ fn only_thin_pieces_are_examined_beside_edges() {
         let (a, b) = ((&cube, Motion::STILL), (&piece, motion));
         let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let mut pieces = Vec::new();
-        assert_eq!(
-            at_start(&problem, &[[0, 0]], &mut pieces),
-            Containment::Outside
-        );
+        assert_eq!(containment_at_start(&problem, &[[0, 0]], &mut pieces), None);
         pieces
     };
     // The prism is aside of the origin, and no corner of a facet is opposite to another one.

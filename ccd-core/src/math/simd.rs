@@ -1,0 +1,318 @@
+//! Vectors in registers: eight in f32, one for every child of a group, or one in f64; and the choice of the
+//! instructions for them at run time.
+
+use crate::rounding::LEAST_AXIS_F32;
+use crate::settings::Instructions;
+use fearless_simd::{
+    ExtractToken, Level, Simd, SimdBase, SimdNarrow, SimdSplit, f32x4, f32x8, f64x4, mask32x8,
+    prelude::*,
+};
+use glam::{DMat3, DVec3, Vec3};
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// The least positive normal number, which replaces zero in divisors.
+pub(crate) const TINY: f32 = f32::MIN_POSITIVE;
+
+/// Eight vectors of three coordinates in f32.
+#[derive(Clone, Copy)]
+pub(crate) struct Vec3x8<L: Simd> {
+    pub(crate) x: f32x8<L>,
+    pub(crate) y: f32x8<L>,
+    pub(crate) z: f32x8<L>,
+}
+
+impl<L: Simd> Vec3x8<L> {
+    #[inline(always)]
+    pub(crate) fn splat(level: L, v: Vec3) -> Self {
+        Vec3x8 {
+            x: f32x8::splat(level, v.x),
+            y: f32x8::splat(level, v.y),
+            z: f32x8::splat(level, v.z),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(level: L, rows: &[[f32; 8]; 3]) -> Self {
+        let [x, y, z] = rows;
+        Vec3x8 {
+            x: load(level, x),
+            y: load(level, y),
+            z: load(level, z),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn level(&self) -> L {
+        self.x.token()
+    }
+
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Self) -> f32x8<L> {
+        self.x * other.x + (self.y * other.y + self.z * other.z)
+    }
+
+    #[inline(always)]
+    pub(crate) fn length(self) -> f32x8<L> {
+        self.dot(self).sqrt()
+    }
+
+    #[inline(always)]
+    pub(crate) fn cross(self, other: Self) -> Self {
+        Vec3x8 {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    /// Returns the unit vectors along eight vectors. A vector that is too short to have one in f32 gives zero, and
+    /// along zero there is no gap.
+    #[inline(always)]
+    pub(crate) fn unit(self) -> Self {
+        self * self.reciprocal_length()
+    }
+
+    /// Returns the reciprocals of the lengths; zero for a vector that is too short to have one in f32.
+    #[inline(always)]
+    pub(crate) fn reciprocal_length(self) -> f32x8<L> {
+        let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));
+        let length = self.length();
+        length.simd_gt(LEAST_AXIS_F32).select(one / length, zero)
+    }
+}
+
+impl<L: Simd> Add for Vec3x8<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Vec3x8 {
+            x: self.x + other.x,
+            y: self.y + other.y,
+            z: self.z + other.z,
+        }
+    }
+}
+
+impl<L: Simd> Sub for Vec3x8<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Vec3x8 {
+            x: self.x - other.x,
+            y: self.y - other.y,
+            z: self.z - other.z,
+        }
+    }
+}
+
+impl<L: Simd> Mul<f32x8<L>> for Vec3x8<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f32x8<L>) -> Self {
+        Vec3x8 {
+            x: self.x * factor,
+            y: self.y * factor,
+            z: self.z * factor,
+        }
+    }
+}
+
+#[inline(always)]
+pub(crate) fn splat<L: Simd>(level: L, x: f32) -> f32x8<L> {
+    f32x8::splat(level, x)
+}
+
+#[inline(always)]
+pub(crate) fn load<L: Simd>(level: L, row: &[f32; 8]) -> f32x8<L> {
+    (*row).simd_into(level)
+}
+
+/// Selects vectors of `a` where the mask is set, and vectors of `b` elsewhere.
+#[inline(always)]
+pub(crate) fn choose<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
+    Vec3x8 {
+        x: mask.select(a.x, b.x),
+        y: mask.select(a.y, b.y),
+        z: mask.select(a.z, b.z),
+    }
+}
+
+/// Three coordinates in memory, and an unused fourth number.
+pub(crate) type Row = [f64; 4];
+
+/// A vector in one register.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Packed<L: Simd>(f64x4<L>);
+
+/// A matrix, stored by columns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PackedMatrix<L: Simd>([Packed<L>; 3]);
+
+/// Extends a vector by an unused fourth number.
+pub(crate) fn row(v: DVec3) -> Row {
+    [v.x, v.y, v.z, 0.0]
+}
+
+/// Returns the columns of a matrix, each with an unused fourth number.
+pub(crate) fn rows(m: DMat3) -> [Row; 3] {
+    [row(m.x_axis), row(m.y_axis), row(m.z_axis)]
+}
+
+impl<L: Simd> Packed<L> {
+    #[inline(always)]
+    pub(crate) fn new(level: L, v: DVec3) -> Self {
+        Packed::load(level, &row(v))
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(level: L, row: &Row) -> Self {
+        Packed((*row).simd_into(level))
+    }
+
+    #[inline(always)]
+    pub(crate) fn unpacked(self) -> DVec3 {
+        DVec3::new(self.0[0], self.0[1], self.0[2])
+    }
+
+    /// Rounds the vector to f32, in a register.
+    #[inline(always)]
+    pub(crate) fn narrow(self) -> f32x4<L> {
+        self.0.narrow(self.0).split().0
+    }
+
+    /// Rounds the vector to f32.
+    #[inline(always)]
+    pub(crate) fn as_vec3(self) -> Vec3 {
+        as_vec3(self.narrow())
+    }
+}
+
+#[inline(always)]
+pub(crate) fn as_vec3<L: Simd>(v: f32x4<L>) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
+
+impl<L: Simd> PackedMatrix<L> {
+    #[inline(always)]
+    pub(crate) fn new(columns: [Packed<L>; 3]) -> Self {
+        PackedMatrix(columns)
+    }
+
+    /// Rounds the columns of the matrix to f32.
+    #[inline(always)]
+    pub(crate) fn narrow(&self) -> [f32x4<L>; 3] {
+        let [x, y, z] = self.0;
+        [x.narrow(), y.narrow(), z.narrow()]
+    }
+}
+
+impl<L: Simd> Add for Packed<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Packed(self.0 + other.0)
+    }
+}
+
+impl<L: Simd> Sub for Packed<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Packed(self.0 - other.0)
+    }
+}
+
+impl<L: Simd> Neg for Packed<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Packed(-self.0)
+    }
+}
+
+impl<L: Simd> Mul<f64> for Packed<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Packed(self.0 * f64x4::splat(self.0.token(), factor))
+    }
+}
+
+impl<L: Simd> Mul<Packed<L>> for PackedMatrix<L> {
+    type Output = Packed<L>;
+    #[inline(always)]
+    fn mul(self, v: Packed<L>) -> Packed<L> {
+        let [x, y, z] = self.0;
+        x * v.0[0] + y * v.0[1] + z * v.0[2]
+    }
+}
+
+impl<L: Simd> Mul for PackedMatrix<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let [x, y, z] = other.0;
+        PackedMatrix([self * x, self * y, self * z])
+    }
+}
+
+impl Instructions {
+    /// Converts the choice to the form that [`vectorize!`](crate::vectorize) takes.
+    #[doc(hidden)]
+    pub fn level(self) -> Level {
+        match self {
+            Instructions::Best => Level::new(),
+            Instructions::Baseline => Level::baseline(),
+        }
+    }
+}
+
+/// Evaluates an expression with the best useful vector instructions: AVX2 or SSE2 on x86, the only ones elsewhere. All
+/// functions called by the expression, closures included, have to be `#[inline(always)]`: others are compiled for the
+/// oldest machine.
+///
+/// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every further level is
+/// another copy of the code.
+///
+/// This is for the distance backends of this project, and no stable interface.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! vectorize {
+    (@with $token:expr, $name:ident => $value:expr) => {{
+        use $crate::fearless_simd::Simd as _;
+        let $name = $token;
+        $name.vectorize(
+            #[inline(always)]
+            || $value,
+        )
+    }};
+    ($level:expr, $token:ident => $value:expr) => {{
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            match $level.as_avx2() {
+                Some(avx2) => $crate::vectorize!(@with avx2, $token => $value),
+                None => {
+                    let sse2 = $level.as_sse2().expect("an x86 target with SSE2");
+                    $crate::vectorize!(@with sse2, $token => $value)
+                }
+            }
+        }
+        #[cfg(target_arch = "aarch64")]
+        {
+            let neon = $level.as_neon().expect("64-bit ARM with NEON");
+            $crate::vectorize!(@with neon, $token => $value)
+        }
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64")))]
+        {
+            $crate::fearless_simd::dispatch!($level, $token => $value)
+        }
+    }};
+}
+
+#[cfg(all(
+    any(target_arch = "x86", target_arch = "x86_64"),
+    not(target_feature = "sse2")
+))]
+compile_error!(
+    "ccd-core needs SSE2 on x86; build for a target that has it, such as i686 instead of i586"
+);

@@ -1,0 +1,153 @@
+//! Proves bodies apart that are far from each other all the time: by two balls on straight paths, or by one fixed plane
+//! between two boxes.
+//!
+//! A path with a constant acceleration is within an eighth of that acceleration from the straight path between its
+//! ends.
+
+use super::Shortcut;
+use super::placed::{Approach, Placed, straight};
+use crate::answer::Outcome;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::problem::{Problem, Side};
+use crate::rounding::RATE_F64;
+use crate::tuning::BOX_PROJECTIONS;
+use glam::DVec3;
+
+/// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
+pub(crate) fn free_by_bounding_volumes(problem: &Problem<'_>) -> Option<Outcome> {
+    let by_balls = problem.uses(Shortcut::Balls) && balls_keep_apart(problem);
+    let is_free = by_balls || problem.uses(Shortcut::Boxes) && boxes_keep_apart(problem);
+    is_free.then(|| Outcome::Free {
+        proven_gap: problem.proven_gap(),
+    })
+}
+
+/// Returns whether bounding balls prove the bodies farther apart than the contact distance at all times.
+///
+/// Most pairs of a simulation or of a plan are proven apart by this test, in a few tens of nanoseconds.
+///
+/// # Guarantee
+/// The result is true only for bodies that are never in contact, up to the tolerance.
+fn balls_keep_apart(problem: &Problem<'_>) -> bool {
+    // Written so that NaN is within reach.
+    least_distance(problem) > problem.contact_distance()
+}
+
+/// Returns a lower bound of the distance of the bodies at all times, by bounding balls; negative if the balls meet.
+pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
+    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
+    let distance =
+        least_length(b.centre - a.centre, b.velocity - a.velocity) - deviation_from_line(problem);
+    // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
+    // the rounding of this distance, too.
+    distance - a.radius - b.radius - 2.0 * problem.rounding
+}
+
+/// Returns how far the vector between the balls' centres may be off a linear function of time, because of
+/// accelerations.
+fn deviation_from_line(problem: &Problem<'_>) -> f64 {
+    0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
+}
+
+/// Returns the clock at which the bounding balls are nearest to each other.
+pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
+    let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
+    least_at(b.centre - a.centre, b.velocity - a.velocity)
+}
+
+/// A ball on a straight path that contains a body at all times.
+struct Ball {
+    /// The position of the centre at the start.
+    centre: DVec3,
+    velocity: DVec3,
+    radius: f64,
+}
+
+impl Ball {
+    fn around_body(side: &Side<'_>) -> Self {
+        let (centre, radius) = side.body.tree().bounding_ball();
+        let path = &side.path;
+        // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
+        let turned = match path.rate {
+            rate if rate < 2.0 => rate,
+            _ => 2.0,
+        };
+        Ball {
+            centre: path.start_of(centre),
+            velocity: path.velocity + 0.5 * path.acceleration,
+            radius: radius + turned * centre.distance(path.centre),
+        }
+    }
+}
+
+/// Returns the least length of `from + s · change` over `s` from 0 to 1.
+fn least_length(from: DVec3, change: DVec3) -> f64 {
+    length(from + change * least_at(from, change))
+}
+
+/// Returns the `s` from 0 to 1 at which `from + s · change` is shortest.
+fn least_at(from: DVec3, change: DVec3) -> f64 {
+    let square = change.length_squared();
+    if square > 0.0 {
+        (-from.dot(change) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// Returns whether one fixed plane separates both bounding boxes by more than the contact distance for the whole
+/// duration. The plane is perpendicular to the offset between the boxes' nearest points, to the offset between their
+/// centres when these pass each other, or to an axis of a box.
+///
+/// # Guarantee
+/// The result is true only for bodies that are never in contact, up to the tolerance, nor inside each other.
+fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
+    let whole = |side: &Side<'_>| side.body.tree().piece(0).is_some();
+    // The search proves two single pieces apart as fast by itself.
+    if whole(&problem.a) && whole(&problem.b) {
+        return false;
+    }
+    let [a, b] = [&problem.a, &problem.b].map(|side| Placed::body_box(side, 0.0));
+    // Repeated projection from one box to the other converges to the nearest points.
+    let (mut on_a, mut on_b) = (a.centre, b.centre);
+    for _ in 0..BOX_PROJECTIONS {
+        on_a = a.project(on_b);
+        on_b = b.project(on_a);
+    }
+    let nearest = unit(on_b - on_a);
+    let passing = unit(offset_at_closest_approach(problem, [&a, &b]));
+    let ways = [nearest, passing].into_iter().flatten();
+    // Between adjacent faces the offset is mostly rounding, but it is perpendicular to the faces.
+    let along = ways
+        .clone()
+        .flat_map(|way| [&a, &b].map(|whole| whole.axis_along(way)));
+    ways.chain(along)
+        .any(|n| plane_keeps_apart(problem, [&a, &b], n))
+}
+
+/// Returns the vector between the centres when they are nearest, if they keep their velocities at the start.
+fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
+    let way = b.centre - a.centre;
+    let velocity =
+        problem.b.path.velocity_at(b.centre, 0.0) - problem.a.path.velocity_at(a.centre, 0.0);
+    let nearest = -way.dot(velocity) / velocity.length_squared();
+    // Without a velocity there is no such time.
+    way + velocity * greater(0.0, lesser(nearest, 1.0))
+}
+
+/// Returns whether a fixed plane perpendicular to a unit vector keeps the boxes apart.
+fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3) -> bool {
+    let gap = n.dot(b.centre - a.centre) - a.extent_along(n) - b.extent_along(-n);
+    let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;
+    // Written so that NaN proves nothing. Most planes fail at the first two conditions, which cost the least: no bound
+    // of the approach is below that of the centres, unless the bodies accelerate away from each other.
+    let away = problem.a.path.acceleration - problem.b.path.acceleration;
+    let of_centres = straight(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
+    excess > 0.0
+        && of_centres <= excess
+        && Approach::along(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
+}
+
+#[cfg(test)]
+mod tests;
