@@ -150,7 +150,7 @@ impl Body {
             return Err(InputError::BadSurface);
         }
         let [x, y, z] = self.tree.half_extents().map(f64::from);
-        let volume = signed_volume(&surface.pieces).abs() / 6.0;
+        let volume = sextuple_signed_volume(&surface.pieces).abs() / 6.0;
         self.excess = greater(self.excess, surface.excess);
         self.surface = Some(Box::new(Surface {
             is_box: volume >= MIN_BOX_FILL * 8.0 * x * y * z,
@@ -299,7 +299,7 @@ fn support_of(piece: &Piece<'_>) -> Support {
 }
 
 /// Returns six times the volume bounded by a closed surface of triangles; negative if their normals point inward.
-fn signed_volume(pieces: &Pieces) -> f64 {
+fn sextuple_signed_volume(pieces: &Pieces) -> f64 {
     let cone = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(a);
     (0..pieces.len()).map(|k| cone(pieces.triangle(k))).sum()
 }

@@ -18,7 +18,7 @@ use crate::problem::Problem;
 pub use feature_pair::FeaturePair;
 use manifold::Manifold;
 use near::near_faces;
-use skin::Skin;
+use skin::NearSurface;
 use std::fmt;
 
 /// The reason why the contacts cannot be listed.
@@ -49,8 +49,8 @@ impl Problem<'_> {
         let frames = [self.a.path.frame(clock), self.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
         let mut skins = [
-            Skin::new(self.a.body, Frame::IDENTITY),
-            Skin::new(self.b.body, b_to_a),
+            NearSurface::new(self.a.body, Frame::IDENTITY),
+            NearSurface::new(self.b.body, b_to_a),
         ];
         let budget = self.budget;
         let too_many = || ContactsError::TooMany { budget };

@@ -129,7 +129,11 @@ impl fmt::Display for InputError {
                 what,
                 value,
                 allowed,
-            } => write!(f, "{what} is {}, but must be {allowed}", Short(*value)),
+            } => write!(
+                f,
+                "{what} is {}, but must be {allowed}",
+                ShortNumber(*value)
+            ),
             Self::JointPosition {
                 joint,
                 position,
@@ -139,8 +143,11 @@ impl fmt::Display for InputError {
                     Some(joint) => write!(f, "joint {joint}")?,
                     None => write!(f, "the joint")?,
                 }
-                let (position, least, greatest) =
-                    (Short(*position), Short(*least), Short(*greatest));
+                let (position, least, greatest) = (
+                    ShortNumber(*position),
+                    ShortNumber(*least),
+                    ShortNumber(*greatest),
+                );
                 write!(
                     f,
                     " is at {position}, but its limits are {least} and {greatest}"
@@ -168,7 +175,7 @@ impl fmt::Display for InputError {
             Self::BadRadius { piece, radius } => write!(
                 f,
                 "the radius of piece {piece} is {}, but must be from 0 to {MAX_COORDINATE:e}",
-                Short(*radius)
+                ShortNumber(*radius)
             ),
             Self::VertexOutOfRange {
                 face,
@@ -229,11 +236,11 @@ pub(crate) fn check_length(what: &'static str, length: f64) -> Result<(), InputE
 }
 
 /// Prints a number in as few digits as identify it. Very large and very small numbers have a power of ten.
-struct Short(f64);
+struct ShortNumber(f64);
 
-impl fmt::Display for Short {
+impl fmt::Display for ShortNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Short(value) = *self;
+        let ShortNumber(value) = *self;
         // Neither NaN nor an infinity has a power of ten.
         if value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
             write!(f, "{value}")

@@ -130,7 +130,7 @@ impl Motion {
         // The differences are computed first: positions far from the world's origin lose no accuracy.
         let turned = Frame::from(end).rotation - Frame::from(start).rotation;
         let travel = (end.translation() - start.translation()) + turned * centre;
-        let turn = shortest_turn(end.rotation() * start.rotation().conjugate());
+        let turn = shortest_rotation_vector(end.rotation() * start.rotation().conjugate());
         Motion::about(start, travel / duration, turn / duration, centre)
     }
 
@@ -167,7 +167,7 @@ impl Motion {
 }
 
 /// Returns the rotation vector of a unit quaternion, with a length of at most π.
-fn shortest_turn(rotation: DQuat) -> DVec3 {
+fn shortest_rotation_vector(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 {
         -rotation
     } else {

@@ -10,7 +10,7 @@ use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::rounding::{self, NODE_GAP};
-use crate::settings::{StartPolicy, Terms};
+use crate::settings::{QuerySettings, StartPolicy};
 use crate::shortcuts::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
@@ -22,8 +22,8 @@ use std::time::Duration;
 /// A query about two motions in normalised units: time runs from 0 to 1, and the origin is near both bodies.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem<'a> {
-    pub(crate) a: Side<'a>,
-    pub(crate) b: Side<'a>,
+    pub(crate) a: BodyWithPath<'a>,
+    pub(crate) b: BodyWithPath<'a>,
     /// The time of the motions at clock 0; not 0 if the problem is a part of another one.
     start_time: f64,
     duration: f64,
@@ -50,7 +50,7 @@ pub(crate) struct Problem<'a> {
 
 /// One body and its path, in the problem's units.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Side<'a> {
+pub(crate) struct BodyWithPath<'a> {
     pub(crate) body: &'a Body,
     /// The body that the caller gave, if `body` is the surface that replaces it.
     pub(crate) given: Option<&'a Body>,
@@ -59,23 +59,23 @@ pub(crate) struct Side<'a> {
 
 /// Body A or body B.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Which {
+pub(crate) enum WhichBody {
     A,
     B,
 }
 
-impl Which {
-    pub(crate) fn other(self) -> Which {
+impl WhichBody {
+    pub(crate) fn other(self) -> WhichBody {
         match self {
-            Which::A => Which::B,
-            Which::B => Which::A,
+            WhichBody::A => WhichBody::B,
+            WhichBody::B => WhichBody::A,
         }
     }
 
-    pub(crate) fn of<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p Side<'a> {
+    pub(crate) fn of<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p BodyWithPath<'a> {
         match self {
-            Which::A => &problem.a,
-            Which::B => &problem.b,
+            WhichBody::A => &problem.a,
+            WhichBody::B => &problem.b,
         }
     }
 }
@@ -88,7 +88,7 @@ impl<'a> Problem<'a> {
     pub(crate) fn new(
         bodies: [(&'a Body, Motion); 2],
         duration: f64,
-        terms: &Terms<'a>,
+        terms: &QuerySettings<'a>,
     ) -> Result<Self, InputError> {
         Problem::accelerated(bodies, [DVec3::ZERO; 2], duration, terms)
     }
@@ -99,14 +99,14 @@ impl<'a> Problem<'a> {
         [a, b]: [(&'a Body, Motion); 2],
         accelerations: [DVec3; 2],
         duration: f64,
-        terms: &Terms<'a>,
+        terms: &QuerySettings<'a>,
     ) -> Result<Self, InputError> {
         terms.check(duration)?;
         let origin = b.1.start().translation();
         let side = |(given, motion): (&'a Body, Motion), other: &'a Body, acceleration: DVec3| {
             let body = given.query_body_against(other);
             let path = Path::new(&motion, origin, duration);
-            Side {
+            BodyWithPath {
                 body,
                 given: (!std::ptr::eq(body, given)).then_some(given),
                 path: path.accelerated(acceleration * duration * duration),
@@ -157,7 +157,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the distance by which the caller's bodies may exceed their shapes.
     pub(crate) fn excess(&self) -> Excess {
-        let given = |side: &Side<'a>| side.given.unwrap_or(side.body);
+        let given = |side: &BodyWithPath<'a>| side.given.unwrap_or(side.body);
         Excess::of_bodies(given(&self.a), given(&self.b))
     }
 
@@ -170,13 +170,13 @@ impl<'a> Problem<'a> {
     /// Returns whether a body turns at least twice.
     #[inline]
     pub(crate) fn turns_many_times(&self) -> bool {
-        let turns = |side: &Side<'_>| side.path.rate >= 2.0 * TAU;
+        let turns = |side: &BodyWithPath<'_>| side.path.rate >= 2.0 * TAU;
         turns(&self.a) || turns(&self.b)
     }
 
     /// Returns piece `a` of A and piece `b` of B.
     pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
-        let piece = |side: &Side<'a>, k: u32| side.body.piece(k);
+        let piece = |side: &BodyWithPath<'a>, k: u32| side.body.piece(k);
         [piece(&self.a, a), piece(&self.b, b)]
     }
 
@@ -209,7 +209,7 @@ impl<'a> Problem<'a> {
     /// Returns the problem about the bodies as the caller gave them, if [`Body::query_body_against`] has replaced one
     /// by its triangulated surface; `None` if it replaced neither.
     pub(crate) fn with_given_bodies(&self) -> Option<Self> {
-        let of = |side: &Side<'a>| Side {
+        let of = |side: &BodyWithPath<'a>| BodyWithPath {
             body: side.given.unwrap_or(side.body),
             given: None,
             path: side.path,
@@ -283,7 +283,7 @@ impl<'a> Problem<'a> {
     /// Returns the problem between two clocks, with the margin raised by a distance and with another tolerance.
     /// Positions are off by more than in the whole, see [`place_rounding`](rounding::place_rounding).
     pub(crate) fn between_clocks(&self, clocks: [f64; 2], raised: f64, tolerance: f64) -> Self {
-        let of = |side: &Side<'a>| Side {
+        let of = |side: &BodyWithPath<'a>| BodyWithPath {
             path: side.path.subpath(clocks),
             ..*side
         };
@@ -334,7 +334,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl Side<'_> {
+impl BodyWithPath<'_> {
     /// Returns the index of a piece in the body that the caller gave.
     pub(crate) fn index_in_given_body(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }

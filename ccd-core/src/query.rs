@@ -9,7 +9,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::problem::Problem;
-use crate::settings::{Settings, Terms};
+use crate::settings::{QuerySettings, Settings};
 use std::fmt;
 use std::time::Duration;
 
@@ -154,7 +154,7 @@ pub struct Query<'a> {
     pub(crate) a: Moving<'a>,
     pub(crate) b: Moving<'a>,
     pub(crate) duration: f64,
-    pub(crate) terms: Terms<'a>,
+    pub(crate) terms: QuerySettings<'a>,
     /// The normalised problem, if both bodies move at constant velocities.
     pub(crate) problem: Option<Problem<'a>>,
 }

@@ -79,8 +79,8 @@ impl Settings {
     };
 
     /// Converts the settings to the form that a query stores.
-    pub(crate) fn terms(&self) -> Terms<'_> {
-        Terms {
+    pub(crate) fn terms(&self) -> QuerySettings<'_> {
+        QuerySettings {
             tolerance: self.tolerance,
             margin: self.margin,
             clearance: self.clearance,
@@ -102,7 +102,7 @@ impl Default for Settings {
 
 /// The settings in the form that a query stores. The flag is borrowed, so that a query counts no references.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Terms<'a> {
+pub(crate) struct QuerySettings<'a> {
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
     pub(crate) clearance: Option<f64>,
@@ -114,7 +114,7 @@ pub(crate) struct Terms<'a> {
     pub(crate) stop: Option<&'a AtomicBool>,
 }
 
-impl Terms<'_> {
+impl QuerySettings<'_> {
     /// Returns an error if a duration, tolerance, margin or clearance is out of range.
     pub(crate) fn check(&self, duration: f64) -> Result<(), InputError> {
         let finite = 0.0..=f64::MAX;

@@ -7,10 +7,10 @@ use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::trajectory::{Stretch, Trajectory};
-use crate::problem::{Side, check_coordinates};
+use crate::problem::{BodyWithPath, check_coordinates};
 use crate::query::{Movement, Moving};
 use crate::rounding::{STRETCH_F64, least_tolerance, share_of_rounding};
-use crate::settings::{Settings, Terms};
+use crate::settings::{QuerySettings, Settings};
 use glam::DVec3;
 
 /// An axis-aligned box in the world that contains a moving body at all times, grown by half the contact distance.
@@ -74,7 +74,7 @@ fn of_stretches(
     body: &Body,
     trajectory: &dyn Trajectory,
     duration: f64,
-    terms: &Terms<'_>,
+    terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     let (mut whole, mut from): (Option<SweptBox>, f64) = (None, 0.0);
     for k in 1..=PARTS {
@@ -105,7 +105,7 @@ fn of_stretch(
     body: &Body,
     stretch: &Stretch,
     time: f64,
-    terms: &Terms<'_>,
+    terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     let swept = of_motion(body, &stretch.motion, time, terms)?;
     let (centre, radius) = body.tree().bounding_ball();
@@ -126,17 +126,17 @@ fn of_motion(
     body: &Body,
     motion: &Motion,
     duration: f64,
-    terms: &Terms<'_>,
+    terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     check_coordinates("position", motion.start().translation())?;
     check_coordinates("centre", motion.centre())?;
-    let side = Side {
+    let side = BodyWithPath {
         body,
         given: None,
         path: Path::new(motion, DVec3::ZERO, duration),
     };
     side.check()?;
-    let Side { path, .. } = &side;
+    let BodyWithPath { path, .. } = &side;
     let (low, high) = at_start(&side);
     // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
@@ -148,7 +148,7 @@ fn of_motion(
 }
 
 /// Returns a box that contains the body in all orientations, with its centre of rotation at the start.
-fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
+fn at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);
@@ -171,7 +171,7 @@ fn at_start(side: &Side<'_>) -> (DVec3, DVec3) {
 
 /// Returns a bound of half the contact distance plus the rounding of the box. The tolerance in that distance is the
 /// greater of the one in the settings and the least that can be certified.
-fn half_contact_distance(side: &Side<'_>, terms: &Terms<'_>) -> f64 {
+fn half_contact_distance(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
     let rounding = share_of_rounding(side.span(), path.rate, way);

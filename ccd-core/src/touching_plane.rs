@@ -8,5 +8,5 @@ pub(crate) struct TouchingPlane {
     /// The unit normal from A to B, in A's frame and in B's frame: the plane may move with either body.
     pub(crate) normals: [DVec3; 2],
     /// The least gap along the normal that pieces have to keep: the gap at the start, minus rounding.
-    pub(crate) floor: f64,
+    pub(crate) least_gap: f64,
 }

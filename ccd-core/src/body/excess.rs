@@ -64,7 +64,7 @@ impl Excess {
 
     /// Returns the distance of bodies below which their shapes are certainly nearer than `distance`. It is 0 or less if
     /// there is none.
-    pub(crate) fn certainly_nearer_below(self, distance: f64) -> f64 {
+    pub(crate) fn certain_nearness_threshold(self, distance: f64) -> f64 {
         if self.0 > 0.0 {
             (distance - self.0).next_down()
         } else {

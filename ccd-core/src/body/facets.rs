@@ -7,10 +7,10 @@ use super::polytope::{Face, Origin};
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
     pub(crate) origins: &'a [Origin],
-    /// The end of each facet's corners in `corners`, plus `base`.
+    /// The end of each facet's corners in `corners`, plus `first_corner`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
-    pub(crate) base: u32,
+    pub(crate) first_corner: u32,
     pub(crate) faces: &'a [Face],
 }
 
@@ -20,7 +20,7 @@ impl<'a> Facets<'a> {
         origins: &[],
         ends: &[],
         corners: &[],
-        base: 0,
+        first_corner: 0,
         faces: &[],
     };
 
@@ -42,7 +42,11 @@ impl<'a> Facets<'a> {
 
     /// Returns the corner indices of facet `k`.
     pub(crate) fn get(&self, k: usize) -> &'a [u32] {
-        let start = if k == 0 { self.base } else { self.ends[k - 1] };
+        let start = if k == 0 {
+            self.first_corner
+        } else {
+            self.ends[k - 1]
+        };
         &self.corners[start as usize..self.ends[k] as usize]
     }
 

@@ -92,7 +92,7 @@ impl Body {
             Facing::Out(out) => BELOW_SURFACE
                 .iter()
                 .map(|share| middle - out * (share * size))
-                .find(|&p| self.winds_about(p)),
+                .find(|&p| self.has_nonzero_winding(p)),
             Facing::Neither | Facing::Unclear => None,
         };
         CachedFacing { facing, inside }
@@ -105,14 +105,14 @@ impl Body {
         let Some(found) = crossings(self.tree(), self.pieces(), at, slack) else {
             return Facing::Unclear;
         };
-        let (ahead, behind) = (found.beyond, found.beyond + found.at_start);
+        let (ahead, behind) = (found.sum_ahead, found.sum_ahead + found.sum_at_start);
         let ahead_is_out = match ahead.abs().cmp(&behind.abs()) {
             _ if found.triangles_at_start == 0 => return Facing::Unclear,
             std::cmp::Ordering::Equal => return Facing::Neither,
             std::cmp::Ordering::Less => true,
             std::cmp::Ordering::Greater => false,
         };
-        if ahead_is_out == (normal.dot(found.along) > 0.0) {
+        if ahead_is_out == (normal.dot(found.direction) > 0.0) {
             Facing::Out(normal)
         } else {
             Facing::Out(-normal)
@@ -120,9 +120,9 @@ impl Body {
     }
 
     /// Returns whether the winding number of the body's surface about a point is certainly not 0.
-    fn winds_about(&self, point: DVec3) -> bool {
+    fn has_nonzero_winding(&self, point: DVec3) -> bool {
         crossings(self.tree(), self.pieces(), point, 0.0)
-            .is_some_and(|found| found.triangles_at_start == 0 && found.beyond != 0)
+            .is_some_and(|found| found.triangles_at_start == 0 && found.sum_ahead != 0)
     }
 }
 

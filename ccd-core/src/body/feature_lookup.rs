@@ -22,7 +22,7 @@ pub(crate) enum MeshFeature {
 ///
 /// Even if no facet of the mesh contains all of the corners, the point may be on the mesh: a
 /// virtual facet may be within the surface, and so may a chord of two coplanar faces.
-pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
+pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     let (facets, support) = (piece.facets, point.support());
     if !facets.is_empty() && !is_on_mesh(piece) {
         return MeshFeature::Nothing;

@@ -43,7 +43,7 @@ use std::sync::Arc;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    serde(try_from = "serial::Stored", into = "serial::Stored")
+    serde(try_from = "serial::StoredHullTree", into = "serial::StoredHullTree")
 )]
 pub struct HullTree {
     hierarchy: Hierarchy,
@@ -62,7 +62,7 @@ struct Hulls {
     /// For each node, whether all pieces below it have the same rounding radius.
     has_uniform_radius: Vec<bool>,
     /// Half the diagonal of each hull's bounding box, rounding included.
-    sizes: Vec<f64>,
+    half_diagonals: Vec<f64>,
     /// The facets that meet in each point, for all points of all hulls, by their indices within the hull.
     facets_by_point: Vec<u32>,
     /// The end of each point's facets in `facets_by_point`.
@@ -151,7 +151,7 @@ impl HullTree {
     /// Returns half the diagonal of a node's bounding box, rounding included.
     #[inline]
     pub(crate) fn half_diagonal(&self, node: u32) -> f64 {
-        self.hulls.sizes[node as usize]
+        self.hulls.half_diagonals[node as usize]
     }
 
     /// Returns the approximate memory use in bytes.
@@ -173,7 +173,7 @@ impl Hulls {
 
     fn bytes(&self) -> usize {
         let facets_by_point = 4 * (self.facets_by_point.len() + self.facets_by_point_ends.len());
-        self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + facets_by_point
+        self.pieces.bytes() + self.classes.len() + 25 * self.half_diagonals.len() + facets_by_point
     }
 }
 

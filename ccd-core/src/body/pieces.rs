@@ -42,7 +42,7 @@ const MAX_POINTS: usize = u32::MAX as usize / 4;
 #[derive(Clone, Debug)]
 enum Radii {
     Zero,
-    Each(Vec<f64>),
+    PerPiece(Vec<f64>),
 }
 
 #[derive(Clone, Debug)]
@@ -221,8 +221,8 @@ impl Pieces {
             point_ends: Vec::with_capacity(self.point_ends.len()),
             radii: match &self.radii {
                 Radii::Zero => Radii::Zero,
-                Radii::Each(radii) => {
-                    Radii::Each(order.iter().map(|&k| radii[k as usize]).collect())
+                Radii::PerPiece(radii) => {
+                    Radii::PerPiece(order.iter().map(|&k| radii[k as usize]).collect())
                 }
             },
             shape: self.shape.reordered(order),
@@ -249,12 +249,14 @@ impl Pieces {
             (Shape::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
             (Shape::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
             (Shape::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
-            (Shape::Polytopes(_), _) => match feature_lookup::look_up(&self.get(piece), point) {
-                MeshFeature::Vertex(v) => Feature::Vertex(id(v)),
-                MeshFeature::Edge(v, w) => Feature::edge(id(v), id(w)),
-                MeshFeature::Face(face) => Feature::Face(face),
-                MeshFeature::Nothing => Feature::Piece(piece as u32),
-            },
+            (Shape::Polytopes(_), _) => {
+                match feature_lookup::find_mesh_feature(&self.get(piece), point) {
+                    MeshFeature::Vertex(v) => Feature::Vertex(id(v)),
+                    MeshFeature::Edge(v, w) => Feature::edge(id(v), id(w)),
+                    MeshFeature::Face(face) => Feature::Face(face),
+                    MeshFeature::Nothing => Feature::Piece(piece as u32),
+                }
+            }
         }
     }
 
@@ -270,7 +272,7 @@ impl Pieces {
     fn radius(&self, piece: usize) -> f64 {
         match &self.radii {
             Radii::Zero => 0.0,
-            Radii::Each(radii) => radii[piece],
+            Radii::PerPiece(radii) => radii[piece],
         }
     }
 
@@ -299,7 +301,7 @@ impl Surfaces {
     fn facets_of(&self, piece: usize) -> Facets<'_> {
         let facets = range(&self.facet_ends, piece);
         Facets {
-            base: match facets.start {
+            first_corner: match facets.start {
                 0 => 0,
                 start => self.corner_ends[start - 1],
             },

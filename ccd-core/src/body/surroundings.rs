@@ -2,7 +2,7 @@
 
 use super::Body;
 use super::piece::Piece;
-use super::tree::point_query::{is_beyond, pieces_near};
+use super::tree::point_query::{is_farther_than, pieces_near};
 use glam::DVec3;
 
 impl Body {
@@ -18,9 +18,9 @@ impl Body {
             let mut is_near = false;
             for_each_face(&piece, |face| {
                 let near = match *face {
-                    [a] => !is_beyond([a; 3], at, reach),
-                    [a, b] => !is_beyond([a, b, b], at, reach),
-                    [a, b, c] => !is_beyond([a, b, c], at, reach),
+                    [a] => !is_farther_than([a; 3], at, reach),
+                    [a, b] => !is_farther_than([a, b, b], at, reach),
+                    [a, b, c] => !is_farther_than([a, b, c], at, reach),
                     // The box of the piece is near.
                     _ => true,
                 };

@@ -11,7 +11,8 @@ mod whole;
 
 pub(crate) use build::Layout;
 pub(crate) use group::{
-    Below, BoxGroup, LANES, Members, Node, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
+    BoxGroup, GroupHeader, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup,
+    round_up_to_f32, unit_normal,
 };
 pub(crate) use slab::Slab;
 pub(crate) use whole::BodyBox;
@@ -30,7 +31,7 @@ use glam::DVec3;
 pub(crate) struct Tree {
     nodes: Vec<Node>,
     boxes: Vec<BoxGroup>,
-    triangles: Vec<TriangleRow>,
+    triangles: Vec<StoredTriangleGroup>,
     /// The slabs around flat nodes, sorted by node.
     slabs: Vec<(NodeId, Slab)>,
     whole: BodyBox,
@@ -69,7 +70,7 @@ impl Tree {
         match self.get(id) {
             NodeOrTriangle::Triangle(piece) => Some(piece),
             NodeOrTriangle::Node(node) => match node.below {
-                Below::Piece(piece) => Some(piece),
+                NodeChildren::Piece(piece) => Some(piece),
                 _ => None,
             },
         }
@@ -95,7 +96,7 @@ impl Tree {
     }
 
     /// Returns the common fields of a group of triangles.
-    pub(crate) fn triangle_members(&self, index: u32) -> &Members {
+    pub(crate) fn triangle_members(&self, index: u32) -> &GroupHeader {
         &self.triangles[index as usize].members
     }
 

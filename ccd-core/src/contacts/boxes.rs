@@ -1,6 +1,6 @@
 //! Trees of boxes over the faces of pieces, to find the near faces of two pieces.
 
-use super::skin::Skin;
+use super::skin::NearSurface;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -23,7 +23,7 @@ struct FaceBox {
 enum Below {
     Face(u32),
     /// An inner node: its first child is the next node in the list, its second child has this index.
-    Halves(u32),
+    Inner(u32),
 }
 
 /// The pairs of near faces that a search finds, and its remaining budget.
@@ -50,13 +50,13 @@ impl NearFaces {
             self.budget = self.budget.checked_sub(1)?;
             match (a.below, b.below) {
                 (Below::Face(face_a), Below::Face(face_b)) => self.pairs.push([face_a, face_b]),
-                (Below::Halves(right), Below::Face(_)) => {
+                (Below::Inner(right), Below::Face(_)) => {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
-                (Below::Halves(right), Below::Halves(_)) if a.size() >= b.size() => {
+                (Below::Inner(right), Below::Inner(_)) if a.size() >= b.size() => {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
-                (_, Below::Halves(right)) => stack.extend([[at_a, right], [at_a, at_b + 1]]),
+                (_, Below::Inner(right)) => stack.extend([[at_a, right], [at_a, at_b + 1]]),
             }
         }
         Some(())
@@ -67,7 +67,7 @@ impl NearFaces {
 pub(super) struct FaceTree(FaceTrees);
 
 impl FaceTree {
-    pub(super) fn build(skin: &Skin<'_>) -> Self {
+    pub(super) fn build(skin: &NearSurface<'_>) -> Self {
         let mut faces: Vec<FaceBox> = skin
             .all_faces()
             .map(|face| FaceBox::new(skin, face))
@@ -94,7 +94,7 @@ impl FaceTree {
             match node.below {
                 _ if node.is_farther_apart(&point, reach) => {}
                 Below::Face(face) => near.push(face),
-                Below::Halves(right) => stack.extend([right, id + 1]),
+                Below::Inner(right) => stack.extend([right, id + 1]),
             }
         }
         near
@@ -110,7 +110,7 @@ impl FaceTrees {
     }
 
     /// Returns the root of the tree over a piece's faces; `None` if the piece has none.
-    pub(super) fn root(&mut self, skin: &mut Skin<'_>, piece: u32) -> Option<u32> {
+    pub(super) fn root(&mut self, skin: &mut NearSurface<'_>, piece: u32) -> Option<u32> {
         if let Some(&root) = self.roots.get(&piece) {
             return Some(root);
         }
@@ -134,14 +134,14 @@ impl FaceTrees {
         if faces.len() > 1 {
             let (left, right) = split_at_median(faces, around.high - around.low);
             self.add(left)?;
-            self.nodes[at].below = Below::Halves(self.add(right)?);
+            self.nodes[at].below = Below::Inner(self.add(right)?);
         }
         Some(at as u32)
     }
 }
 
 impl FaceBox {
-    fn new(skin: &Skin<'_>, face: u32) -> Self {
+    fn new(skin: &NearSurface<'_>, face: u32) -> Self {
         let ([a, b, c], radius) = (skin.triangle(face), skin.face(face).radius);
         FaceBox {
             low: a.min(b).min(c) - radius,

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 /// The inside, an edge or a corner of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum TrianglePart {
     Corner(usize),
     /// The edge from corner `k` to the next one.
     Edge(usize),
@@ -21,16 +21,16 @@ pub(super) fn nearest_on_triangle(
     from: DVec3,
     corners: [DVec3; 3],
     rounding: f64,
-) -> (Part, DVec3) {
+) -> (TrianglePart, DVec3) {
     let next = |k: usize| corners[(k + 1) % 3];
-    let corner = |k| (Part::Corner(k), corners[k]);
+    let corner = |k| (TrianglePart::Corner(k), corners[k]);
     let edge = |k| {
         Some((
-            Part::Edge(k),
+            TrianglePart::Edge(k),
             project_to_segment(from, [corners[k], next(k)])?,
         ))
     };
-    let inside = project_to_triangle(from, corners).map(|foot| (Part::Inside, foot));
+    let inside = project_to_triangle(from, corners).map(|foot| (TrianglePart::Inside, foot));
     // The smallest parts come first: a smaller part is taken if no larger one is nearer.
     let parts = [
         Some(corner(0)),
@@ -41,7 +41,7 @@ pub(super) fn nearest_on_triangle(
         edge(2),
         inside,
     ];
-    let way = |&(_, at): &(Part, DVec3)| from.distance(at);
+    let way = |&(_, at): &(TrianglePart, DVec3)| from.distance(at);
     let mut best = corner(0);
     for part in parts.into_iter().flatten() {
         let nearer = if same_kind(part.0, best.0) {
@@ -84,7 +84,7 @@ pub(super) fn nearest_on_crossing_edges(
     (p.distance(q) + rounding < nearest_end).then_some([p, q])
 }
 
-fn same_kind(one: Part, other: Part) -> bool {
+fn same_kind(one: TrianglePart, other: TrianglePart) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 

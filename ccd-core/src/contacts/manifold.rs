@@ -1,10 +1,10 @@
 //! Collects the pairs of features in contact, and chooses those to report.
 
 use super::candidate::Candidate;
-use super::closest::{Part, nearest_on_crossing_edges, nearest_on_triangle};
+use super::closest::{TrianglePart, nearest_on_crossing_edges, nearest_on_triangle};
 use super::feature_pair::FeaturePair;
 use super::measure::measure;
-use super::skin::{Skin, SurfacePart, triangle_edge};
+use super::skin::{NearSurface, SurfacePart, triangle_edge};
 use super::surface::Surface;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
@@ -15,15 +15,15 @@ use std::collections::{HashMap, HashSet};
 /// All pairs of features found in contact.
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
-    skins: [&'a Skin<'a>; 2],
+    near_surfaces: [&'a NearSurface<'a>; 2],
     found: HashMap<[SurfacePart; 2], Candidate>,
 }
 
 impl<'a> Manifold<'a> {
-    pub(super) fn new(problem: &'a Problem<'_>, skins: [&'a Skin<'a>; 2]) -> Self {
+    pub(super) fn new(problem: &'a Problem<'_>, skins: [&'a NearSurface<'a>; 2]) -> Self {
         Manifold {
             problem,
-            skins,
+            near_surfaces: skins,
             found: HashMap::new(),
         }
     }
@@ -35,16 +35,16 @@ impl<'a> Manifold<'a> {
 
     /// Adds the contacts between a face of A and a face of B.
     pub(super) fn add_face_contacts(&mut self, faces: [u32; 2]) {
-        let [a, b] = self.skins;
+        let [a, b] = self.near_surfaces;
         let rounding = self.problem.rounding;
         for v in a.corners_of(faces[0]) {
             let (part, foot) = nearest_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
-            let spots = [SurfacePart::Corner(v), spot(b, faces[1], part)];
+            let spots = [SurfacePart::Corner(v), surface_part(b, faces[1], part)];
             self.add_pair(spots, [a.at(v), foot], faces);
         }
         for v in b.corners_of(faces[1]) {
             let (part, foot) = nearest_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
-            let spots = [spot(a, faces[0], part), SurfacePart::Corner(v)];
+            let spots = [surface_part(a, faces[0], part), SurfacePart::Corner(v)];
             self.add_pair(spots, [foot, b.at(v)], faces);
         }
         for e in a.edges_of(faces[0]) {
@@ -59,7 +59,7 @@ impl<'a> Manifold<'a> {
 
     /// Adds a pair if it is within reach. If it is known already, the nearer place of contact is kept.
     fn add_pair(&mut self, spots: [SurfacePart; 2], points: [DVec3; 2], faces: [u32; 2]) {
-        let radius = |k: usize| self.skins[k].face(faces[k]).radius;
+        let radius = |k: usize| self.near_surfaces[k].face(faces[k]).radius;
         let Problem {
             margin,
             tolerance,
@@ -84,18 +84,24 @@ impl<'a> Manifold<'a> {
             if covered.contains(&spots) || self.is_due_to_cut(spots, &candidate) {
                 continue;
             }
-            for (k, skin) in self.skins.iter().enumerate() {
+            for (k, skin) in self.near_surfaces.iter().enumerate() {
                 (spots[k], candidate.faces[k]) = skin.reported_part(spots[k], candidate.faces[k]);
             }
             keep_nearest(&mut told, spots, candidate);
         }
-        let surfaces = LazyCell::new(|| self.skins.map(Surface::new));
+        let surfaces = LazyCell::new(|| self.near_surfaces.map(Surface::new));
         let common_normals =
             |points| Surface::common_normals(&surfaces, points, self.problem.rounding);
         let told = sorted_pairs(&told);
-        let measured = told
-            .iter()
-            .map(|found| measure(self.problem, self.skins, a_to_world, found, common_normals));
+        let measured = told.iter().map(|found| {
+            measure(
+                self.problem,
+                self.near_surfaces,
+                a_to_world,
+                found,
+                common_normals,
+            )
+        });
         let mut pairs: Vec<FeaturePair> = measured.collect();
         pairs.sort_by(|one, other| {
             let names = |pair: &FeaturePair| (pair.feature_a, pair.feature_b);
@@ -112,7 +118,7 @@ impl<'a> Manifold<'a> {
     fn is_due_to_cut(&self, spots: [SurfacePart; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
-            let (skin, from) = (self.skins[k], candidate.points[1 - k]);
+            let (skin, from) = (self.near_surfaces[k], candidate.points[1 - k]);
             skin.coplanar_faces_around(spots[k]).iter().any(|&face| {
                 let (_, nearest) = nearest_on_triangle(from, skin.triangle(face), rounding);
                 from.distance(nearest) + rounding < candidate.distance()
@@ -123,7 +129,7 @@ impl<'a> Manifold<'a> {
     /// Returns the pairs that follow from others, and need no report. Such a pair is a corner and a boundary part of a
     /// face or edge, if the corner's projection inside that face or edge is equally near.
     fn implied_pairs(&self) -> HashSet<[SurfacePart; 2]> {
-        let [a, b] = self.skins;
+        let [a, b] = self.near_surfaces;
         let mut covered = HashSet::new();
         for &[of_a, of_b] in self.found.keys() {
             if let SurfacePart::Corner(_) = of_a {
@@ -138,12 +144,12 @@ impl<'a> Manifold<'a> {
 }
 
 /// Returns the corner, edge or face of the skin that a part of a triangle is.
-fn spot(skin: &Skin<'_>, face: u32, part: Part) -> SurfacePart {
+fn surface_part(skin: &NearSurface<'_>, face: u32, part: TrianglePart) -> SurfacePart {
     let corners = skin.face(face).corners;
     match part {
-        Part::Corner(k) => SurfacePart::Corner(corners[k]),
-        Part::Edge(k) => SurfacePart::Edge(triangle_edge(corners, k)),
-        Part::Inside => SurfacePart::Face(face),
+        TrianglePart::Corner(k) => SurfacePart::Corner(corners[k]),
+        TrianglePart::Edge(k) => SurfacePart::Edge(triangle_edge(corners, k)),
+        TrianglePart::Inside => SurfacePart::Face(face),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
-use super::skin::{Skin, SurfacePart};
+use super::skin::{NearSurface, SurfacePart};
 use crate::answer::Separation;
 use crate::distance::common_normals::CommonNormals;
 use crate::math::order::{greater, lesser};
@@ -24,7 +24,7 @@ pub(super) type SurfaceParts = [SurfacePart; 2];
 /// bounds their distance from below, any two points bound it from above.
 pub(super) fn measure(
     problem: &Problem<'_>,
-    skins: [&Skin<'_>; 2],
+    skins: [&NearSurface<'_>; 2],
     a_to_world: &Frame,
     (spots, candidate): &(SurfaceParts, Candidate),
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
@@ -100,7 +100,7 @@ fn candidate_normals([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
 /// Returns the approximate direction from A to B for features that touch: out of A and into B. For surfaces without an
 /// outside it leads from the middle of one piece to the middle of the other.
 fn outward_direction(
-    skins: [&Skin<'_>; 2],
+    skins: [&NearSurface<'_>; 2],
     spots: &[SurfacePart; 2],
     candidate: &Candidate,
 ) -> DVec3 {

@@ -1,12 +1,12 @@
 //! Finds near pieces of two bodies, and their near faces, by trees.
 
 use super::boxes::{FaceTrees, NearFaces};
-use super::skin::Skin;
-use crate::body::tree::{Below, NodeId, NodeOrTriangle, Tree};
+use super::skin::NearSurface;
+use crate::body::tree::{NodeChildren, NodeId, NodeOrTriangle, Tree};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, normal};
 use crate::motion::pose::Frame;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::BOX_F64;
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ use glam::DVec3;
 /// exceeds the problem's budget.
 pub(super) fn near_faces(
     problem: &Problem<'_>,
-    skins: &mut [Skin<'_>; 2],
+    skins: &mut [NearSurface<'_>; 2],
     b_to_a: &Frame,
     reach: f64,
 ) -> Option<Vec<[u32; 2]>> {
@@ -40,8 +40,8 @@ fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<
     let mut stack: Vec<[NodeId; 2]> = vec![[0, 0]];
     while let Some([at_a, at_b]) = stack.pop() {
         let extents = [
-            Extent::new(&problem.a, at_a, &Frame::IDENTITY),
-            Extent::new(&problem.b, at_b, b_to_a),
+            BoundingVolume::new(&problem.a, at_a, &Frame::IDENTITY),
+            BoundingVolume::new(&problem.b, at_b, b_to_a),
         ];
         if certainly_apart(&extents, reach) {
             continue;
@@ -69,16 +69,16 @@ fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
         NodeOrTriangle::Triangle(_) => return 0..0,
         NodeOrTriangle::Node(node) => match node.below {
-            Below::Boxes(group) => &tree.box_group(group).members,
-            Below::Triangles(group) => tree.triangle_members(group),
-            Below::Piece(_) => return 0..0,
+            NodeChildren::Boxes(group) => &tree.box_group(group).members,
+            NodeChildren::Triangles(group) => tree.triangle_members(group),
+            NodeChildren::Piece(_) => return 0..0,
         },
     };
     members.first..members.first + members.count
 }
 
 /// The bounding volume of a node, in A's frame.
-struct Extent {
+struct BoundingVolume {
     centre: DVec3,
     radius: f64,
     /// The unit vectors along which the node is likely to be thin.
@@ -92,14 +92,14 @@ enum Shape {
     Triangle([DVec3; 3]),
 }
 
-impl Extent {
-    fn new(side: &Side<'_>, at: NodeId, to_a: &Frame) -> Self {
+impl BoundingVolume {
+    fn new(side: &BodyWithPath<'_>, at: NodeId, to_a: &Frame) -> Self {
         match side.body.tree().get(at) {
             NodeOrTriangle::Node(node) => {
                 let radius = f64::from(node.radius);
                 // Axes rounded to f32 are not exactly orthonormal.
                 let more = f64::from(node.rounding) + BOX_F64 * radius;
-                Extent {
+                BoundingVolume {
                     centre: to_a.point(node.centre),
                     radius,
                     axes: node.axes.map(|axis| to_a.rotation * axis.as_dvec3()),
@@ -111,7 +111,7 @@ impl Extent {
                 let corners = corners.map(|corner| to_a.point(corner));
                 let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
                 let arm = |corner: DVec3| corner.distance(centre);
-                Extent {
+                BoundingVolume {
                     centre,
                     radius: corners.map(arm).into_iter().fold(0.0, greater),
                     axes: [normal(corners).unwrap_or(DVec3::ZERO); 3],
@@ -139,7 +139,7 @@ impl Extent {
 
 /// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of either, and
 /// the vector between them. Written so that NaN counts as near.
-fn certainly_apart([a, b]: &[Extent; 2], reach: f64) -> bool {
+fn certainly_apart([a, b]: &[BoundingVolume; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);
     if distance > a.radius + b.radius + reach {

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 /// The needed part of a body's surface as triangles, in A's frame.
-pub(super) struct Skin<'a> {
+pub(super) struct NearSurface<'a> {
     body: &'a Body,
     to_a: Frame,
     corners: Vec<Corner>,
@@ -34,7 +34,7 @@ pub(super) struct Skin<'a> {
 /// A vertex that triangles of the surface share.
 struct Corner {
     at: DVec3,
-    place: PointBits,
+    position_bits: PointBits,
     /// The corner's number in the mesh, if its piece has one.
     id: Option<u32>,
 }
@@ -58,10 +58,10 @@ pub(super) enum SurfacePart {
 /// The bit pattern of a point's coordinates in the body's frame.
 type PointBits = [u64; 3];
 
-impl<'a> Skin<'a> {
+impl<'a> NearSurface<'a> {
     /// Creates the surface of a body without any triangles; `to_a` maps the body's frame to A's.
     pub(super) fn new(body: &'a Body, to_a: Frame) -> Self {
-        Skin {
+        NearSurface {
             body,
             to_a,
             corners: Vec::new(),
@@ -78,16 +78,16 @@ impl<'a> Skin<'a> {
     /// Adds the triangles of a piece, and returns their indices. It is to be called once for each piece.
     pub(super) fn add_piece(&mut self, piece: u32) -> Range<u32> {
         let first = self.faces.len() as u32;
-        self.unpack(piece);
+        self.add_triangles(piece);
         first..self.faces.len() as u32
     }
 
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
     pub(super) fn find_cut_edges(&mut self, rounding: f64) {
-        self.share_numbers();
+        self.propagate_numbers();
         self.add_normals();
-        let mut sides: HashMap<[u32; 2], Sides> = HashMap::new();
+        let mut sides: HashMap<[u32; 2], EdgeFaces> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
             if let Feature::Face(_) = name {
                 self.first_triangle_of.entry(*name).or_insert(face);
@@ -106,7 +106,7 @@ impl<'a> Skin<'a> {
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
             self.is_hidden[corner as usize] = false;
         }
-        for (ends, Sides { mut faces, count }) in sides {
+        for (ends, EdgeFaces { mut faces, count }) in sides {
             if count == 2 && self.in_one_plane(ends, faces, rounding) {
                 faces.sort_by_key(|&face| (self.face(face).name, face));
                 self.coplanar_edges.insert(ends, faces);
@@ -283,16 +283,20 @@ impl<'a> Skin<'a> {
     }
 
     /// Copies mesh numbers to corners without one, from corners of other pieces at the same position.
-    fn share_numbers(&mut self) {
+    fn propagate_numbers(&mut self) {
         let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
             if let Some(id) = corner.id {
-                let least = numbered.entry(corner.place).or_insert((id, k));
+                let least = numbered.entry(corner.position_bits).or_insert((id, k));
                 *least = (*least).min((id, k));
             }
         }
         for corner in self.faces.iter_mut().flat_map(|face| &mut face.corners) {
-            let Corner { place, id, .. } = &self.corners[*corner as usize];
+            let Corner {
+                position_bits: place,
+                id,
+                ..
+            } = &self.corners[*corner as usize];
             if let (None, Some(&(_, other))) = (id, numbered.get(place)) {
                 *corner = other;
             }
@@ -329,7 +333,7 @@ impl<'a> Skin<'a> {
 
 /// The first two faces at an edge, and the number of faces there.
 #[derive(Default)]
-struct Sides {
+struct EdgeFaces {
     faces: [u32; 2],
     count: usize,
 }

@@ -2,21 +2,21 @@
 
 use super::boxes::FaceTree;
 use super::closest::nearest_on_triangle;
-use super::skin::Skin;
+use super::skin::NearSurface;
 use crate::distance::common_normals::CommonNormals;
 use crate::rounding::{AROUND, LEVEL};
 use glam::DVec3;
 
 /// The needed part of a body's surface, with a tree to find the triangles around a point.
 pub(super) struct Surface<'a> {
-    skin: &'a Skin<'a>,
+    near_surface: &'a NearSurface<'a>,
     tree: FaceTree,
 }
 
 impl<'a> Surface<'a> {
-    pub(super) fn new(skin: &'a Skin<'a>) -> Self {
+    pub(super) fn new(skin: &'a NearSurface<'a>) -> Self {
         Surface {
-            skin,
+            near_surface: skin,
             tree: FaceTree::build(skin),
         }
     }
@@ -40,10 +40,11 @@ impl<'a> Surface<'a> {
     /// the solid.
     fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.faces_near(at, reach) {
-            let (_, nearest) = nearest_on_triangle(at, self.skin.triangle(face), 0.0);
+            let (_, nearest) = nearest_on_triangle(at, self.near_surface.triangle(face), 0.0);
             // Written so that NaN is near.
             if !(nearest.distance(at) > reach) {
-                self.skin.for_each_point_around(face, |end| add(end - at));
+                self.near_surface
+                    .for_each_point_around(face, |end| add(end - at));
             }
         }
     }

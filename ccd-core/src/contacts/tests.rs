@@ -10,7 +10,7 @@ use crate::query::Moving;
 use crate::query::Query;
 use crate::settings::Settings;
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, direction, magnitude, rng, rotation, soup, within,
+    Pcg64, RngExt, SoupKind, direction, magnitude, point_in_ball, rng, rotation, soup,
 };
 use glam::{DQuat, DVec3};
 use twin::Mesh;
@@ -238,7 +238,7 @@ fn no_pair_of_random_soups_is_missed() {
         let [look_a, look_b] = [0; 2].map(|_| SoupKind::ALL[rng.random_range(0..5)]);
         let tame = |look| {
             if look == SoupKind::Needles {
-                SoupKind::Plump
+                SoupKind::WellShaped
             } else {
                 look
             }
@@ -247,7 +247,7 @@ fn no_pair_of_random_soups_is_missed() {
         let (count_a, count_b) = (count(rng), count(rng));
         let a = Mesh::soup(soup(rng, tame(look_a), count_a, size));
         let b = Mesh::soup(soup(rng, tame(look_b), count_b, size));
-        let place = within(rng, size);
+        let place = point_in_ball(rng, size);
         let pose = Pose::new(place, rotation(rng)).unwrap();
         let tolerance = size * magnitude(rng, -2.5, -0.5);
         compare(&a, &b, pose, tolerance, &mut found, round);
@@ -310,7 +310,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
             )
         })
         .collect();
-    for (name, distance) in &expected.sure {
+    for (name, distance) in &expected.certain {
         let same = reported.iter().find(|(other, _)| other == name);
         let Some((_, upper)) = same else {
             panic!("round {round}: {name} at {distance} of {tolerance} is missed");
@@ -323,7 +323,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     }
     for (name, distance) in &reported {
         assert!(
-            expected.sure.contains_key(name) || expected.doubtful.contains(name),
+            expected.certain.contains_key(name) || expected.uncertain.contains(name),
             "round {round}: {name} at {distance} of {tolerance} is no pair"
         );
     }

@@ -9,9 +9,9 @@ use crate::body::tree::point_query::is_clear;
 use crate::body::tree::ray::crossings;
 use crate::math::vector::{across, unit_or_any};
 use crate::motion::pose::Frame;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::INSIDE;
-use beside::beside_edges;
+use beside::points_beside_edges;
 use glam::DVec3;
 
 /// Returns the outcome if a point of one body is inside the other body's solid at the start, or if that is undecided.
@@ -41,9 +41,9 @@ pub(crate) fn containment_at_start(
     if !(problem.a.body.may_be_hollow() || problem.b.body.may_be_hollow()) {
         return None;
     }
-    let (a, b) = (Placed::of(&problem.a), Placed::of(&problem.b));
+    let (a, b) = (PlacedBody::of(&problem.a), PlacedBody::of(&problem.b));
     let reach = INSIDE * problem.rounding;
-    let mut look = |outer: &Placed<'_>, inner: &Placed<'_>, side: usize| {
+    let mut look = |outer: &PlacedBody<'_>, inner: &PlacedBody<'_>, side: usize| {
         let search = Search {
             outer,
             inner,
@@ -67,14 +67,14 @@ pub(crate) fn containment_at_start(
 }
 
 /// A body at its pose at the start.
-struct Placed<'a> {
+struct PlacedBody<'a> {
     body: &'a Body,
     frame: Frame,
 }
 
-impl Placed<'_> {
-    fn of<'a>(side: &Side<'a>) -> Placed<'a> {
-        Placed {
+impl PlacedBody<'_> {
+    fn of<'a>(side: &BodyWithPath<'a>) -> PlacedBody<'a> {
+        PlacedBody {
             body: side.body,
             frame: side.path.frame(0.0),
         }
@@ -83,8 +83,8 @@ impl Placed<'_> {
 
 /// Tests points of one body, the inner one, against the solid of the other.
 struct Search<'a> {
-    outer: &'a Placed<'a>,
-    inner: &'a Placed<'a>,
+    outer: &'a PlacedBody<'a>,
+    inner: &'a PlacedBody<'a>,
     /// The distance from the outer surface below which a point counts as neither inside nor outside.
     reach: f64,
 }
@@ -211,7 +211,7 @@ impl Search<'_> {
         let piece = self.inner.body.pieces().get(inner as usize);
         let other = self.outer.body.pieces().get(outer as usize);
         let place = |p: DVec3| self.inner.frame.inverse_point(self.outer.frame.point(p));
-        let points = beside_edges(&piece, &other, place, self.reach);
+        let points = points_beside_edges(&piece, &other, place, self.reach);
         let mut result = points.map(|p| self.test_point(p));
         result
             .find(TestResult::is_inside)
@@ -229,7 +229,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
         return None;
     }
     let result = crossings(body.tree(), body.pieces(), point, 0.0)?;
-    (result.triangles_at_start == 0).then_some(result.beyond != 0)
+    (result.triangles_at_start == 0).then_some(result.sum_ahead != 0)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! is its absence.
 
 use super::oracle::PiecePair;
-use super::separation::Checked;
+use super::separation::CheckedClaim;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::across;
 use crate::math::vector::unit_or_any;
@@ -29,7 +29,7 @@ pub(crate) enum Intersection {
 /// witnesses prove an intersection, or its axis disproves one. If neither does, the pieces count as touching.
 pub(crate) fn intersects(
     pair: &PiecePair<'_>,
-    checked: &Checked,
+    checked: &CheckedClaim,
     rounding: f64,
     inner: &mut InnerPolytope,
 ) -> Intersection {

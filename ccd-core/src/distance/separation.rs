@@ -10,7 +10,7 @@ use glam::DVec3;
 
 /// A checked claim with proven bounds of the distance, in A's frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Checked {
+pub(crate) struct CheckedClaim {
     /// The claim, with combinations of points that exist.
     pub(crate) claim: Claim,
     /// A lower bound of the distance, minus rounding; negative if no axis separates the pieces.
@@ -31,7 +31,7 @@ pub(crate) struct Checked {
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper`, for any claim.
-pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Checked {
+pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> CheckedClaim {
     let (a, on_a) = with_valid_indices(claim.a, pair.a.points);
     let (b, on_b) = with_valid_indices(claim.b, pair.b.points);
     let on_b = pair.b_to_a.point(on_b);
@@ -55,7 +55,7 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     } else {
         axis
     };
-    Checked {
+    CheckedClaim {
         claim: Claim { axis, a, b },
         lower: gap - radii - rounding,
         upper: greater(0.0, distance - radii) + rounding,

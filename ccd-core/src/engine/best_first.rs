@@ -2,10 +2,10 @@
 
 use super::answer::{Solve, answer, in_rounds};
 use super::meter::Meter;
-use super::proven::Proven;
+use super::proven::ProvenFacts;
 use super::queue::Queue;
 use super::scratch::Scratch;
-use super::search::{Advance, Item, Question, Search};
+use super::search::{AdvanceResult, Item, Question, Search};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
@@ -92,12 +92,12 @@ impl<O: DistanceOracle> BestFirst<O> {
             oracle,
             meter,
         };
-        search.run(problem, &mut Proven::default())
+        search.run(problem, &mut ProvenFacts::default())
     }
 }
 
 /// The search for the first contact. All pairs are proven apart until the clock of the next one.
-impl<O: DistanceOracle> Question<O> for Proven {
+impl<O: DistanceOracle> Question<O> for ProvenFacts {
     type Found = Outcome;
 
     #[inline]
@@ -115,10 +115,10 @@ impl<O: DistanceOracle> Question<O> for Proven {
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        advance: Advance,
+        advance: AdvanceResult,
     ) -> ControlFlow<Outcome, f64> {
-        let Advance { clock, step, .. } = advance;
-        Proven::on_advance(self, problem, oracle, meter, step, clock)
+        let AdvanceResult { clock, step, .. } = advance;
+        ProvenFacts::on_advance(self, problem, oracle, meter, step, clock)
     }
 
     fn on_limit(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {

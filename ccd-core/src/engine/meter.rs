@@ -1,6 +1,6 @@
 //! Counts a query's work, and enforces its limits.
 
-use super::scratch::{Memory, Scratch};
+use super::scratch::{Scratch, ScratchMemory};
 use crate::answer::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tuning::WORK_BETWEEN_CLOCK_READS;
@@ -37,7 +37,7 @@ impl Meter {
     }
 
     /// Returns the scratch memory, and creates it if necessary.
-    pub(crate) fn scratch_memory(&mut self) -> &mut Memory {
+    pub(crate) fn scratch_memory(&mut self) -> &mut ScratchMemory {
         self.scratch.get_or_insert_default()
     }
 

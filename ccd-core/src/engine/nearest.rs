@@ -5,17 +5,17 @@ pub(crate) mod lists;
 use super::meter::Meter;
 use super::nodes::common::NodeContext;
 use super::nodes::expand::measure;
-use super::nodes::siblings::{Next, Siblings};
+use super::nodes::siblings::{NextStep, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
-use super::queue::{QueueFull, Rank, Waiting};
+use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::rounding::SKIPPED_NEARER_SHARE;
-use lists::Lists;
+use lists::SearchBuffers;
 use std::ops::ControlFlow;
 
 /// A search for the nearest pieces. It splits the pair of nodes with the least lower bound, until no waiting pair can
@@ -26,7 +26,7 @@ pub(crate) struct Nearest<'p> {
     problem: &'p Problem<'p>,
     common: NodeContext<'p>,
     clock: f64,
-    lists: &'p mut Lists,
+    lists: &'p mut SearchBuffers,
     /// The distance at and beyond which pairs are ignored.
     beyond: f64,
     /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
@@ -48,7 +48,7 @@ pub(crate) enum SearchEnd {
 
 impl<'p> Nearest<'p> {
     /// Creates the search for the nearest pieces at a clock.
-    pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut Lists) -> Self {
+    pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut SearchBuffers) -> Self {
         Nearest {
             problem,
             common: NodeContext::new(problem),
@@ -83,17 +83,17 @@ impl<'p> Nearest<'p> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> ControlFlow<SearchEnd> {
-        let mut next = Some(Next::roots(self.problem));
+        let mut next = Some(NextStep::roots(self.problem));
         while let Some(pair) = next {
             if let Err(limit) = meter.count_visit(self.problem) {
                 return ControlFlow::Break(SearchEnd::Limit(limit));
             }
             match pair {
-                Next::Split(split) => {
+                NextStep::Split(split) => {
                     let expansion = measure(&self.common, &split, self.clock);
                     self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
-                Next::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
+                NextStep::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
             next = self.next_pair();
         }
@@ -105,16 +105,20 @@ impl<'p> Nearest<'p> {
         if !(distance < self.upper_bound()) {
             return ControlFlow::Continue(());
         }
-        match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
+        match self
+            .lists
+            .waiting_pairs
+            .push(distance, Rank::Siblings, siblings)
+        {
             Ok(()) => ControlFlow::Continue(()),
             Err(QueueFull) => ControlFlow::Break(SearchEnd::Limit(Limit::Budget)),
         }
     }
 
     /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
-    fn next_pair(&mut self) -> Option<Next> {
+    fn next_pair(&mut self) -> Option<NextStep> {
         let (upper, search_radius) = (self.upper_bound(), self.search_radius());
-        let (distance, siblings) = self.lists.waiting.next()?;
+        let (distance, siblings) = self.lists.waiting_pairs.next()?;
         // Pairs without a distance may intersect.
         if distance > 0.0 && distance >= search_radius {
             self.lower = lesser(self.lower, distance);
@@ -122,8 +126,8 @@ impl<'p> Nearest<'p> {
         }
         let next = siblings.take_least(self.problem, distance);
         match siblings.clock() {
-            distance if distance < upper => self.lists.waiting.postpone(distance),
-            _ => self.lists.waiting.remove(),
+            distance if distance < upper => self.lists.waiting_pairs.postpone(distance),
+            _ => self.lists.waiting_pairs.remove(),
         }
         Some(next)
     }
@@ -153,7 +157,7 @@ impl<'p> Nearest<'p> {
         }
         // Written so that NaN is not apart.
         if !(checked.lower > 0.0) {
-            self.lists.touching.push(ids);
+            self.lists.touching_pairs.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper_bound() {

@@ -12,12 +12,12 @@ use std::ops::ControlFlow;
 
 /// The facts proven about the bodies as a whole, independent of pairs that still wait.
 #[derive(Debug, Default)]
-pub(crate) struct Proven {
+pub(crate) struct ProvenFacts {
     /// True if no pair of pieces is in contact at the start, and neither body is inside the other.
     apart_at_start: bool,
 }
 
-impl Proven {
+impl ProvenFacts {
     /// Processes the advance of a pair of pieces at clock `s`: returns the pair's next clock, or the outcome of the
     /// query.
     ///

@@ -8,7 +8,7 @@ use crate::math::order::greater;
 #[derive(Debug)]
 pub(crate) struct Queue<T> {
     items: Vec<T>,
-    vacant: Vec<u32>,
+    vacant_slots: Vec<u32>,
     /// The least key in the queue.
     least: Key,
     /// A tournament tree: the keys of the items, then the least of every four keys of the level before, up to a single
@@ -34,7 +34,7 @@ impl<T> Default for Queue<T> {
     fn default() -> Self {
         Queue {
             items: Vec::new(),
-            vacant: Vec::new(),
+            vacant_slots: Vec::new(),
             least: VACANT,
             levels: Vec::new(),
             depth: 0,
@@ -47,7 +47,7 @@ impl<T> Queue<T> {
     /// Removes all items, and keeps [some of the memory](empty).
     pub(crate) fn clear(&mut self) {
         empty(&mut self.items);
-        empty(&mut self.vacant);
+        empty(&mut self.vacant_slots);
         self.least = VACANT;
         self.levels.iter_mut().for_each(empty);
         self.depth = 0;
@@ -59,7 +59,7 @@ impl<T> Queue<T> {
         self.items.len() as u64
     }
 
-    fn place_of_least(&self) -> u32 {
+    fn least_slot(&self) -> u32 {
         assert!(self.least != VACANT, "no item waits");
         slot(self.least)
     }
@@ -110,10 +110,10 @@ impl<T> Queue<T> {
     }
 }
 
-impl<T> Waiting<T> for Queue<T> {
+impl<T> Worklist<T> for Queue<T> {
     #[inline]
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull> {
-        let place = match self.vacant.pop() {
+        let place = match self.vacant_slots.pop() {
             Some(place) => {
                 self.items[place as usize] = item;
                 place
@@ -138,21 +138,21 @@ impl<T> Waiting<T> for Queue<T> {
 
     #[inline]
     fn postpone(&mut self, clock: f64) {
-        let place = self.place_of_least();
+        let place = self.least_slot();
         let low = self.least as u64;
         self.set(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
     }
 
     #[inline]
     fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
-        let place = self.place_of_least();
+        let place = self.least_slot();
         let key = self.newest(clock, rank, place);
         self.set(place, key);
     }
 
     #[inline]
     fn replace(&mut self, clock: f64, rank: Rank, item: T) {
-        let place = self.place_of_least();
+        let place = self.least_slot();
         self.items[place as usize] = item;
         self.postpone_as_newest(clock, rank);
     }
@@ -161,7 +161,7 @@ impl<T> Waiting<T> for Queue<T> {
     fn remove(&mut self) {
         if self.least != VACANT {
             let place = slot(self.least);
-            self.vacant.push(place);
+            self.vacant_slots.push(place);
             self.set(place, VACANT);
         }
     }
@@ -191,7 +191,7 @@ fn key(clock: f64, rank: Rank, serial: u32, place: u32) -> Key {
 }
 
 /// A collection of waiting items, from which a search takes the next one.
-pub(crate) trait Waiting<T> {
+pub(crate) trait Worklist<T> {
     /// Adds an item that waits until a clock ≥ 0.
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull>;
 

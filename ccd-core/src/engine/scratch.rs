@@ -1,18 +1,18 @@
 //! Scratch memory that is reused from query to query, so that queries allocate nothing.
 
-use super::nearest::lists::Lists;
+use super::nearest::lists::SearchBuffers;
 use crate::distance::common_normals::CommonNormals;
 use crate::distance::overlap::InnerPolytope;
 use crate::shortcuts::screw::Profiles;
 
 /// The scratch memory of a solver, created when first needed.
-pub(crate) type Scratch = Option<Box<Memory>>;
+pub(crate) type Scratch = Option<Box<ScratchMemory>>;
 
 /// The lists that some queries need. They carry no information to the next query.
 #[derive(Debug, Default)]
-pub(crate) struct Memory {
+pub(crate) struct ScratchMemory {
     /// The lists of the search for the nearest pieces.
-    pub(crate) nearest: Lists,
+    pub(crate) nearest: SearchBuffers,
     /// The polytope of the test whether two pieces intersect.
     pub(crate) inner: InnerPolytope,
     /// The surfaces around two nearest points.

@@ -3,13 +3,13 @@
 use super::meter::Meter;
 use super::nodes::common::NodeContext;
 use super::nodes::expand::expand;
-use super::nodes::siblings::{Next, Siblings};
+use super::nodes::siblings::{NextStep, Siblings};
 use super::pieces::pair::{Pair, Step};
-use super::queue::{QueueFull, Rank, Waiting};
+use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::problem::Problem;
-use crate::shortcuts::closer_look::CloserLook;
+use crate::shortcuts::closer_look::TighterBounds;
 use std::ops::ControlFlow;
 
 /// A waiting item: the children of a split node, or a pair of pieces.
@@ -45,7 +45,7 @@ pub(crate) trait Question<O: DistanceOracle> {
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        advance: Advance,
+        advance: AdvanceResult,
     ) -> ControlFlow<Self::Found, f64>;
 
     /// Returns the result if a limit is reached at clock `s`.
@@ -56,7 +56,7 @@ pub(crate) trait Question<O: DistanceOracle> {
 }
 
 /// What a step found out about a pair of pieces.
-pub(crate) struct Advance {
+pub(crate) struct AdvanceResult {
     /// The indices of the pieces in the problem.
     pub(crate) pieces: [u32; 2],
     /// The clock at which the pair was examined.
@@ -72,7 +72,7 @@ pub(crate) struct Search<'s, O, W> {
     pub(crate) meter: &'s mut Meter,
 }
 
-impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
+impl<O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'_, O, W> {
     /// Runs the search from the pair of both roots until it has a result.
     pub(crate) fn run<Q: Question<O>>(
         &mut self,
@@ -83,7 +83,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             return question.on_limit(problem, 0.0, Limit::Budget);
         }
         let common = NodeContext::new(problem);
-        let mut look = CloserLook::new(problem);
+        let mut look = TighterBounds::new(problem);
         loop {
             if let ControlFlow::Break(found) = self.visit(&common, &mut look, question) {
                 return found;
@@ -95,7 +95,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     pub(crate) fn until<Q: Question<O>>(
         &mut self,
         problem: &Problem<'_>,
-        look: &mut CloserLook,
+        look: &mut TighterBounds,
         question: &mut Q,
         until: f64,
     ) -> ControlFlow<Q::Found, f64> {
@@ -111,9 +111,9 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
 
     /// Adds the pair of both roots to the waiting pairs.
     pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), QueueFull> {
-        let item = match Next::roots(problem) {
-            Next::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
-            Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
+        let item = match NextStep::roots(problem) {
+            NextStep::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
+            NextStep::Split(split) => Item::Siblings(Siblings::roots(split.body)),
         };
         self.waiting.push(0.0, item.rank(), item)
     }
@@ -123,7 +123,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     pub(crate) fn visit<Q: Question<O>>(
         &mut self,
         common: &NodeContext<'_>,
-        look: &mut CloserLook,
+        look: &mut TighterBounds,
         question: &mut Q,
     ) -> ControlFlow<Q::Found> {
         let problem = common.problem;
@@ -152,20 +152,20 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
                 if let Some((clock, alone)) = look.remove_if_provable(problem, siblings, s) {
                     let rest = siblings.clock();
                     let waits = self.requeue(rest, (clock, Item::Siblings(alone)));
-                    return unless_full(waits, problem, question, s);
+                    return continue_unless_full(waits, problem, question, s);
                 }
                 // The remaining siblings wait for their own clocks.
                 (siblings.take_least(problem, s), siblings.clock())
             }
         };
         let new = match next {
-            Next::Split(split) => {
+            NextStep::Split(split) => {
                 let expansion = expand(common, &split, s);
                 let mut siblings = Siblings::new(&expansion, split, s);
                 look.finish_proven(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
-            Next::Measure(a, b) => {
+            NextStep::Measure(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
                 let clock = question.on_advance(problem, *oracle, meter, advance)?;
@@ -173,7 +173,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             }
         };
         let waits = self.requeue(rest, new);
-        unless_full(waits, problem, question, s)
+        continue_unless_full(waits, problem, question, s)
     }
 
     /// Puts the remaining siblings of the last pair, and its new item, back among the waiting items if their clocks are
@@ -201,8 +201,8 @@ fn advance<O: DistanceOracle>(
     meter: &mut Meter,
     pair: &mut Pair<O::Cache>,
     clock: f64,
-) -> Advance {
-    Advance {
+) -> AdvanceResult {
+    AdvanceResult {
         pieces: [pair.a, pair.b],
         clock,
         step: pair.advance(problem, oracle, meter, clock),
@@ -210,7 +210,7 @@ fn advance<O: DistanceOracle>(
 }
 
 #[inline(always)]
-fn unless_full<O: DistanceOracle, Q: Question<O>>(
+fn continue_unless_full<O: DistanceOracle, Q: Question<O>>(
     waits: Result<(), QueueFull>,
     problem: &Problem<'_>,
     question: &mut Q,

@@ -142,11 +142,11 @@ pub(crate) type Row = [f64; 4];
 
 /// A vector in one register.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Packed<L: Simd>(f64x4<L>);
+pub(crate) struct PackedVector<L: Simd>(f64x4<L>);
 
 /// A matrix, stored by columns.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PackedMatrix<L: Simd>([Packed<L>; 3]);
+pub(crate) struct PackedMatrix<L: Simd>([PackedVector<L>; 3]);
 
 /// Extends a vector by an unused fourth number.
 pub(crate) fn row(v: DVec3) -> Row {
@@ -158,15 +158,15 @@ pub(crate) fn rows(m: DMat3) -> [Row; 3] {
     [row(m.x_axis), row(m.y_axis), row(m.z_axis)]
 }
 
-impl<L: Simd> Packed<L> {
+impl<L: Simd> PackedVector<L> {
     #[inline(always)]
     pub(crate) fn new(level: L, v: DVec3) -> Self {
-        Packed::load(level, &row(v))
+        PackedVector::load(level, &row(v))
     }
 
     #[inline(always)]
     pub(crate) fn load(level: L, row: &Row) -> Self {
-        Packed((*row).simd_into(level))
+        PackedVector((*row).simd_into(level))
     }
 
     #[inline(always)]
@@ -194,7 +194,7 @@ pub(crate) fn as_vec3<L: Simd>(v: f32x4<L>) -> Vec3 {
 
 impl<L: Simd> PackedMatrix<L> {
     #[inline(always)]
-    pub(crate) fn new(columns: [Packed<L>; 3]) -> Self {
+    pub(crate) fn new(columns: [PackedVector<L>; 3]) -> Self {
         PackedMatrix(columns)
     }
 
@@ -206,42 +206,42 @@ impl<L: Simd> PackedMatrix<L> {
     }
 }
 
-impl<L: Simd> Add for Packed<L> {
+impl<L: Simd> Add for PackedVector<L> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Packed(self.0 + other.0)
+        PackedVector(self.0 + other.0)
     }
 }
 
-impl<L: Simd> Sub for Packed<L> {
+impl<L: Simd> Sub for PackedVector<L> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Packed(self.0 - other.0)
+        PackedVector(self.0 - other.0)
     }
 }
 
-impl<L: Simd> Neg for Packed<L> {
+impl<L: Simd> Neg for PackedVector<L> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Packed(-self.0)
+        PackedVector(-self.0)
     }
 }
 
-impl<L: Simd> Mul<f64> for Packed<L> {
+impl<L: Simd> Mul<f64> for PackedVector<L> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Packed(self.0 * f64x4::splat(self.0.token(), factor))
+        PackedVector(self.0 * f64x4::splat(self.0.token(), factor))
     }
 }
 
-impl<L: Simd> Mul<Packed<L>> for PackedMatrix<L> {
-    type Output = Packed<L>;
+impl<L: Simd> Mul<PackedVector<L>> for PackedMatrix<L> {
+    type Output = PackedVector<L>;
     #[inline(always)]
-    fn mul(self, v: Packed<L>) -> Packed<L> {
+    fn mul(self, v: PackedVector<L>) -> PackedVector<L> {
         let [x, y, z] = self.0;
         x * v.0[0] + y * v.0[1] + z * v.0[2]
     }

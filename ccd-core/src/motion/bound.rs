@@ -1,8 +1,8 @@
 //! Bounds of the velocity of a moving body's points along a fixed axis.
 //!
 //! These bounds are coarser than the exact [`Track`](super::track::Track) of a point:
-//! - [`published`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
-//! - [`sound`]: a bound that holds over any later interval `[C2A09]`.
+//! - [`published_bound`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
+//! - [`sound_bound`]: a bound that holds over any later interval `[C2A09]`.
 
 use crate::math::order::greater;
 use crate::math::vector::length;
@@ -33,7 +33,7 @@ pub enum Bound {
 /// `farthest` returns the arm that is farthest along a direction `[FAST06 §4.2 Eq. 5]`.
 ///
 /// The bound is **unsound over a step**: the arms turn with the body. It is for comparison only.
-pub(crate) fn published(
+pub(crate) fn published_bound(
     motion: &Velocities,
     n: DVec3,
     farthest: impl FnOnce(DVec3) -> DVec3,
@@ -47,7 +47,7 @@ pub(crate) fn published(
 ///
 /// # Guarantee
 /// The bound holds over any interval, up to a few units in the last place.
-pub(crate) fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
+pub(crate) fn sound_bound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
     motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct Path {
     /// The angular velocity per unit of `s`, in the world's frame.
     pub(crate) spin: DVec3,
     /// The angular velocity per unit of `s`, in the body's frame; it is constant.
-    pub(crate) spin_local: DVec3,
+    pub(crate) local_angular_velocity: DVec3,
     /// The angular speed, `|spin|`.
     pub(crate) rate: f64,
     /// The unit vector along `spin`; zero if the body does not turn.
@@ -61,7 +61,7 @@ impl Path {
             velocity,
             acceleration: DVec3::ZERO,
             spin,
-            spin_local: start.inverse_vector(spin),
+            local_angular_velocity: start.inverse_vector(spin),
             rate,
             axis,
         }
@@ -89,7 +89,7 @@ impl Path {
             velocity: self.centre_velocity_at(from) * time,
             acceleration: self.acceleration * (time * time),
             spin: self.spin * time,
-            spin_local: self.spin_local * time,
+            local_angular_velocity: self.local_angular_velocity * time,
             rate: self.rate * time,
             axis: self.axis,
         }
@@ -116,7 +116,7 @@ impl Path {
     }
 
     /// Returns the position of the body's point `x` at time 0.
-    pub(crate) fn start_of(&self, x: DVec3) -> DVec3 {
+    pub(crate) fn point_at_start(&self, x: DVec3) -> DVec3 {
         self.start + (self.cosine + self.constant) * (x - self.centre)
     }
 
@@ -154,22 +154,22 @@ impl Path {
     /// Returns the largest distance of points of the body from the axis of rotation. It is constant; 0 if the body does
     /// not turn.
     pub(crate) fn max_distance_from_axis(&self, points: &[DVec3]) -> f64 {
-        if !self.turns() {
+        if !self.is_turning() {
             return 0.0;
         }
-        let axis = unit(self.spin_local).unwrap_or(DVec3::ZERO);
+        let axis = unit(self.local_angular_velocity).unwrap_or(DVec3::ZERO);
         let squares = points
             .iter()
             .map(|&x| axis.cross(x - self.centre).length_squared());
         squares.fold(0.0, greater).sqrt()
     }
 
-    pub(crate) fn turns(&self) -> bool {
+    pub(crate) fn is_turning(&self) -> bool {
         self.rate > 0.0
     }
 
     pub(crate) fn moves(&self) -> bool {
-        self.turns() || self.velocity != DVec3::ZERO || self.accelerates()
+        self.is_turning() || self.velocity != DVec3::ZERO || self.accelerates()
     }
 
     pub(crate) fn accelerates(&self) -> bool {

@@ -28,7 +28,7 @@ pub(crate) struct Period {
 
 /// A body's path, with the largest distance of its points from the centre of rotation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PathWithReach<'p> {
+pub(crate) struct PathWithRadius<'p> {
     pub(crate) path: &'p Path,
     pub(crate) reach: f64,
 }
@@ -36,7 +36,7 @@ pub(crate) struct PathWithReach<'p> {
 impl Period {
     /// Returns the periods that fit twice into the whole time, in ascending order. After longer periods, distances
     /// change less.
-    pub(crate) fn all(bodies: [PathWithReach<'_>; 2]) -> impl Iterator<Item = Period> {
+    pub(crate) fn all(bodies: [PathWithRadius<'_>; 2]) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
         let [slow, fast] = if a.path.rate > b.path.rate {
             [b, a]
@@ -68,7 +68,7 @@ impl Period {
 struct Convergents {
     rest: f64,
     last: [f64; 2],
-    before: [f64; 2],
+    previous: [f64; 2],
 }
 
 impl Convergents {
@@ -76,7 +76,7 @@ impl Convergents {
         Convergents {
             rest: number,
             last: [1.0, 0.0],
-            before: [0.0, 1.0],
+            previous: [0.0, 1.0],
         }
     }
 }
@@ -89,9 +89,9 @@ impl Iterator for Convergents {
             return None;
         }
         let whole = self.rest.floor();
-        let [last, before] = [self.last, self.before];
+        let [last, before] = [self.last, self.previous];
         let next = [0, 1].map(|k| whole * last[k] + before[k]);
-        (self.last, self.before) = (next, last);
+        (self.last, self.previous) = (next, last);
         self.rest = (self.rest - whole).recip();
         Some(next)
     }

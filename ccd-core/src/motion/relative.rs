@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::track::sin_cos;
-use crate::math::simd::{Packed, PackedMatrix, Row, row, rows};
+use crate::math::simd::{PackedMatrix, PackedVector, Row, row, rows};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3};
 /// If only one of the two turns, the view is a sum of three constant parts: factors of cosine, of sine and of one, as
 /// in the rotation of a single [`Path`].
 #[derive(Clone, Debug)]
-pub(crate) struct View {
+pub(crate) struct RelativePath {
     seen: RelativeRotation,
     /// The centre of rotation of the seeing body, in that body's frame.
     centre: Row,
@@ -53,16 +53,16 @@ pub(crate) struct RelativeState<L: Simd> {
     /// The rotation from the seen body's frame to the seeing body's.
     pub(crate) rotation: PackedMatrix<L>,
     /// The vector from the seeing body's centre of rotation to the seen body's.
-    pub(crate) offset: Packed<L>,
+    pub(crate) offset: PackedVector<L>,
     /// The velocity of the seeing body's centre of rotation minus that of the seen body's.
-    pub(crate) velocity: Packed<L>,
+    pub(crate) velocity: PackedVector<L>,
     /// The derivative of `velocity`; `None` if both centres accelerate equally.
-    pub(crate) acceleration: Option<Packed<L>>,
+    pub(crate) acceleration: Option<PackedVector<L>>,
     /// The angular velocity of the seen body.
-    pub(crate) spin: Packed<L>,
+    pub(crate) spin: PackedVector<L>,
 }
 
-impl View {
+impl RelativePath {
     /// Prepares the motion of `other` in the frame of `own`.
     pub(crate) fn new(own: &Path, other: &Path) -> Self {
         let offset = other.centre_at(0.0) - own.centre_at(0.0);
@@ -70,7 +70,7 @@ impl View {
         let acceleration = other.acceleration - own.acceleration;
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
         let inverse = own.rotations().map(|part| part.transpose());
-        let seen = if own.turns() && other.turns() {
+        let seen = if own.is_turning() && other.is_turning() {
             RelativeRotation::BothTurn {
                 inverse: RotatingQuantity::new(own.rate, inverse),
                 other: RotatingQuantity::new(other.rate, other.rotations()),
@@ -82,7 +82,7 @@ impl View {
         } else {
             RelativeRotation::one_body_turns(own, other, inverse, [offset, change], acceleration)
         };
-        View {
+        RelativePath {
             seen,
             centre: row(own.centre),
             other_centre: row(other.centre),
@@ -108,7 +108,7 @@ impl View {
                     offset: offset.vector(level, angle) + travel,
                     velocity: -change,
                     acceleration: acceleration.map(|acceleration| -acceleration),
-                    spin: Packed::load(level, spin),
+                    spin: PackedVector::load(level, spin),
                 }
             }
             RelativeRotation::BothTurn {
@@ -121,15 +121,15 @@ impl View {
             } => {
                 let inverse = inverse.matrix(level, sin_cos(inverse.rate * s));
                 let other = other.matrix(level, sin_cos(other.rate * s));
-                let acceleration = acceleration.map(|change| Packed::load(level, &change));
+                let acceleration = acceleration.map(|change| PackedVector::load(level, &change));
                 let [travel, change] =
-                    displacement_and_rate(Packed::load(level, change), acceleration, s);
+                    displacement_and_rate(PackedVector::load(level, change), acceleration, s);
                 RelativeState {
                     rotation: inverse * other,
-                    offset: inverse * (Packed::load(level, offset) + travel),
+                    offset: inverse * (PackedVector::load(level, offset) + travel),
                     velocity: inverse * -change,
                     acceleration: acceleration.map(|acceleration| inverse * -acceleration),
-                    spin: inverse * Packed::load(level, spin),
+                    spin: inverse * PackedVector::load(level, spin),
                 }
             }
         }
@@ -137,14 +137,14 @@ impl View {
 
     /// Returns the centre of rotation of the seeing body, in its frame.
     #[inline(always)]
-    pub(crate) fn centre<L: Simd>(&self, level: L) -> Packed<L> {
-        Packed::load(level, &self.centre)
+    pub(crate) fn centre<L: Simd>(&self, level: L) -> PackedVector<L> {
+        PackedVector::load(level, &self.centre)
     }
 
     /// Returns the centre of rotation of the seen body, in its frame.
     #[inline(always)]
-    pub(crate) fn other_centre<L: Simd>(&self, level: L) -> Packed<L> {
-        Packed::load(level, &self.other_centre)
+    pub(crate) fn other_centre<L: Simd>(&self, level: L) -> PackedVector<L> {
+        PackedVector::load(level, &self.other_centre)
     }
 }
 
@@ -159,9 +159,13 @@ impl RelativeRotation {
         acceleration: Option<DVec3>,
     ) -> Self {
         let others = other.rotations();
-        let rate = if other.turns() { other.rate } else { own.rate };
+        let rate = if other.is_turning() {
+            other.rate
+        } else {
+            own.rate
+        };
         let rotation = [0, 1, 2].map(|k| {
-            if other.turns() {
+            if other.is_turning() {
                 inverse[2] * others[k]
             } else {
                 inverse[k] * others[2]
@@ -200,7 +204,7 @@ impl RotatingQuantity<[Row; 3]> {
 
 impl RotatingQuantity<Row> {
     #[inline(always)]
-    fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> Packed<L> {
+    fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedVector<L> {
         let [p, q, k] = &self.parts;
         sum(level, [p, q, k], angle)
     }
@@ -209,10 +213,10 @@ impl RotatingQuantity<Row> {
 /// Returns the displacement until `s`, and the velocity at `s`, for a constant acceleration.
 #[inline(always)]
 fn displacement_and_rate<L: Simd>(
-    change: Packed<L>,
-    acceleration: Option<Packed<L>>,
+    change: PackedVector<L>,
+    acceleration: Option<PackedVector<L>>,
     s: f64,
-) -> [Packed<L>; 2] {
+) -> [PackedVector<L>; 2] {
     match acceleration {
         Some(acceleration) => [
             (change + acceleration * (0.5 * s)) * s,
@@ -223,8 +227,10 @@ fn displacement_and_rate<L: Simd>(
 }
 
 #[inline(always)]
-fn sum<L: Simd>(level: L, [p, q, k]: [&Row; 3], (sin, cos): (f64, f64)) -> Packed<L> {
-    Packed::load(level, p) * cos + Packed::load(level, q) * sin + Packed::load(level, k)
+fn sum<L: Simd>(level: L, [p, q, k]: [&Row; 3], (sin, cos): (f64, f64)) -> PackedVector<L> {
+    PackedVector::load(level, p) * cos
+        + PackedVector::load(level, q) * sin
+        + PackedVector::load(level, k)
 }
 
 #[cfg(test)]

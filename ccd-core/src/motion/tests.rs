@@ -4,7 +4,7 @@ use super::Motion;
 use super::pose::Pose;
 use crate::error::InputError;
 use crate::math::order::greater;
-use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
+use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
@@ -19,8 +19,9 @@ fn apart(a: &Pose, b: &Pose) -> f64 {
 fn between_passes_through_both_poses_and_never_turns_more_than_half() {
     let mut rng = rng(1);
     for _ in 0..2_000 {
-        let poses = [(); 2].map(|()| Pose::new(within(&mut rng, 9.0), rotation(&mut rng)).unwrap());
-        let centre = within(&mut rng, 3.0);
+        let poses =
+            [(); 2].map(|()| Pose::new(point_in_ball(&mut rng, 9.0), rotation(&mut rng)).unwrap());
+        let centre = point_in_ball(&mut rng, 3.0);
         let duration = magnitude(&mut rng, -3.0, 3.0);
         let motion = Motion::between(poses[0], poses[1], centre, duration).unwrap();
         assert!(apart(&motion.pose(0.0), &poses[0]) < 1e-13);
@@ -83,7 +84,7 @@ fn any_number_of_turns_is_a_motion() {
 #[test]
 fn a_body_at_rest_stays() {
     let mut rng = rng(3);
-    let pose = Pose::new(within(&mut rng, 5.0), rotation(&mut rng)).unwrap();
+    let pose = Pose::new(point_in_ball(&mut rng, 5.0), rotation(&mut rng)).unwrap();
     let motion = Motion::still(pose);
     for t in [0.0, 1.0, 1e9] {
         assert_eq!(motion.pose(t), pose);
@@ -94,7 +95,7 @@ fn a_body_at_rest_stays() {
 fn motions_that_are_not_finite_are_refused() {
     let mut rng = rng(4);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let mut vector = within(&mut rng, 1.0);
+        let mut vector = point_in_ball(&mut rng, 1.0);
         vector[rng.random_range(0..3)] = bad;
         let none = DVec3::ZERO;
         for (what, velocity, spin, centre) in [

@@ -11,14 +11,14 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{Solve, answer, in_rounds};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
-use crate::engine::proven::Proven;
+use crate::engine::proven::ProvenFacts;
 use crate::engine::scratch::Scratch;
 use crate::motion::bound::Bound;
 use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
 use hull_pair::HullPair;
-use reach::Reaches;
+use reach::AxisDistances;
 use std::ops::ControlFlow;
 
 /// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published
@@ -50,7 +50,7 @@ use std::ops::ControlFlow;
 pub struct Fast<O: DistanceOracle> {
     bound: Bound,
     front: Front<O::Cache>,
-    reaches: Reaches,
+    reaches: AxisDistances,
     without_trees: BestFirst<O>,
     scratch: Scratch,
 }
@@ -61,7 +61,7 @@ impl<O: DistanceOracle> Fast<O> {
         Fast {
             bound,
             front: Front::default(),
-            reaches: Reaches::default(),
+            reaches: AxisDistances::default(),
             without_trees: BestFirst::default(),
             scratch: None,
         }
@@ -108,7 +108,7 @@ impl<O: DistanceOracle> Fast<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        let mut proven = Proven::default();
+        let mut proven = ProvenFacts::default();
         self.front.reset(hulls);
         let mut s = 0.0;
         while s < 1.0 {

@@ -8,11 +8,11 @@ use crate::engine::capacity::empty;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Pair;
 use crate::engine::pieces::snapshot::Snapshot;
-use crate::engine::proven::Proven;
+use crate::engine::proven::ProvenFacts;
 use crate::engine::scratch::Scratch;
 use crate::math::order::lesser;
 use crate::motion::bound::Bound;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use std::ops::ControlFlow;
 
 /// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`. A free time is the pair's
@@ -82,7 +82,7 @@ impl<O: DistanceOracle> Naive<O> {
         let pairs = (0..a as u32).flat_map(|i| (0..b as u32).map(move |j| Pair::new(i, j)));
         self.pairs.extend(pairs);
         let reaches = [&problem.a, &problem.b].map(reaches);
-        let mut proven = Proven::default();
+        let mut proven = ProvenFacts::default();
         let mut s = 0.0;
         while s < 1.0 {
             meter.stats.advancements += 1;
@@ -113,7 +113,7 @@ impl<O: DistanceOracle> Naive<O> {
 }
 
 /// Returns for each piece the largest distance of its points from its body's axis of rotation.
-fn reaches(side: &Side<'_>) -> Vec<f64> {
+fn reaches(side: &BodyWithPath<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces
         .map(|piece| side.path.max_distance_from_axis(piece.points))

@@ -6,7 +6,7 @@ use crate::motion::pose::Pose;
 use crate::query::Moving;
 use crate::settings::Settings;
 
-fn build_problem(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
+fn problem_tolerance(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
     let ball = Body::sphere(1.0).unwrap();
     let moving = |motion| Moving::from((&ball, motion));
     let still = Motion::still(Pose::IDENTITY);
@@ -26,14 +26,17 @@ fn quantities_out_of_range_are_refused_by_name() {
     let config = Settings::DEFAULT;
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(
-            assert_refused(build_problem(still, bad, &config)),
+            assert_refused(problem_tolerance(still, bad, &config)),
             "duration"
         );
         let margin = Settings {
             margin: bad,
             ..config.clone()
         };
-        assert_eq!(assert_refused(build_problem(still, 1.0, &margin)), "margin");
+        assert_eq!(
+            assert_refused(problem_tolerance(still, 1.0, &margin)),
+            "margin"
+        );
     }
     for bad in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
         let tolerance = Settings {
@@ -41,26 +44,29 @@ fn quantities_out_of_range_are_refused_by_name() {
             ..config.clone()
         };
         assert_eq!(
-            assert_refused(build_problem(still, 1.0, &tolerance)),
+            assert_refused(problem_tolerance(still, 1.0, &tolerance)),
             "tolerance"
         );
     }
     let new = |velocity, spin| Motion::new(Pose::IDENTITY, velocity, spin).unwrap();
     let fast = new(1e10 * DVec3::X, DVec3::ZERO);
-    assert!(build_problem(fast, 1.0, &config).is_ok());
-    assert_eq!(assert_refused(build_problem(fast, 1e3, &config)), "travel");
+    assert!(problem_tolerance(fast, 1.0, &config).is_ok());
     assert_eq!(
-        assert_refused(build_problem(fast, f64::MAX, &config)),
+        assert_refused(problem_tolerance(fast, 1e3, &config)),
+        "travel"
+    );
+    assert_eq!(
+        assert_refused(problem_tolerance(fast, f64::MAX, &config)),
         "travel"
     );
     let turning = new(DVec3::ZERO, 1e5 * DVec3::Y);
-    assert!(build_problem(turning, 1.0, &config).is_ok());
+    assert!(problem_tolerance(turning, 1.0, &config).is_ok());
     assert_eq!(
-        assert_refused(build_problem(turning, 11.0, &config)),
+        assert_refused(problem_tolerance(turning, 11.0, &config)),
         "turn"
     );
     assert_eq!(
-        assert_refused(build_problem(turning, f64::MAX, &config)),
+        assert_refused(problem_tolerance(turning, f64::MAX, &config)),
         "turn"
     );
 }
@@ -69,8 +75,8 @@ fn quantities_out_of_range_are_refused_by_name() {
 fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     let config = Settings::DEFAULT;
     let pose = |at: f64| Pose::at(at * DVec3::Z).unwrap();
-    let refusal = |motion| assert_refused(build_problem(motion, 1.0, &config));
-    let good = |motion| build_problem(motion, 1.0, &config).is_ok();
+    let refusal = |motion| assert_refused(problem_tolerance(motion, 1.0, &config));
+    let good = |motion| problem_tolerance(motion, 1.0, &config).is_ok();
     let about = |start, centre| Motion::about(start, DVec3::ZERO, DVec3::Y, centre).unwrap();
     for sign in [1.0, -1.0] {
         let (most, beyond) = (sign * MAX_COORDINATE, sign * 1e13);
@@ -102,7 +108,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
             ..config.clone()
         };
         assert_eq!(
-            build_problem(Motion::still(pose(3.0)), 1.0, &margin).is_ok(),
+            problem_tolerance(Motion::still(pose(3.0)), 1.0, &margin).is_ok(),
             is_good
         );
         let tolerance = Settings {
@@ -110,7 +116,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
             ..config.clone()
         };
         assert_eq!(
-            build_problem(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
+            problem_tolerance(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
             is_good
         );
         assert_eq!(Body::sphere(large).is_ok(), is_good);
@@ -126,12 +132,12 @@ fn a_tolerance_that_cannot_be_certified_is_raised() {
         ..Settings::DEFAULT
     };
     let (low, high) = (
-        build_problem(near, 1.0, &fine).unwrap(),
-        build_problem(far, 1.0, &fine).unwrap(),
+        problem_tolerance(near, 1.0, &fine).unwrap(),
+        problem_tolerance(far, 1.0, &fine).unwrap(),
     );
     assert!(low > 1e-15 && low < 1e-12, "{low:e}");
     assert!(high > 1e3 * low && high < 1e-3, "{high:e}");
-    assert_eq!(build_problem(near, 1.0, &Settings::DEFAULT), Ok(1e-3));
+    assert_eq!(problem_tolerance(near, 1.0, &Settings::DEFAULT), Ok(1e-3));
 }
 
 #[test]
@@ -164,20 +170,26 @@ fn ranges_are_named_as_they_are() {
         tolerance,
         ..config.clone()
     };
-    named(build_problem(still, 1.0, &tolerance(0.0)), LEAST_TOLERANCE);
-    named(build_problem(still, 1.0, &tolerance(0.0)), MAX_COORDINATE);
+    named(
+        problem_tolerance(still, 1.0, &tolerance(0.0)),
+        LEAST_TOLERANCE,
+    );
+    named(
+        problem_tolerance(still, 1.0, &tolerance(0.0)),
+        MAX_COORDINATE,
+    );
     let margin = Settings {
         margin: -1.0,
         ..config.clone()
     };
-    named(build_problem(still, 1.0, &margin), MAX_COORDINATE);
+    named(problem_tolerance(still, 1.0, &margin), MAX_COORDINATE);
     let far = Motion::still(Pose::at([2.0 * MAX_COORDINATE, 0.0, 0.0]).unwrap());
-    named(build_problem(far, 1.0, &config), MAX_COORDINATE);
+    named(problem_tolerance(far, 1.0, &config), MAX_COORDINATE);
     let travels = Motion::new(Pose::IDENTITY, [2.0 * MAX_COORDINATE, 0.0, 0.0], [0.0; 3]);
     named(
-        build_problem(travels.unwrap(), 1.0, &config),
+        problem_tolerance(travels.unwrap(), 1.0, &config),
         MAX_COORDINATE,
     );
     let turns = Motion::new(Pose::IDENTITY, [0.0; 3], [2.0 * MAX_TURN, 0.0, 0.0]);
-    named(build_problem(turns.unwrap(), 1.0, &config), MAX_TURN);
+    named(problem_tolerance(turns.unwrap(), 1.0, &config), MAX_TURN);
 }

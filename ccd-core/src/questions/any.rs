@@ -5,8 +5,8 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{answer_in_any_order, in_rounds};
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
-use crate::engine::proven::Proven;
-use crate::engine::search::{Advance, Question, Search};
+use crate::engine::proven::ProvenFacts;
+use crate::engine::search::{AdvanceResult, Question, Search};
 use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
@@ -98,7 +98,7 @@ pub(crate) fn start_contact_as_any(answer: Answer) -> Answer {
 /// The search for any contact of the bodies.
 #[derive(Default)]
 struct AnyContactSearch {
-    proven: Proven,
+    proven: ProvenFacts,
     /// The clock of the first pair that could not be proven to the end, and the reason.
     first_failure: Option<(f64, Limit)>,
 }
@@ -126,9 +126,9 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch {
         problem: &Problem<'_>,
         _: &mut O,
         _: &mut Meter,
-        advance: Advance,
+        advance: AdvanceResult,
     ) -> ControlFlow<Outcome, f64> {
-        let Advance { clock: s, step, .. } = advance;
+        let AdvanceResult { clock: s, step, .. } = advance;
         ControlFlow::Break(match step {
             Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
             // A pair that keeps its distance gives no bound for the other pairs.

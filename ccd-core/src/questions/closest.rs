@@ -12,7 +12,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{SearchResult, run_metered};
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
-use crate::engine::proven::Proven;
+use crate::engine::proven::ProvenFacts;
 use crate::engine::search::Search;
 use crate::engine::start::at_start;
 use crate::error::InputError;
@@ -21,12 +21,12 @@ use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::depth_first::DepthFirst;
 use crate::shortcuts::bounding_volumes::least_distance;
-use crate::shortcuts::closer_look::CloserLook;
+use crate::shortcuts::closer_look::TighterBounds;
 use crate::shortcuts::rounds::Sample;
 use guess::initial_estimate;
-use ladder::Ladder;
+use ladder::LowerBoundLadder;
 use nearing::LeastDistanceSearch;
-use required::Required;
+use required::RequiredClearance;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -65,11 +65,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
     /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
     pub(crate) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
+        let answer = self.search_below(problem, f64::INFINITY, oracle, or_overlap);
         let found = answer.found;
         Answer {
-            outcome: found
-                .unwrap_or_else(|Beyond { lower }| unresolved_outcome(lower, Limit::OracleGaveUp)),
+            outcome: found.unwrap_or_else(|FartherThanCutoff { lower }| {
+                unresolved_outcome(lower, Limit::OracleGaveUp)
+            }),
             tolerance: answer.tolerance,
             stats: answer.stats,
         }
@@ -77,7 +78,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 
     /// Decides whether the bodies keep a distance, or their shapes come nearer.
     fn decide_clearance(&mut self, problem: &Problem<'_>, distance: f64, oracle: &mut O) -> Answer {
-        let required = Required {
+        let required = RequiredClearance {
             distance,
             tolerance: problem.tolerance,
             budget: problem.budget,
@@ -101,18 +102,18 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
-    ) -> SearchResult<Result<Outcome, Beyond>> {
-        self.measured(problem, beyond, oracle, |_, _, _, found| found)
+    ) -> SearchResult<Result<Outcome, FartherThanCutoff>> {
+        self.search_below(problem, beyond, oracle, |_, _, _, found| found)
     }
 
     /// Searches for distances below `beyond`, and completes the outcome by `last_look`.
-    fn measured(
+    fn search_below(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
         last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, Outcome) -> Outcome,
-    ) -> SearchResult<Result<Outcome, Beyond>> {
+    ) -> SearchResult<Result<Outcome, FartherThanCutoff>> {
         let mut scratch = self.scratch.take();
         let answer = run_metered(problem, oracle, &mut scratch, |oracle, meter| {
             let problem = problem.for_distances();
@@ -141,7 +142,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<Outcome, Beyond> {
+    ) -> Result<Outcome, FartherThanCutoff> {
         self.stack.clear();
         let found = self.search(problem, beyond, oracle, meter);
         let stats = &mut meter.stats;
@@ -156,7 +157,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<Outcome, Beyond> {
+    ) -> Result<Outcome, FartherThanCutoff> {
         if !moves(problem) {
             return distance_at_rest(problem, beyond, oracle, meter);
         }
@@ -167,7 +168,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut nearing = LeastDistanceSearch {
             best,
             beyond,
-            proven: Proven::default(),
+            proven: ProvenFacts::default(),
             first_failure: None,
             ladder: ladder(problem),
         };
@@ -188,7 +189,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 return nearing.found(problem, 0.0);
             }
             let common = NodeContext::new(&below);
-            let mut look = CloserLook::new(&below);
+            let mut look = TighterBounds::new(&below);
             while nearing.upper() == upper {
                 if let Some(rung) = nearing.ladder.next_if_due(search.meter.stats.work(), upper) {
                     if let ControlFlow::Break(found) =
@@ -196,7 +197,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     {
                         return Ok(found);
                     }
-                    look = CloserLook::new(&below);
+                    look = TighterBounds::new(&below);
                     continue;
                 }
                 if let ControlFlow::Break(found) = search.visit(&common, &mut look, &mut nearing) {
@@ -208,8 +209,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Converts the outcome for a sample of the periods to one for the whole time.
-fn at_all_times(sample: &Sample<'_>, found: Result<Outcome, Beyond>) -> Result<Outcome, Beyond> {
-    let found = found.map_err(|Beyond { lower }| Beyond {
+fn at_all_times(
+    sample: &Sample<'_>,
+    found: Result<Outcome, FartherThanCutoff>,
+) -> Result<Outcome, FartherThanCutoff> {
+    let found = found.map_err(|FartherThanCutoff { lower }| FartherThanCutoff {
         lower: sample.lower(lower),
     })?;
     let lower = sample.lower(found.lower());
@@ -251,7 +255,7 @@ fn distance_at_rest<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> Result<Outcome, Beyond> {
+) -> Result<Outcome, FartherThanCutoff> {
     Ok(match at_start(problem, beyond, oracle, meter) {
         Some(Outcome::Touching { contact }) => Outcome::Measured {
             lower: greater(0.0, contact.separation.lower),
@@ -262,20 +266,20 @@ fn distance_at_rest<O: DistanceOracle>(
         Some(Outcome::Unresolved(known)) => {
             unresolved_outcome(greater(0.0, least_distance(problem)), known.limit)
         }
-        _ => return Err(Beyond { lower: beyond }),
+        _ => return Err(FartherThanCutoff { lower: beyond }),
     })
 }
 
 /// The bodies stay at least as far apart as the distance of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Beyond {
+pub(crate) struct FartherThanCutoff {
     /// A lower bound of the distance of the bodies at all times.
     pub(crate) lower: f64,
 }
 
 /// Creates the ladder whose first lower bound comes from bounding balls of the bodies.
-fn ladder(problem: &Problem<'_>) -> Ladder {
-    let ladder = Ladder::new(least_distance(problem), problem.budget);
+fn ladder(problem: &Problem<'_>) -> LowerBoundLadder {
+    let ladder = LowerBoundLadder::new(least_distance(problem), problem.budget);
     if problem.deadline.is_some() || problem.stop.is_some() {
         ladder.with_early_start()
     } else {

@@ -3,7 +3,7 @@
 
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::capacity::empty;
-use crate::engine::queue::{QueueFull, Rank, Waiting};
+use crate::engine::queue::{QueueFull, Rank, Worklist};
 use crate::engine::scratch::Scratch;
 use crate::engine::search::Item;
 use crate::math::order::lesser;
@@ -70,7 +70,7 @@ impl<T> Stack<T> {
     }
 }
 
-impl<T> Waiting<T> for Stack<T> {
+impl<T> Worklist<T> for Stack<T> {
     fn push(&mut self, clock: f64, _: Rank, item: T) -> Result<(), QueueFull> {
         self.items.push((clock, item));
         self.peak = self.peak.max(self.items.len());

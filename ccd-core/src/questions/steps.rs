@@ -7,14 +7,14 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{achieved_tolerance, problem_after_start_contact};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
-use crate::engine::proven::Proven;
+use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{Question, Search};
 use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::settings::StartPolicy;
 use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
-use crate::shortcuts::closer_look::CloserLook;
+use crate::shortcuts::closer_look::TighterBounds;
 use crate::shortcuts::rounds::Rounds;
 use std::ops::ControlFlow;
 
@@ -76,8 +76,8 @@ struct Steps<'a, O: DistanceOracle> {
 /// The state of the search without the waiting pairs.
 #[derive(Debug)]
 struct SearchState {
-    look: CloserLook,
-    proven: Proven,
+    look: TighterBounds,
+    proven: ProvenFacts,
 }
 
 /// How far a search for the first contact has come.
@@ -260,7 +260,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                 if let Some(free) = free_by_bounding_volumes(problem) {
                     return ControlFlow::Break(free);
                 }
-                let mut proven = Proven::default();
+                let mut proven = ProvenFacts::default();
                 if search.push_roots(problem).is_err() {
                     return ControlFlow::Break(Question::<O>::on_limit(
                         &mut proven,
@@ -269,7 +269,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                         Limit::Budget,
                     ));
                 }
-                let look = CloserLook::new(problem);
+                let look = TighterBounds::new(problem);
                 state.insert(SearchState { look, proven })
             }
         };

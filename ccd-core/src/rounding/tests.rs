@@ -17,7 +17,7 @@ use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, body, direction, magnitude, rng, rotation, soup, within,
+    Pcg64, RngExt, SoupKind, body, direction, magnitude, point_in_ball, rng, rotation, soup,
 };
 use crate::tests::worst::share;
 use crate::{Body, Pose};
@@ -78,7 +78,7 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
         let motions = ends.map(|ends| between(&ends, duration));
         let moving = |k: usize| Moving::from((&bodies[k], motions[k]));
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
-        let origin = Double3::from(ends[1].places[0]);
+        let origin = Double3::from(ends[1].positions[0]);
         for k in 0..2 {
             let s = rng.random_range(0.0..1.0);
             let side = [&problem.a, &problem.b][k];
@@ -105,7 +105,7 @@ fn far_body(rng: &mut impl RngExt, count: usize, size: f64) -> Body {
 }
 
 fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Motion {
-    let start = Pose::new(world + within(rng, size), rotation(rng)).unwrap();
+    let start = Pose::new(world + point_in_ball(rng, size), rotation(rng)).unwrap();
     let turn = match rng.random_range(0..4) {
         0 => 0.0,
         1 => magnitude(rng, -9.0, 0.0),
@@ -118,7 +118,7 @@ fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Moti
         start,
         direction(rng) * travel / duration,
         direction(rng) * turn / duration * 0.999,
-        within(rng, off),
+        point_in_ball(rng, off),
     )
     .unwrap()
 }

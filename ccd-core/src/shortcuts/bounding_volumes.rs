@@ -9,7 +9,7 @@ use super::placed::{Approach, Placed, straight};
 use crate::answer::Outcome;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RATE_F64;
 use crate::tuning::BOX_PROJECTIONS;
 use glam::DVec3;
@@ -53,7 +53,7 @@ fn deviation_from_line(problem: &Problem<'_>) -> f64 {
 /// Returns the clock at which the bounding balls are nearest to each other.
 pub(crate) fn nearest_clock(problem: &Problem<'_>) -> f64 {
     let (a, b) = (Ball::around_body(&problem.a), Ball::around_body(&problem.b));
-    least_at(b.centre - a.centre, b.velocity - a.velocity)
+    least_length_parameter(b.centre - a.centre, b.velocity - a.velocity)
 }
 
 /// A ball on a straight path that contains a body at all times.
@@ -65,7 +65,7 @@ struct Ball {
 }
 
 impl Ball {
-    fn around_body(side: &Side<'_>) -> Self {
+    fn around_body(side: &BodyWithPath<'_>) -> Self {
         let (centre, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
         // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
@@ -74,7 +74,7 @@ impl Ball {
             _ => 2.0,
         };
         Ball {
-            centre: path.start_of(centre),
+            centre: path.point_at_start(centre),
             velocity: path.velocity + 0.5 * path.acceleration,
             radius: radius + turned * centre.distance(path.centre),
         }
@@ -83,11 +83,11 @@ impl Ball {
 
 /// Returns the least length of `from + s · change` over `s` from 0 to 1.
 fn least_length(from: DVec3, change: DVec3) -> f64 {
-    length(from + change * least_at(from, change))
+    length(from + change * least_length_parameter(from, change))
 }
 
 /// Returns the `s` from 0 to 1 at which `from + s · change` is shortest.
-fn least_at(from: DVec3, change: DVec3) -> f64 {
+fn least_length_parameter(from: DVec3, change: DVec3) -> f64 {
     let square = change.length_squared();
     if square > 0.0 {
         (-from.dot(change) / square).clamp(0.0, 1.0)
@@ -103,7 +103,7 @@ fn least_at(from: DVec3, change: DVec3) -> f64 {
 /// # Guarantee
 /// The result is true only for bodies that are never in contact, up to the tolerance, nor inside each other.
 fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
-    let whole = |side: &Side<'_>| side.body.tree().piece(0).is_some();
+    let whole = |side: &BodyWithPath<'_>| side.body.tree().piece(0).is_some();
     // The search proves two single pieces apart as fast by itself.
     if whole(&problem.a) && whole(&problem.b) {
         return false;

@@ -7,13 +7,13 @@ use super::{Shortcut, flat_nodes};
 use crate::engine::meter::Meter;
 use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::REACH_F32;
 use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for the pairs of a query, as far as they are useful.
 #[derive(Debug)]
-pub(crate) struct CloserLook {
+pub(crate) struct TighterBounds {
     /// True if f32 is too coarse for the gap to keep between the largest nodes.
     is_f32_coarse: bool,
     /// The number of splits in the search so far.
@@ -21,11 +21,11 @@ pub(crate) struct CloserLook {
     screw: Option<Screw>,
 }
 
-impl CloserLook {
+impl TighterBounds {
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
-        let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
+        let radius = |side: &BodyWithPath<'_>| f64::from(side.body.tree().radius());
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
-        CloserLook {
+        TighterBounds {
             is_f32_coarse: problem.uses(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
             splits: 0,
@@ -43,7 +43,7 @@ impl CloserLook {
         s: f64,
     ) -> Option<(f64, Siblings)> {
         if self.is_f32_coarse && siblings.times_advanced() < MAX_NEWTON_STEPS {
-            part_flat(problem, siblings, s)
+            advance_flat_pair(problem, siblings, s)
         } else {
             None
         }
@@ -79,7 +79,7 @@ impl CloserLook {
         }
         // Repeating the test for a single pair would give the same result.
         if let Some(screw) = &self.screw
-            && split.lanes == u8::MAX
+            && split.lane_mask == u8::MAX
         {
             let profiles = &mut meter.scratch_memory().profiles;
             siblings.finish(|pair| screw.keeps_apart(problem, profiles, pair, s));
@@ -88,7 +88,11 @@ impl CloserLook {
 }
 
 #[cold]
-fn part_flat(problem: &Problem<'_>, siblings: &mut Siblings, s: f64) -> Option<(f64, Siblings)> {
+fn advance_flat_pair(
+    problem: &Problem<'_>,
+    siblings: &mut Siblings,
+    s: f64,
+) -> Option<(f64, Siblings)> {
     let free = flat_nodes::free_time(problem, siblings.least_pair(), s);
     // One step down undoes the rounding of the sum. Written so that NaN is no clock.
     let clock = (s + free).next_down();

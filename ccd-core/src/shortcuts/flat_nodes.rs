@@ -7,7 +7,7 @@ use super::placed::{Approach, Placed};
 use crate::body::tree::{NodeId, NodeOrTriangle, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{RATE_F64, REACH_F32};
 use crate::tuning::{CLOSED_GAP, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
 use glam::DVec3;
@@ -31,7 +31,7 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
 }
 
 /// Returns whether a node is a triangle, or thin enough for a flat node.
-fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
+fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
     match side.body.tree().get(id) {
         NodeOrTriangle::Node(node) => node.is_thin(),
         NodeOrTriangle::Triangle(_) => true,
@@ -48,7 +48,7 @@ struct Flat {
 }
 
 impl Flat {
-    fn new(side: &Side<'_>, id: NodeId, s: f64) -> Option<Self> {
+    fn new(side: &BodyWithPath<'_>, id: NodeId, s: f64) -> Option<Self> {
         let node = Placed::new(side, id, s);
         let tree = side.body.tree();
         let (normal, half) = match tree.get(id) {

@@ -7,7 +7,7 @@ use crate::math::vector::length;
 use crate::motion::gap::Gap;
 use crate::motion::path::Path;
 use crate::motion::pose::Frame;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{BOX_AXES_F32, RATE_F64};
 use glam::{DVec3, Vec3};
 
@@ -36,7 +36,7 @@ enum Shape {
 impl Placed {
     /// Places the bounding box of a whole body at clock `s`.
     #[inline]
-    pub(crate) fn body_box(side: &Side<'_>, s: f64) -> Self {
+    pub(crate) fn body_box(side: &BodyWithPath<'_>, s: f64) -> Self {
         let frame = side.path.frame(s);
         let whole = side.body.tree().body_box();
         Placed {
@@ -52,7 +52,7 @@ impl Placed {
     }
 
     #[inline]
-    pub(crate) fn new(side: &Side<'_>, id: NodeId, s: f64) -> Self {
+    pub(crate) fn new(side: &BodyWithPath<'_>, id: NodeId, s: f64) -> Self {
         let frame = side.path.frame(s);
         match side.body.tree().get(id) {
             NodeOrTriangle::Node(node) => Placed {

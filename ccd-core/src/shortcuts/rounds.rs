@@ -12,8 +12,8 @@ use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::engine::meter::Meter;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
-use crate::motion::period::{PathWithReach, Period};
-use crate::problem::{Problem, Side};
+use crate::motion::period::{PathWithRadius, Period};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
 use crate::settings::StartPolicy;
 use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
@@ -82,8 +82,8 @@ impl<'a> Rounds<'a> {
             return None;
         }
         let tolerance = problem.tolerance;
-        let bodies = [&problem.a, &problem.b].map(with_reach);
-        let [a, b] = bodies.map(|PathWithReach { path, reach }| {
+        let bodies = [&problem.a, &problem.b].map(path_with_radius);
+        let [a, b] = bodies.map(|PathWithRadius { path, reach }| {
             let way = length(path.centre_at(0.0)) + path.speed();
             place_rounding(reach, path.rate, way)
         });
@@ -298,9 +298,9 @@ fn widened(contact: Contact, rounding: f64) -> Contact {
     }
 }
 
-fn with_reach<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
+fn path_with_radius<'p>(side: &'p BodyWithPath<'_>) -> PathWithRadius<'p> {
     let (centre, radius) = side.body.tree().bounding_ball();
-    PathWithReach {
+    PathWithRadius {
         path: &side.path,
         reach: centre.distance(side.path.centre) * (1.0 + f64::EPSILON) + radius,
     }
@@ -308,7 +308,7 @@ fn with_reach<'p>(side: &'p Side<'_>) -> PathWithReach<'p> {
 
 /// Returns the period that leaves the least time to search, if rounds end once distances have changed by `change`;
 /// `None` if no period saves time.
-fn period_with_least_work(bodies: [PathWithReach<'_>; 2], change: f64) -> Option<Period> {
+fn period_with_least_work(bodies: [PathWithRadius<'_>; 2], change: f64) -> Option<Period> {
     let searched = |period: &Period| {
         let rounds = greater(1.0, period.change / (period.length * change));
         lesser(1.0, period.length * rounds)

@@ -14,11 +14,11 @@ mod profile;
 
 use super::placed::Placed;
 use super::screw::profile::{Profile, ScrewAxis, ScrewPath, keep_apart};
-use crate::body::tree::{Below, Members, NodeId, NodeOrTriangle};
+use crate::body::tree::{GroupHeader, NodeChildren, NodeId, NodeOrTriangle};
 use crate::engine::capacity::empty;
 use crate::math::order::lesser;
 use crate::math::vector::length;
-use crate::problem::{Problem, Side, Which};
+use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{ADVANCE_F64, RATE_F64};
 use crate::tuning::{CLOSED_GAP, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
@@ -27,7 +27,7 @@ use std::ops::Range;
 /// The screw motion of one body relative to the other, to prove pairs of nodes apart.
 #[derive(Debug)]
 pub(crate) struct Screw {
-    turning: Which,
+    turning: WhichBody,
     axis: ScrewAxis,
     /// The whole path along the screw, and the distance to keep on it. The distance includes the drift of the axis.
     path: ScrewPath,
@@ -52,9 +52,9 @@ impl Screw {
     /// Returns the screw motion of the problem, and clears all profiles; `None` unless one body turns, and the axis
     /// hardly moves relative to the other.
     pub(crate) fn for_problem(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
-        let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
-            (true, false) => Which::A,
-            (false, true) => Which::B,
+        let turning = match (problem.a.path.is_turning(), problem.b.path.is_turning()) {
+            (true, false) => WhichBody::A,
+            (false, true) => WhichBody::B,
             _ => return None,
         };
         let (side, other) = (turning.of(problem), turning.other().of(problem));
@@ -102,7 +102,7 @@ impl Screw {
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
-        if self.keeps_whole_apart(problem, profiles, [a, b], s)? {
+        if self.keeps_nodes_apart(problem, profiles, [a, b], s)? {
             return Some(true);
         }
         let of_a = triangles(&problem.a, a);
@@ -114,13 +114,13 @@ impl Screw {
         // triangles costs less than splitting the groups.
         let mut of_a = of_a;
         Some(of_a.all(|x| {
-            let mut apart = |pair| self.keeps_whole_apart(problem, profiles, pair, s) == Some(true);
+            let mut apart = |pair| self.keeps_nodes_apart(problem, profiles, pair, s) == Some(true);
             apart([x, b]) || of_b.clone().all(|y| apart([x, y]))
         }))
     }
 
     /// Like `Screw::keeps_apart`, without a test of the triangles below the nodes.
-    fn keeps_whole_apart(
+    fn keeps_nodes_apart(
         &self,
         problem: &Problem<'_>,
         Profiles([of_a, of_b]): &mut Profiles,
@@ -130,8 +130,8 @@ impl Screw {
         let a = of_a.profile_of(&problem.a, a, &self.axis)?;
         let b = of_b.profile_of(&problem.b, b, &self.axis)?;
         let (turning, still) = match self.turning {
-            Which::A => (a, b),
-            Which::B => (b, a),
+            WhichBody::A => (a, b),
+            WhichBody::B => (b, a),
         };
         let [_, end] = self.path.angles;
         let way = ScrewPath {
@@ -143,7 +143,7 @@ impl Screw {
 }
 
 impl BodyProfiles {
-    fn clear(&mut self, side: &Side<'_>) {
+    fn clear(&mut self, side: &BodyWithPath<'_>) {
         let count = side.body.tree().nodes() + side.body.pieces().len();
         empty(&mut self.known);
         empty(&mut self.profile_indices);
@@ -151,7 +151,12 @@ impl BodyProfiles {
     }
 
     /// Returns the profile of a node or triangle; `None` if it surrounds the axis, or nearly does.
-    fn profile_of(&mut self, side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<&Profile> {
+    fn profile_of(
+        &mut self,
+        side: &BodyWithPath<'_>,
+        id: NodeId,
+        axis: &ScrewAxis,
+    ) -> Option<&Profile> {
         let place = &mut self.profile_indices[id as usize];
         if *place == UNKNOWN {
             *place = match profile(side, id, axis) {
@@ -168,7 +173,7 @@ impl BodyProfiles {
 
 /// Computes the profile of a node at its pose at the start. A profile of a few triangles is smaller than that of their
 /// box.
-fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
+fn profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
     let place = |id: NodeId| Placed::new(side, id, 0.0);
     match triangles(side, id) {
         Some(few) => Profile::union_of(few.map(place), axis),
@@ -177,13 +182,13 @@ fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
 }
 
 /// Returns the ids of the triangles of a node with few triangles; `None` for other nodes.
-fn triangles(side: &Side<'_>, id: NodeId) -> Option<Range<NodeId>> {
+fn triangles(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
     let tree = side.body.tree();
     match tree.get(id) {
         NodeOrTriangle::Triangle(_) => Some(id..id + 1),
         NodeOrTriangle::Node(node) => match node.below {
-            Below::Triangles(group) => {
-                let &Members { first, count, .. } = tree.triangle_members(group);
+            NodeChildren::Triangles(group) => {
+                let &GroupHeader { first, count, .. } = tree.triangle_members(group);
                 Some(first..first + count)
             }
             _ => None,

@@ -10,13 +10,13 @@ use crate::problem::Problem;
 use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, body, distance, rng, scene};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut Exhaustive)
+    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
 /// Checks that at the earlier of two times of contact the bodies are still as far apart as the later answer proves.

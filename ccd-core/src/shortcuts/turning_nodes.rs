@@ -27,7 +27,7 @@ struct TurningNode<L: Simd> {
     /// An upper bound of the speeds of the node's points due to its own body's rotation.
     speed: f32x8<L>,
     /// The angular speed `|ω|` of the node's own body.
-    own_rate: f32,
+    own_angular_speed: f32,
 }
 
 impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
@@ -39,9 +39,9 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split.velocity(at) - self.other_turning;
-        let across = motion.split.cross_spin(axis.n);
-        let own = motion.other.cross_spin(axis.n);
-        self.free_attached(
+        let across = motion.split.cross_angular_velocity(axis.n);
+        let own = motion.other.cross_angular_velocity(axis.n);
+        self.attached_free_time(
             axis,
             second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
@@ -49,7 +49,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
                 rate: axis.n.dot(velocity) + other.extent_along(own - across),
                 distance: motion.split.distances_from_centre(at) + other.radius(),
                 speed: self.other_speed,
-                own_rate: motion.other.rate,
+                own_angular_speed: motion.other.rate,
             },
         )
     }
@@ -62,9 +62,9 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let at = children.centre(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
-        let across = motion.other.cross_spin(axis.n);
-        let own = motion.split.cross_spin(axis.n);
-        self.free_attached(
+        let across = motion.other.cross_angular_velocity(axis.n);
+        let own = motion.split.cross_angular_velocity(axis.n);
+        self.attached_free_time(
             axis,
             second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
@@ -72,13 +72,13 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
                 rate: axis.n.dot(velocity) + children.extent_along(own - across),
                 distance: motion.other.distances_from_centre(at) + children.radius(level),
                 speed: self.speed,
-                own_rate: motion.split.rate,
+                own_angular_speed: motion.split.rate,
             },
         )
     }
 
     #[inline(always)]
-    fn free_attached(
+    fn attached_free_time(
         &self,
         axis: Axis<L>,
         across: f32x8<L>,
@@ -94,7 +94,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let speed = sweep.speed + straight;
         let far = sweep.distance + speed * MAX_TURNING_PLANE_TIME;
         let second_derivative =
-            across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
+            across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_angular_speed + change;
         // Each sweep happens at the distance of its node from the turning body's centre.
         let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
         let free = clock::free_time(

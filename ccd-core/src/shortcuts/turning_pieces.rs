@@ -14,7 +14,7 @@ use crate::math::order::lesser;
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, RotatingVector};
-use crate::problem::Side;
+use crate::problem::BodyWithPath;
 use crate::rounding::{RATE_F64, attached_rounding};
 use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
 use glam::DVec3;
@@ -22,7 +22,7 @@ use std::cell::Cell;
 
 /// A piece with the pose and the motion of its body at a clock.
 pub(crate) struct MovingPiece<'p> {
-    pub(crate) side: &'p Side<'p>,
+    pub(crate) side: &'p BodyWithPath<'p>,
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
     pub(crate) clock: f64,
@@ -31,8 +31,13 @@ pub(crate) struct MovingPiece<'p> {
 }
 
 impl<'p> MovingPiece<'p> {
-    pub(crate) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
-        let relative_speed = if side.path.turns() {
+    pub(crate) fn new(
+        side: &'p BodyWithPath<'p>,
+        frame: &'p Frame,
+        piece: Piece<'p>,
+        clock: f64,
+    ) -> Self {
+        let relative_speed = if side.path.is_turning() {
             side.path.rate * piece.max_distance_from(piece.points[0])
         } else {
             0.0
@@ -85,7 +90,7 @@ pub(crate) struct TurningPiece<'p> {
 
 /// The terms of heights and rates after some time. A point with the vector `arm` in its body's frame has the height
 /// `height + axis·arm` and the rate `rate + closing·arm`.
-struct Turned {
+struct HeightTerms {
     height: f64,
     axis: DVec3,
     rate: f64,
@@ -103,7 +108,7 @@ impl<'p> TurningPiece<'p> {
     ) -> Self {
         let (path, own) = (&holder.side.path, &other.side.path);
         // All points of a body that does not turn move alike, and one of the piece's own points is nearest.
-        let reference = if own.turns() {
+        let reference = if own.is_turning() {
             own.centre
         } else {
             other.piece.points[0]
@@ -181,7 +186,7 @@ impl<'p> TurningPiece<'p> {
 
     /// Returns the least height of the points at the start.
     fn least_start_height(&self) -> f64 {
-        let Turned { height, axis, .. } = self.turned(0.0);
+        let HeightTerms { height, axis, .. } = self.turned(0.0);
         height + self.least_height_along(axis)
     }
 
@@ -201,7 +206,7 @@ impl<'p> TurningPiece<'p> {
         self.piece.points.iter().map(move |&y| y - reference)
     }
 
-    fn turned(&self, tau: f64) -> Turned {
+    fn turned(&self, tau: f64) -> HeightTerms {
         let angle = Angle::new(self.angular_speed * tau);
         let own = Angle::new(self.own_angular_speed * tau);
         let axis = self.normal.at(angle);
@@ -212,7 +217,7 @@ impl<'p> TurningPiece<'p> {
             let turned = RotatingVector::new(-self.own_axis, v).at(own);
             self.frame.inverse_vector(turned)
         };
-        Turned {
+        HeightTerms {
             height: axis.dot(offset),
             axis: back(axis),
             rate: turning.dot(offset) + axis.dot(velocity),

@@ -4,9 +4,9 @@
 use super::*;
 use crate::engine::answer::Solve;
 use crate::schedule::BestFirst;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
-use crate::tests::trajectories::Swing;
+use crate::tests::trajectories::SwingingTrajectory;
 use crate::{Motion, Outcome, Pose};
 
 fn boxes(scene: &Scene) -> [SweptBox; 2] {
@@ -26,7 +26,7 @@ fn points_stay_in_their_box() {
         let scene = scene(&mut rng, kind, 8);
         for (k, swept) in boxes(&scene).iter().enumerate() {
             let path = Path::new(&scene.motions[k], DVec3::ZERO, 1.0);
-            turning += usize::from(path.turns());
+            turning += usize::from(path.is_turning());
             let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
             for step in 0..=128 {
                 let frame = path.frame(f64::from(step) / 128.0);
@@ -46,7 +46,7 @@ fn points_stay_in_their_box() {
             // In the worst case the box is about a ball.
             let whole = scene.bodies[k].tree().body_box();
             let ball = distance(whole.centre, path.centre) + whole.radius;
-            let worst = path.velocity.abs() + 2.0 * (ball + room_of(&scene, k));
+            let worst = path.velocity.abs() + 2.0 * (ball + half_contact_distance_of(&scene, k));
             // Coordinates are rounded at their position.
             let rounding = 4.0 * f64::EPSILON * (swept.max.abs() + swept.min.abs());
             assert!(
@@ -65,7 +65,7 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
     let mut widest: f64 = 0.0;
     for _ in 0..300 {
         let scene = scene(&mut rng, Kind::Any, 8);
-        let (body, swing) = (&scene.bodies[0], Swing::draw(&mut rng, 3.0));
+        let (body, swing) = (&scene.bodies[0], SwingingTrajectory::draw(&mut rng, 3.0));
         let swept = Moving::from((body, &swing)).swept_box(2.0, &Settings::DEFAULT);
         let swept = swept.unwrap();
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -89,8 +89,8 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
     assert!(widest < 4.0, "{widest}");
 }
 
-fn room_of(scene: &Scene, k: usize) -> f64 {
-    let side = Side {
+fn half_contact_distance_of(scene: &Scene, k: usize) -> f64 {
+    let side = BodyWithPath {
         body: &scene.bodies[k],
         given: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
@@ -124,7 +124,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
             Motion::about(start, motion.velocity(), motion.spin(), motion.centre()).unwrap();
         let [a, b] = boxes(&scene);
         let outcome = BestFirst::default()
-            .solve(&scene.problem(), &mut Exhaustive)
+            .solve(&scene.problem(), &mut ExhaustiveOracle)
             .outcome;
         let is_free = matches!(outcome, Outcome::Free { .. });
         if a.meets(&b) {

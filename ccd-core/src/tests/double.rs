@@ -238,7 +238,7 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
 /// The given poses of a body at both ends of a motion, with quaternions of any length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
-    pub(crate) places: [DVec3; 2],
+    pub(crate) positions: [DVec3; 2],
     pub(crate) turned: [DQuat; 2],
     /// The centre of rotation in the body's frame, which moves on a straight line.
     pub(crate) centre: DVec3,
@@ -249,7 +249,7 @@ impl Ends {
     pub(crate) fn place(&self, share: Double, point: DVec3) -> Double3 {
         let centre = Double3::from(self.centre);
         let [start, end] =
-            [0, 1].map(|k| Double3::from(self.places[k]) + centre.rotated(self.turned[k]));
+            [0, 1].map(|k| Double3::from(self.positions[k]) + centre.rotated(self.turned[k]));
         let arm = (Double3::from(point) - centre).rotated(self.turned[0]);
         let ([x, y, z], w) = self.turn();
         let axis = Double3([x, y, z]);

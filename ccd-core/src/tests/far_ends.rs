@@ -2,8 +2,8 @@
 //! for the rounded one.
 
 use super::double::{Double, Double3, Ends};
-use super::oracle::Exhaustive;
-use super::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use super::oracle::ExhaustiveOracle;
+use super::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use crate::answer::Outcome;
 use crate::body::Body;
 use crate::engine::answer::Solve;
@@ -17,7 +17,7 @@ use glam::DVec3;
 
 /// Draws poses at both ends near a point in the world, with quaternions of any length, sometimes equal.
 pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
-    let at = |rng: &mut R| world + within(rng, size);
+    let at = |rng: &mut R| world + point_in_ball(rng, size);
     let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
     let end = match rng.random_range(0..3) {
         0 => start,
@@ -26,15 +26,15 @@ pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
     };
     let off = size * magnitude(rng, -3.0, 3.0);
     Ends {
-        places: [at(rng), at(rng)],
+        positions: [at(rng), at(rng)],
         turned: [start, end],
-        centre: [DVec3::ZERO, within(rng, off)][rng.random_range(0..2)],
+        centre: [DVec3::ZERO, point_in_ball(rng, off)][rng.random_range(0..2)],
     }
 }
 
 /// Creates the engine's motion between two poses.
 pub(crate) fn between(ends: &Ends, duration: f64) -> Motion {
-    let [start, end] = [0, 1].map(|k| Pose::new(ends.places[k], ends.turned[k]).unwrap());
+    let [start, end] = [0, 1].map(|k| Pose::new(ends.positions[k], ends.turned[k]).unwrap());
     Motion::between(start, end, ends.centre, duration).unwrap()
 }
 
@@ -50,7 +50,7 @@ impl Scene {
         let world = direction(rng) * magnitude(rng, 3.0, 11.9);
         Scene {
             ends: [(); 2].map(|()| ends(rng, world, 1.0)),
-            centres: [(); 2].map(|()| within(rng, 0.5)),
+            centres: [(); 2].map(|()| point_in_ball(rng, 0.5)),
             radii: rng.random_range(0.1..0.4),
         }
     }
@@ -87,9 +87,11 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
         let problem = Problem::about(moving(0), moving(1), duration, &config).unwrap();
         for outcome in [
             BestFirst::default()
-                .solve(&problem, &mut Exhaustive)
+                .solve(&problem, &mut ExhaustiveOracle)
                 .outcome,
-            Naive::default().solve(&problem, &mut Exhaustive).outcome,
+            Naive::default()
+                .solve(&problem, &mut ExhaustiveOracle)
+                .outcome,
         ] {
             let (until, least) = match outcome {
                 Outcome::Contact { time, contact } => {

@@ -56,6 +56,6 @@ pub(crate) fn inside_out(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }
 
-pub(crate) fn moved(triangles: &[Triangle], by: DVec3) -> Vec<Triangle> {
+pub(crate) fn translated_triangles(triangles: &[Triangle], by: DVec3) -> Vec<Triangle> {
     triangles.iter().map(|t| t.map(|p| p + by)).collect()
 }

@@ -8,9 +8,9 @@ use glam::DVec3;
 
 /// A slow oracle that compares all pairs of features of two pieces. Balls and capsules are represented by their cores.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Exhaustive;
+pub(crate) struct ExhaustiveOracle;
 
-impl DistanceOracle for Exhaustive {
+impl DistanceOracle for ExhaustiveOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
@@ -68,9 +68,9 @@ fn combination(weights: [f64; 3], points: usize) -> Combination {
 
 /// An oracle that always returns the same claim.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Always(pub(crate) Result<Claim, GiveUp>);
+pub(crate) struct ConstantOracle(pub(crate) Result<Claim, GiveUp>);
 
-impl DistanceOracle for Always {
+impl DistanceOracle for ConstantOracle {
     type Cache = ();
 
     fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {

@@ -1,7 +1,7 @@
 //! Random bodies and motions of every shape and size; the same seed gives the same scene.
 
 use super::nearest::{Triangle, nearest};
-use super::worst::Tape;
+use super::worst::RandomCase;
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
 use crate::error::InputError;
@@ -21,7 +21,7 @@ use std::convert::Infallible;
 /// The shapes and sizes of a soup's triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SoupKind {
-    Plump,
+    WellShaped,
     /// Each triangle is 1e-7 times as wide as long.
     Needles,
     /// All triangles are in one plane, up to 1e-7 of their size.
@@ -34,7 +34,7 @@ pub(crate) enum SoupKind {
 
 impl SoupKind {
     pub(crate) const ALL: [SoupKind; 5] = [
-        SoupKind::Plump,
+        SoupKind::WellShaped,
         SoupKind::Needles,
         SoupKind::Flat,
         SoupKind::Stretched,
@@ -47,7 +47,7 @@ pub(crate) fn rng(seed: u64) -> Pcg64 {
 }
 
 /// Draws random numbers from the tape of a search, so that scenes can be searched too.
-impl TryRng for Tape {
+impl TryRng for RandomCase {
     type Error = Infallible;
 
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
@@ -81,7 +81,7 @@ pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
 }
 
 /// Draws a point in a ball about the origin.
-pub(crate) fn within(rng: &mut impl RngExt, radius: f64) -> DVec3 {
+pub(crate) fn point_in_ball(rng: &mut impl RngExt, radius: f64) -> DVec3 {
     direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
 }
 
 /// Draws the corners of a box with half extents of up to 1: long, flat, or any.
-pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
+pub(crate) fn long_box(tape: &mut RandomCase) -> Vec<DVec3> {
     let frame = glam::DMat3::from_quat(rotation(tape));
     let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
     let corner = |k: usize| {
@@ -110,14 +110,14 @@ pub(crate) fn soup(
     let frame = rotation(rng);
     (0..count)
         .map(|_| {
-            let centre = within(rng, size);
+            let centre = point_in_ball(rng, size);
             let edge = match look {
                 SoupKind::Mixed => size * magnitude(rng, -6.0, 0.0),
                 _ => size * rng.random_range(0.05..1.0),
             };
-            let mut corners = [0; 3].map(|_| centre + within(rng, edge));
+            let mut corners = [0; 3].map(|_| centre + point_in_ball(rng, edge));
             if look == SoupKind::Needles {
-                let tip = 0.5 * (corners[0] + corners[1]) + within(rng, 1e-7 * edge);
+                let tip = 0.5 * (corners[0] + corners[1]) + point_in_ball(rng, 1e-7 * edge);
                 corners[2] = tip;
             }
             let squeeze = match look {
@@ -133,7 +133,7 @@ pub(crate) fn soup(
 /// Draws two triangles of any shape, or two plump ones that often cross.
 pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
-        return [(); 2].map(|()| [(); 3].map(|()| within(rng, 1.0)));
+        return [(); 2].map(|()| [(); 3].map(|()| point_in_ball(rng, 1.0)));
     }
     let look = SoupKind::ALL[rng.random_range(0..5)];
     let pair = soup(rng, look, 2, 0.5);
@@ -193,7 +193,7 @@ pub(crate) struct Scene {
     /// The clock at which the bodies are near each other.
     pub(crate) clock: f64,
     /// The approximate time for which the bodies are near each other.
-    pub(crate) window: f64,
+    pub(crate) passage_time: f64,
 }
 
 impl Scene {
@@ -204,7 +204,7 @@ impl Scene {
     }
 
     /// Adds accelerations of the bodies in every third case.
-    pub(crate) fn at_times_accelerating(self, rng: &mut Pcg64) -> Self {
+    pub(crate) fn with_random_accelerations(self, rng: &mut Pcg64) -> Self {
         match rng.random_range(0..3) {
             0 => self.accelerating(rng),
             _ => self,
@@ -313,7 +313,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
             ..Settings::DEFAULT
         },
         clock,
-        window: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
+        passage_time: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
     }
 }
 
@@ -339,7 +339,8 @@ fn set_moving(
     match kind {
         Kind::Receding => {
             let sign = if side == 0 { -1.0 } else { 1.0 };
-            passage.velocity = (sign * way + within(rng, 0.3)) * size * magnitude(rng, -2.0, 2.0);
+            passage.velocity =
+                (sign * way + point_in_ball(rng, 0.3)) * size * magnitude(rng, -2.0, 2.0);
         }
         Kind::Sliding => {
             if side == 1 {
@@ -350,10 +351,10 @@ fn set_moving(
         Kind::Rim => {
             if large {
                 passage.spin = direction(rng) * rng.random_range(0.1..20.0);
-                passage.centre = passage.middle + within(rng, size);
+                passage.centre = passage.middle + point_in_ball(rng, size);
             } else if rng.random_bool(0.5) {
-                passage.velocity = within(rng, size);
-                passage.spin = within(rng, 20.0);
+                passage.velocity = point_in_ball(rng, size);
+                passage.spin = point_in_ball(rng, 20.0);
                 passage.centre = passage.middle;
             }
         }
@@ -366,10 +367,10 @@ fn set_moving(
                 passage.spin = direction(rng) * std::f64::consts::TAU * turns;
                 passage.centre = match rng.random_range(0..4) {
                     0 => DVec3::ZERO,
-                    1 | 2 => passage.middle + within(rng, sizes[side]),
+                    1 | 2 => passage.middle + point_in_ball(rng, sizes[side]),
                     _ => {
                         let far = size * magnitude(rng, 0.0, 4.0);
-                        passage.middle + within(rng, far)
+                        passage.middle + point_in_ball(rng, far)
                     }
                 };
             }

@@ -1,8 +1,8 @@
 //! Tests needles whose widths have squares that underflow: bodies that approach along their normals keep the margin.
 
 use super::nearest::nearest;
-use super::oracle::Exhaustive;
-use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
+use super::oracle::ExhaustiveOracle;
+use super::scene::{Pcg64, RngExt, body, direction, magnitude, point_in_ball, rng};
 use crate::answer::{Outcome, Unresolved};
 use crate::body::Body;
 use crate::engine::answer::Solve;
@@ -59,9 +59,9 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
     for number in 0..4_000 {
         let (needles, normal) = needles(&mut rng);
         let size = magnitude(&mut rng, -2.0, -0.5);
-        let passer = [(); 3].map(|()| within(&mut rng, size));
+        let passer = [(); 3].map(|()| point_in_ball(&mut rng, size));
         let bodies: [Body; 2] = [body(&needles), body(&[passer])];
-        let goal = needles[0][1] * rng.random_range(0.0..1.0) + within(&mut rng, 0.1);
+        let goal = needles[0][1] * rng.random_range(0.0..1.0) + point_in_ball(&mut rng, 0.1);
         let way = [normal, direction(&mut rng)][rng.random_range(0..2)];
         let start = Pose::at(goal - way * rng.random_range(1.0..3.0)).unwrap();
         let motion = Motion::new(start, way * rng.random_range(1.0..4.0), DVec3::ZERO).unwrap();
@@ -74,7 +74,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
             |k: usize| Moving::from((&bodies[k], [Motion::still(Pose::IDENTITY), motion][k]));
         let problem = Problem::about(moving(0), moving(1), 1.0, &config).unwrap();
         let outcome = BestFirst::default()
-            .solve(&problem, &mut Exhaustive)
+            .solve(&problem, &mut ExhaustiveOracle)
             .outcome;
         let (until, least) = match outcome {
             Outcome::Contact { time, .. } => {

@@ -4,13 +4,13 @@ use crate::error::InputError;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::motion::trajectory::{Acceleration, Accelerations, Smooth};
-use crate::tests::scene::{Pcg64, RngExt, direction, rotation, within};
+use crate::tests::scene::{Pcg64, RngExt, direction, point_in_ball, rotation};
 use glam::{DQuat, DVec3};
 
 /// A trajectory that swings: `centre + drift t + Σ along sin(rate t + phase)`, turned by `turn sin(rate t + phase)`
 /// about a fixed axis.
 #[derive(Clone, Debug)]
-pub(crate) struct Swing {
+pub(crate) struct SwingingTrajectory {
     pub(crate) place: DVec3,
     pub(crate) drift: DVec3,
     along: [DVec3; 2],
@@ -21,28 +21,28 @@ pub(crate) struct Swing {
     start: DQuat,
     centre: DVec3,
     /// True if the trajectory provides the acceleration of its centre.
-    tells: bool,
+    provides_acceleration: bool,
 }
 
-impl Swing {
+impl SwingingTrajectory {
     /// Draws a trajectory of this size.
     pub(crate) fn draw(rng: &mut Pcg64, size: f64) -> Self {
-        Swing {
-            place: within(rng, size),
-            drift: within(rng, size),
-            along: [(); 2].map(|()| within(rng, size)),
+        SwingingTrajectory {
+            place: point_in_ball(rng, size),
+            drift: point_in_ball(rng, size),
+            along: [(); 2].map(|()| point_in_ball(rng, size)),
             rates: [(); 3].map(|()| rng.random_range(0.5..6.0)),
             phases: [(); 3].map(|()| rng.random_range(0.0..6.0)),
             axis: direction(rng),
             turn: rng.random_range(0.0..3.0),
             start: rotation(rng),
-            centre: within(rng, 1.0),
-            tells: rng.random_bool(0.5),
+            centre: point_in_ball(rng, 1.0),
+            provides_acceleration: rng.random_bool(0.5),
         }
     }
 }
 
-impl Smooth for Swing {
+impl Smooth for SwingingTrajectory {
     fn tangent(&self, t: f64) -> Result<Motion, InputError> {
         let (mut at, mut velocity) = (self.place + self.drift * t, self.drift);
         for k in 0..2 {
@@ -79,6 +79,9 @@ impl Smooth for Swing {
             jerk += along.length() * rate * rate * rate;
         }
         let acceleration = Acceleration { vector, jerk };
-        Ok((self.tangent(t)?, self.tells.then_some(acceleration)))
+        Ok((
+            self.tangent(t)?,
+            self.provides_acceleration.then_some(acceleration),
+        ))
     }
 }

@@ -13,10 +13,10 @@
 use std::ops::RangeInclusive;
 
 /// A random case, as a list of random words that grows as the case reads them.
-pub(crate) struct Tape {
+pub(crate) struct RandomCase {
     words: Vec<u64>,
     read: usize,
-    dice: Dice,
+    rng: SplitMix64,
 }
 
 /// A search for the worst case of one error bound.
@@ -57,10 +57,10 @@ impl Worst {
     /// # Panics
     /// If a share is NaN, or if most cases give `None`.
     #[allow(clippy::print_stdout)]
-    pub(crate) fn search(self, mut judge: impl FnMut(&mut Tape) -> Option<f64>) -> Found {
+    pub(crate) fn search(self, mut judge: impl FnMut(&mut RandomCase) -> Option<f64>) -> Found {
         let count = self.cases.ceil() as u64;
-        let mut dice = Dice(self.name.bytes().fold(7, |seed, byte| {
-            mixed(seed ^ u64::from(byte)) // A seed of its own for every name.
+        let mut dice = SplitMix64(self.name.bytes().fold(7, |seed, byte| {
+            mix_bits(seed ^ u64::from(byte)) // A seed of its own for every name.
         }));
         let nothing = || (f64::NEG_INFINITY, Vec::new());
         let (mut here, mut worst, mut number) = (nothing(), nothing(), 0);
@@ -69,13 +69,13 @@ impl Worst {
             let words = if drawn < DRAWN {
                 Vec::new()
             } else {
-                dice.changed(&here.1)
+                dice.mutated_words(&here.1)
             };
             drawn += 1;
-            let mut tape = Tape {
+            let mut tape = RandomCase {
                 words,
                 read: 0,
-                dice: Dice(dice.next()),
+                rng: SplitMix64(dice.next()),
             };
             let Some(share) = judge(&mut tape) else {
                 continue;
@@ -138,11 +138,11 @@ pub(crate) fn share(error: f64, allowance: f64) -> f64 {
     }
 }
 
-impl Tape {
+impl RandomCase {
     /// Reads the next word, and draws it if necessary.
     pub(crate) fn word(&mut self) -> u64 {
         if self.read == self.words.len() {
-            self.words.push(self.dice.next());
+            self.words.push(self.rng.next());
         }
         self.read += 1;
         self.words[self.read - 1]
@@ -198,12 +198,12 @@ const MANTISSA: u64 = (1 << 52) - 1;
 const ONE: u64 = 1023 << 52;
 
 /// The Splitmix random number generator, which suffices for a search.
-struct Dice(u64);
+struct SplitMix64(u64);
 
-impl Dice {
+impl SplitMix64 {
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        mixed(self.0)
+        mix_bits(self.0)
     }
 
     fn below(&mut self, count: usize) -> usize {
@@ -211,7 +211,7 @@ impl Dice {
     }
 
     /// Returns a copy of a case with one or a few words changed.
-    fn changed(&mut self, words: &[u64]) -> Vec<u64> {
+    fn mutated_words(&mut self, words: &[u64]) -> Vec<u64> {
         let mut words = words.to_vec();
         if words.is_empty() {
             return words;
@@ -252,7 +252,7 @@ impl Dice {
     }
 }
 
-fn mixed(x: u64) -> u64 {
+fn mix_bits(x: u64) -> u64 {
     let x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ x >> 31

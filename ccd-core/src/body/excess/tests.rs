@@ -42,7 +42,7 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
     assert_eq!(
         (
             exact.upper_bound_of_shapes(0.3),
-            exact.certainly_nearer_below(0.3)
+            exact.certain_nearness_threshold(0.3)
         ),
         (0.3, 0.3)
     );
@@ -50,8 +50,8 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
     assert!(both.distance_of_overlap() > 0.1 + 0.2);
     assert!(both.upper_bound_of_shapes(0.3) > 0.3 + both.distance_of_overlap());
     assert!(
-        both.upper_bound_of_shapes(both.certainly_nearer_below(1.0)) >= 1.0 - 1e-15
-            && both.certainly_nearer_below(1.0) < 0.7
+        both.upper_bound_of_shapes(both.certain_nearness_threshold(1.0)) >= 1.0 - 1e-15
+            && both.certain_nearness_threshold(1.0) < 0.7
     );
     assert_eq!(both.upper_bound_of_shapes(f64::INFINITY), f64::INFINITY);
     // A surface that exceeds the shape makes its body exceed it.

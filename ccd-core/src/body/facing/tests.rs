@@ -2,7 +2,7 @@
 
 use super::Facing;
 use crate::body::{Body, Volume};
-use crate::tests::meshes::{cube, inside_out, moved};
+use crate::tests::meshes::{cube, inside_out, translated_triangles};
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::pieces;
 use glam::DVec3;
@@ -28,7 +28,7 @@ fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
 fn shells_side_by_side_need_not_agree() {
     let middles = [DVec3::ZERO, 10.0 * DVec3::X];
     let mut shells = inside_out(&cube(0.5, 2));
-    shells.extend(moved(&cube(1.5, 2), middles[1]));
+    shells.extend(translated_triangles(&cube(1.5, 2), middles[1]));
     check(
         &solid(&shells),
         |p| if p.x < 5.0 { p } else { p - middles[1] },

@@ -50,12 +50,12 @@ fn a_hierarchy_of_other_pieces_is_refused() {
     let of = |count| {
         Hierarchy::median_split(&pieces(&soup(
             &mut crate::tests::scene::rng(2),
-            SoupKind::Plump,
+            SoupKind::WellShaped,
             count,
             1.0,
         )))
     };
-    let pieces = pieces(&soup(&mut rng, SoupKind::Plump, 5, 1.0));
+    let pieces = pieces(&soup(&mut rng, SoupKind::WellShaped, 5, 1.0));
     for count in [1, 4, 6, 40] {
         let made = Body::with_hierarchy(&pieces, &of(count), Volume::Surface);
         assert!(
@@ -108,7 +108,7 @@ fn a_chain_is_a_hierarchy_too() {
     let mut short: Vec<_> = nodes[..2 * few - 2].to_vec();
     short.push(Leaf(few as u32 - 1));
     let hierarchy = Hierarchy::new(short, few).unwrap();
-    let pieces = pieces(&soup(&mut rng(4), SoupKind::Plump, few, 1.0));
+    let pieces = pieces(&soup(&mut rng(4), SoupKind::WellShaped, few, 1.0));
     let body = Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap();
     assert_eq!(body.pieces().len(), few);
 }

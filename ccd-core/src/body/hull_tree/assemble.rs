@@ -4,9 +4,9 @@ use super::bottom_up::bottom_up;
 use super::edges::check_facets;
 use super::error::{HullFault, HullTreeError};
 use super::hull::{FacetClass, Hull, HullNode};
-use super::identity::Identity;
+use super::identity::PointNumbering;
 use super::inherit::{Child, inherit};
-use super::inside::Container;
+use super::inside::PreparedHull;
 use super::node::{FacetData, Node};
 use super::{HullTree, Hulls};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounding_box};
@@ -57,7 +57,7 @@ impl HullTree {
             classes,
             class_ends,
             has_uniform_radius: done.iter().map(|node| node.has_uniform_radius).collect(),
-            sizes: done.iter().map(|node| node.size).collect(),
+            half_diagonals: done.iter().map(|node| node.size).collect(),
             pieces: flatten_hulls(done)?,
         };
         Ok(HullTree {
@@ -146,8 +146,8 @@ fn inner_node<'a>(
     children: [(u32, &Node<'_>); 2],
 ) -> Result<Node<'a>, HullTreeError> {
     check_facets(hull).map_err(|fault| fault.at(at))?;
-    let identity =
-        Identity::new(hull, children.map(|(_, child)| child)).map_err(|fault| fault.at(at))?;
+    let identity = PointNumbering::new(hull, children.map(|(_, child)| child))
+        .map_err(|fault| fault.at(at))?;
     check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
 
     let [left, right] = children.map(|(_, child)| child);
@@ -171,10 +171,10 @@ fn inner_node<'a>(
 /// Checks that the hull of a node contains all points of its children.
 fn check_inside(
     hull: &Hull,
-    identity: &Identity,
+    identity: &PointNumbering,
     children: &[(u32, &Node<'_>); 2],
 ) -> Result<(), HullFault> {
-    let container = Container::new(&hull.points, &hull.facets);
+    let container = PreparedHull::new(&hull.points, &hull.facets);
     for (&(child, node), ids) in children.iter().zip([&identity.of_left, &identity.of_right]) {
         let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
         let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();

@@ -22,15 +22,15 @@ pub(super) fn bottom_up<T: Default + Send>(
     let cores = available_parallelism().map_or(1, NonZero::get);
     // Each of many cores gets several parts, as the sizes of the parts differ.
     let parts = if cores > 1 { 4 * cores } else { 1 };
-    bottom_up_in(parts, hierarchy, make)
+    bottom_up_in_parts(parts, hierarchy, make)
 }
 
-fn bottom_up_in<T: Default + Send>(
+fn bottom_up_in_parts<T: Default + Send>(
     parts: usize,
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
-    let order = children_first(hierarchy);
+    let order = postorder(hierarchy);
     let mut subtree_sizes = vec![1; order.len()];
     for &at in &order {
         if let HierarchyNode::Inner(left, right) = hierarchy.nodes()[at] {
@@ -127,7 +127,7 @@ impl<F> Postorder<'_, F> {
 }
 
 /// Returns all nodes in postorder, so that every subtree is contiguous.
-fn children_first(hierarchy: &Hierarchy) -> Vec<usize> {
+fn postorder(hierarchy: &Hierarchy) -> Vec<usize> {
     let mut order = Vec::with_capacity(hierarchy.nodes().len());
     let mut stack = vec![0];
     while let Some(at) = stack.pop() {

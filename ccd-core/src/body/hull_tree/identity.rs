@@ -8,7 +8,7 @@ use glam::DVec3;
 /// Common numbers for the points of two children and of their parent's hull: equal points have one number.
 ///
 /// Numbers below the hull's count of points name the hull's points. The others name hidden points.
-pub(super) struct Identity {
+pub(super) struct PointNumbering {
     pub(super) of_left: Vec<u32>,
     pub(super) of_right: Vec<u32>,
     /// The position of each number.
@@ -17,7 +17,7 @@ pub(super) struct Identity {
     pub(super) vertex_ids: Vec<u32>,
 }
 
-impl Identity {
+impl PointNumbering {
     /// Numbers the points, in O(n log n).
     pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
@@ -48,7 +48,7 @@ impl Identity {
         };
         let vertex_ids = (0..own).map(vertex_id).collect::<Result<_, _>>()?;
         let middle = own + left.points.len();
-        Ok(Identity {
+        Ok(PointNumbering {
             of_left: numbers[own..middle].to_vec(),
             of_right: numbers[middle..].to_vec(),
             positions,

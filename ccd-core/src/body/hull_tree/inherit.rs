@@ -163,7 +163,7 @@ impl<'a> ChildFacets<'a> {
         }
     }
 
-    fn part(&self, k: usize) -> Option<ChildFacet<'a>> {
+    fn child_facet(&self, k: usize) -> Option<ChildFacet<'a>> {
         let node = self.child.node;
         let (corners, facet) = match node.loops.get(k) {
             Some(corners) => (corners, node.facet_data.get(k)?),
@@ -181,7 +181,7 @@ impl<'a> ChildFacets<'a> {
 
     fn sharing_an_edge(&self, corners: &[u32]) -> Option<ChildFacet<'a>> {
         let mut known = edges_of(corners).filter_map(|edge| self.facet_at_edge.get(edge));
-        self.part(known.next()? as usize)
+        self.child_facet(known.next()? as usize)
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::cmp::Ordering;
 
 /// A convex hull, prepared for tests whether it contains points.
-pub(super) struct Container<'a> {
+pub(super) struct PreparedHull<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
     fans: Vec<[DVec3; 3]>,
@@ -15,7 +15,7 @@ pub(super) struct Container<'a> {
     first: Vec<DVec3>,
 }
 
-impl<'a> Container<'a> {
+impl<'a> PreparedHull<'a> {
     /// Prepares a hull for tests whether it contains points. Every edge of the facets must occur exactly once in
     /// reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
@@ -25,7 +25,7 @@ impl<'a> Container<'a> {
             let triangles = 1..corners.len() - 1;
             triangles.map(move |k| [corners[0], corners[k], corners[k + 1]])
         };
-        Container {
+        PreparedHull {
             points,
             fans: facets.iter().flat_map(fan).collect(),
             first: facets

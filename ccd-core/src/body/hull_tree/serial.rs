@@ -7,12 +7,12 @@ use crate::body::polytope::Polytope;
 use serde::{Deserialize, Serialize};
 
 #[derive(Serialize, Deserialize)]
-pub(super) struct Stored {
+pub(super) struct StoredHullTree {
     pieces: Vec<Polytope>,
     nodes: Vec<HullNode>,
 }
 
-impl From<HullTree> for Stored {
+impl From<HullTree> for StoredHullTree {
     fn from(tree: HullTree) -> Self {
         let nodes = tree.hierarchy.nodes().iter().enumerate();
         let mut pieces: Vec<(u32, Polytope)> = nodes
@@ -22,17 +22,17 @@ impl From<HullTree> for Stored {
             })
             .collect();
         pieces.sort_by_key(|(piece, _)| *piece);
-        Stored {
+        StoredHullTree {
             pieces: pieces.into_iter().map(|(_, polytope)| polytope).collect(),
             nodes: tree.to_nodes(),
         }
     }
 }
 
-impl TryFrom<Stored> for HullTree {
+impl TryFrom<StoredHullTree> for HullTree {
     type Error = HullTreeError;
 
-    fn try_from(stored: Stored) -> Result<Self, HullTreeError> {
+    fn try_from(stored: StoredHullTree) -> Result<Self, HullTreeError> {
         HullTree::new(&Pieces::polytopes(&stored.pieces)?, &stored.nodes)
     }
 }

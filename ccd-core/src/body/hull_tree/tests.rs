@@ -9,7 +9,7 @@ use glam::DVec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The facets of a box whose corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
-const BOX: [[u32; 4]; 6] = [
+const BOX_FACETS: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],
     [0, 1, 5, 4],
@@ -34,12 +34,12 @@ fn block(from: f64, to: f64, first: u32) -> Polytope {
     Polytope {
         points: corners(DVec3::new(from, 0.0, 0.0), DVec3::new(to, 1.0, 1.0)),
         vertex_ids: (0..8).map(|k| 10 * first + k).collect(),
-        facets: BOX.iter().enumerate().map(facet).collect(),
+        facets: BOX_FACETS.iter().enumerate().map(facet).collect(),
         ..Polytope::default()
     }
 }
 
-fn hull_of(from: f64, to: f64) -> Hull {
+fn box_hull(from: f64, to: f64) -> Hull {
     let block = block(from, to, 0);
     Hull {
         points: block.points,
@@ -72,7 +72,11 @@ fn fault(pieces: &[Polytope], hull: Hull) -> HullFault {
 fn facets_are_a_childs_or_tiled_or_bridges() {
     use FacetClass::{Free, Original};
     // The boxes are end to end: the sides are tiled, though the corners between them are hidden.
-    let whole = tree(&[block(0.0, 1.0, 0), block(1.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    let whole = tree(
+        &[block(0.0, 1.0, 0), block(1.0, 3.0, 6)],
+        box_hull(0.0, 3.0),
+    )
+    .unwrap();
     assert_eq!(whole.facet_classes(0), [Original; 6]);
     let root = whole.hulls().get(0);
     let origins = [Origin::Face(0), Origin::Face(7)];
@@ -88,7 +92,11 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
         Feature::Vertex(67)
     );
     // The boxes are apart: the sides are bridges.
-    let gap = tree(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    let gap = tree(
+        &[block(0.0, 1.0, 0), block(2.0, 3.0, 6)],
+        box_hull(0.0, 3.0),
+    )
+    .unwrap();
     assert_eq!(
         gap.facet_classes(0),
         [Original, Original, Free, Free, Free, Free]
@@ -100,7 +108,7 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
 fn virtual_facets_stay_contained() {
     let mut left = block(0.0, 1.0, 0);
     left.facets[5].origin = Origin::Virtual;
-    let whole = tree(&[left, block(1.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    let whole = tree(&[left, block(1.0, 3.0, 6)], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.facet_classes(1)[5], FacetClass::Contained);
     assert_eq!(whole.facet_classes(0)[5], FacetClass::Contained);
     assert_eq!(whole.hulls().get(0).facets.origins()[5], Origin::Virtual);
@@ -108,7 +116,11 @@ fn virtual_facets_stay_contained() {
 
 #[test]
 fn features_take_the_best_class_of_their_facets() {
-    let gap = tree(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    let gap = tree(
+        &[block(0.0, 1.0, 0), block(2.0, 3.0, 6)],
+        box_hull(0.0, 3.0),
+    )
+    .unwrap();
     let class = |node, support: &[u32]| {
         let mut point = Combination::EMPTY;
         support.iter().for_each(|&v| point.push(v, 1.0));
@@ -134,7 +146,7 @@ fn thick_and_thin_pieces_are_bridged_everywhere() {
         radius: 0.5,
         ..block(1.0, 3.0, 6)
     };
-    let whole = tree(&[block(0.0, 1.0, 0), thick], hull_of(0.0, 3.0)).unwrap();
+    let whole = tree(&[block(0.0, 1.0, 0), thick], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.hulls().get(0).radius, 0.5);
     assert_eq!(whole.facet_classes(0), [FacetClass::Free; 6]);
     assert_eq!(whole.class_of(0, &Combination::point(0)), FacetClass::Free);
@@ -245,7 +257,7 @@ fn containment_is_exact() {
 #[test]
 fn invalid_hulls_are_refused() {
     let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
-    let good = hull_of(0.0, 3.0);
+    let good = box_hull(0.0, 3.0);
     let refused = |change: &dyn Fn(&mut Vec<Vec<u32>>)| {
         let points = good.points.clone();
         let mut facets = good.facets.iter().map(Vec::from).collect();
@@ -272,7 +284,7 @@ fn invalid_hulls_are_refused() {
         HullFault::Open { facet: 0 }
     );
     assert_eq!(
-        refused(&|facets| facets.push(BOX[0].to_vec())),
+        refused(&|facets| facets.push(BOX_FACETS[0].to_vec())),
         HullFault::Open { facet: 6 }
     );
     // The hulls are inside out, too small, or without facets.
@@ -281,7 +293,7 @@ fn invalid_hulls_are_refused() {
         refused(&|facets| facets.iter_mut().for_each(|f| f.reverse())),
         outside(1, 1)
     );
-    let small = fault(&pieces, hull_of(0.0, 1.0));
+    let small = fault(&pieces, box_hull(0.0, 1.0));
     assert_eq!(small, outside(2, 1));
     assert_eq!(refused(&|facets| facets.clear()), outside(1, 1));
 }
@@ -290,7 +302,7 @@ fn invalid_hulls_are_refused() {
 fn nodes_that_are_no_hierarchy_are_refused() {
     let pieces = Pieces::polytopes(&[block(0.0, 1.0, 0), block(1.0, 3.0, 6)]).unwrap();
     let refused = |nodes: &[HullNode]| HullTree::new(&pieces, nodes).unwrap_err();
-    let root = |children| HullNode::Inner(children, hull_of(0.0, 3.0));
+    let root = |children| HullNode::Inner(children, box_hull(0.0, 3.0));
     let missing = refused(&[HullNode::Leaf(0)]);
     assert_eq!(missing, InputError::BadHierarchy { at: 1 }.into());
     let twice = refused(&[root([1, 2]), HullNode::Leaf(1), HullNode::Leaf(1)]);
@@ -304,7 +316,7 @@ fn nodes_that_are_no_hierarchy_are_refused() {
 fn bodies_take_the_trees_of_their_pieces_only() {
     let polytopes = [block(5.0, 7.0, 0), block(0.0, 1.0, 6)];
     let nodes = [
-        HullNode::Inner([1, 2], hull_of(0.0, 7.0)),
+        HullNode::Inner([1, 2], box_hull(0.0, 7.0)),
         HullNode::Leaf(0),
         HullNode::Leaf(1),
     ];
@@ -334,22 +346,22 @@ fn bodies_take_the_trees_of_their_pieces_only() {
 
 #[test]
 fn values_are_made_ahead_for_pieces_and_hulls_once() {
-    struct Points(usize);
+    struct PointCount(usize);
     let polytopes = [block(0.0, 1.0, 0), block(2.0, 3.0, 6)];
     let pieces = Pieces::polytopes(&polytopes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
-    let tree = tree(&polytopes, hull_of(0.0, 3.0)).unwrap();
+    let tree = tree(&polytopes, box_hull(0.0, 3.0)).unwrap();
     let body = body.with_hull_tree(tree).unwrap();
     let made = AtomicUsize::new(0);
     let make = |piece: &Piece<'_>| {
         made.fetch_add(1, Ordering::Relaxed);
-        Points(piece.points.len())
+        PointCount(piece.points.len())
     };
     body.precompute(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
     body.precompute(make);
     assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
-    let never = |_: &Piece<'_>| -> Points { panic!("it is there") };
+    let never = |_: &Piece<'_>| -> PointCount { panic!("it is there") };
     for list in [body.pieces(), body.hull_tree().unwrap().hulls()] {
         assert!(list.iter().all(|p| p.cached(never).unwrap().0 == 8));
     }
@@ -362,7 +374,7 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
 fn nodes_are_given_back() {
     let pieces = Pieces::polytopes(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)]).unwrap();
     let nodes = vec![
-        HullNode::Inner([2, 1], hull_of(0.0, 3.0)),
+        HullNode::Inner([2, 1], box_hull(0.0, 3.0)),
         HullNode::Leaf(1),
         HullNode::Leaf(0),
     ];

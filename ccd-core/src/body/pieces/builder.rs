@@ -139,7 +139,7 @@ impl PiecesBuilder {
             points: self.points,
             vertex_ids: self.vertex_ids,
             point_ends: self.point_ends,
-            radii: Radii::Each(self.radii),
+            radii: Radii::PerPiece(self.radii),
             shape: Shape::Polytopes(Box::new(self.surfaces)),
             side_table: SideTable::default(),
         }

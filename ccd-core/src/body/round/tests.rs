@@ -2,7 +2,7 @@ use super::*;
 use crate::tests::rational::exact;
 use dashu_ratio::Relaxed;
 
-fn both(radius: f64, half_height: f64) -> [Round; 2] {
+fn cylinder_and_cone(radius: f64, half_height: f64) -> [Round; 2] {
     let cylinder = Round::cylinder(radius, half_height).expect("it is one");
     [
         cylinder,
@@ -11,7 +11,7 @@ fn both(radius: f64, half_height: f64) -> [Round; 2] {
 }
 
 /// Checks exactly that a polygon winds once about the origin, and that no edge enters the disc.
-fn assert_about_the_disc(corners: &[DVec3], radius: f64) {
+fn assert_encloses_disc(corners: &[DVec3], radius: f64) {
     let squared = |x: f64| exact(x) * exact(x);
     let corners: Vec<[Relaxed; 2]> = corners
         .iter()
@@ -41,14 +41,14 @@ fn enclosures_hold_their_shapes_exactly() {
         let share = 2.0 * 0.7f64.powi(k);
         let radius = [1.0, 0.1, 3.7e5, 1e-90, 6.3e11, 1e-310][k as usize % 6];
         let half_height = 0.3 * f64::from(k % 5);
-        for round in both(radius, half_height) {
+        for round in cylinder_and_cone(radius, half_height) {
             let about = round.enclosed(share * radius).expect("it can be had");
             let points = &about.polytope().points;
             let (base, rest) = points.split_at(match round.kind {
                 Kind::Cylinder => points.len() / 2,
                 Kind::Cone => points.len() - 1,
             });
-            assert_about_the_disc(base, radius);
+            assert_encloses_disc(base, radius);
             assert!(base.iter().all(|p| p.z == -half_height));
             match round.kind {
                 Kind::Cylinder => {
@@ -69,7 +69,7 @@ fn enclosures_hold_their_shapes_exactly() {
 fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
     for radius in [1.0, 0.03, 2e7] {
         for share in [2.0, 0.3, EXCESS_SHARE, 1e-6] {
-            for round in both(radius, 1.0) {
+            for round in cylinder_and_cone(radius, 1.0) {
                 let about = round.enclosed(share * radius).expect("it can be had");
                 assert!(about.excess() <= share * radius, "{round:?} {share}");
                 let reach = |p: &DVec3| exact(p.x) * exact(p.x) + exact(p.y) * exact(p.y);
@@ -89,7 +89,7 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
 
 #[test]
 fn enclosures_touch_their_shapes_along_the_axes() {
-    for round in both(1.0, 2.0) {
+    for round in cylinder_and_cone(1.0, 2.0) {
         let about = round.enclosed(round.usual_excess()).expect("it can be had");
         for axis in [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y] {
             let heights = about.polytope().points.iter().map(|p| p.dot(axis));
@@ -101,7 +101,7 @@ fn enclosures_touch_their_shapes_along_the_axes() {
 
 #[test]
 fn facets_close_the_polytope_and_point_outward() {
-    for round in both(2.0, 1.0) {
+    for round in cylinder_and_cone(2.0, 1.0) {
         let about = round.enclosed(0.1).expect("it can be had");
         let points = &about.polytope().points;
         let mut volume = 0.0;

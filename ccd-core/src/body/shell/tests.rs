@@ -2,7 +2,7 @@
 
 use super::{DisjointSets, Shell, shells};
 use crate::body::pieces::Pieces;
-use crate::tests::meshes::{cube, moved};
+use crate::tests::meshes::{cube, translated_triangles};
 use crate::tests::scene::{RngExt, direction, pieces, rng};
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use glam::DVec3;
 fn parts_are_found_and_their_extremes() {
     let mut parts = Vec::new();
     for x in [0.0, 5.0, -7.0] {
-        parts.extend(moved(&cube(1.0, 3), x * DVec3::X));
+        parts.extend(translated_triangles(&cube(1.0, 3), x * DVec3::X));
     }
     let found = shells(&pieces(&parts));
     assert_eq!(found.len(), 3);
@@ -52,7 +52,7 @@ fn a_chain_of_many_is_one_part_in_any_order() {
 }
 
 /// Finds the connected parts by comparing all pairs of points, as a reference.
-fn slowly(pieces: &Pieces) -> Vec<Shell> {
+fn shells_by_brute_force(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
     let mut parts = DisjointSets((0..points.len() as u32).collect());
     for piece in 0..pieces.len() {
@@ -93,7 +93,7 @@ fn numbers_of_any_kind_give_the_same_parts() {
             .collect();
         let ids: Vec<u32> = (0..count).collect();
         let pieces = Pieces::triangles(&vertices, &faces, &ids).unwrap();
-        assert_eq!(shells(&pieces), slowly(&pieces));
+        assert_eq!(shells(&pieces), shells_by_brute_force(&pieces));
         // One number belongs to several places, and numbers are far above the count of points.
         for number in [&|k: u32| k % 2, &|k: u32| u32::MAX - k] as [&dyn Fn(u32) -> u32; 2] {
             let polytopes: Vec<_> = (0..pieces.len())
@@ -104,7 +104,7 @@ fn numbers_of_any_kind_give_the_same_parts() {
                 })
                 .collect();
             let pieces = Pieces::polytopes(&polytopes).unwrap();
-            assert_eq!(shells(&pieces), slowly(&pieces));
+            assert_eq!(shells(&pieces), shells_by_brute_force(&pieces));
         }
     }
 }

@@ -15,7 +15,7 @@ const COS_SQUARED: [f64; 4] = [
 ];
 
 /// The tangents of the angles halfway between meridians, which are the same.
-const TAN: [f64; 4] = [
+const MERIDIAN_TANGENTS: [f64; 4] = [
     0.198912367379658,
     0.668178637919299,
     1.496605762665489,
@@ -42,7 +42,7 @@ pub(super) fn all_directions() -> impl Iterator<Item = DVec3> {
 pub(super) fn nearest_direction(v: DVec3) -> usize {
     let square = v.length_squared();
     let from_pole = count(COS_SQUARED.map(|c| v.z * v.z < c * square));
-    let from_axis = count(TAN.map(|t| v.y.abs() > t * v.x.abs()));
+    let from_axis = count(MERIDIAN_TANGENTS.map(|t| v.y.abs() > t * v.x.abs()));
     let latitude = if v.z < 0.0 { 8 - from_pole } else { from_pole };
     let longitude = match (v.x < 0.0, v.y < 0.0) {
         (false, false) => from_axis,

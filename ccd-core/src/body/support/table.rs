@@ -1,7 +1,7 @@
 //! Finds extremal corners by climbing along edges, from a start in a table of directions.
 
 use super::directions::{self, DIRECTIONS};
-use super::tree::ball_about;
+use super::tree::bounding_ball;
 use crate::body::facets::Facets;
 use crate::math::order::greater;
 use crate::rounding::HEIGHT_F64;
@@ -43,7 +43,7 @@ impl SupportTable {
         let mut table = SupportTable {
             points: points.to_vec(),
             reach: points.iter().map(reach).fold(0.0, greater),
-            ball: ball_about(points),
+            ball: bounding_ball(points),
             ends: (0..points.len()).map(end).collect(),
             neighbours: edges.iter().map(|&(_, to)| to).collect(),
             starts: [first; DIRECTIONS],

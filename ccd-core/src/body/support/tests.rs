@@ -24,7 +24,7 @@ fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
 }
 
 /// Creates a square grid lifted to a paraboloid, closed by squares below, four arches and a lid.
-fn bowl(side: u32) -> Pieces {
+fn paraboloid_grid(side: u32) -> Pieces {
     let place = |k: u32| (f64::from(k % side), f64::from(k / side));
     let points = (0..side * side).map(|k| {
         let (x, y) = place(k);
@@ -80,7 +80,7 @@ fn prism(corners: u32) -> Pieces {
 }
 
 fn shapes() -> Vec<Pieces> {
-    let bowls = [2, 3, 5, 17, 40].map(bowl);
+    let bowls = [2, 3, 5, 17, 40].map(paraboloid_grid);
     let curves = [4, 5, 30, 200].map(cyclic);
     let prisms = [3, 4, 50, 300].map(prism);
     bowls.into_iter().chain(curves).chain(prisms).collect()
@@ -169,7 +169,7 @@ fn directions_are_their_own_nearest_and_none_is_far() {
 
 #[test]
 fn many_corners_with_facets_are_climbed_others_looked_at() {
-    let large = bowl(40);
+    let large = paraboloid_grid(40);
     assert!(matches!(
         Support::new(large.get(0).points, large.get(0).facets),
         Support::Climb(_)
@@ -180,7 +180,7 @@ fn many_corners_with_facets_are_climbed_others_looked_at() {
         Support::Scan(_)
     ));
     assert!(SupportTable::new(bare.points, bare.facets).is_none());
-    let small = bowl(2);
+    let small = paraboloid_grid(2);
     assert!(matches!(
         Support::new(small.get(0).points, small.get(0).facets),
         Support::Scan(_)
@@ -189,7 +189,7 @@ fn many_corners_with_facets_are_climbed_others_looked_at() {
 
 #[test]
 fn invalid_directions_give_some_corner() {
-    let pieces = bowl(40);
+    let pieces = paraboloid_grid(40);
     let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();
     let scan = SupportScan::new(pieces.points());
     for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
@@ -201,9 +201,9 @@ fn invalid_directions_give_some_corner() {
 
 #[test]
 fn points_on_no_facet_are_no_dead_end() {
-    let mut points = bowl(3).points().to_vec();
+    let mut points = paraboloid_grid(3).points().to_vec();
     points.push(DVec3::new(1.0, 1.0, 3.0));
-    let pieces = bowl(3);
+    let pieces = paraboloid_grid(3);
     let facets = pieces.get(0).facets.iter().map(<[u32]>::to_vec).collect();
     let pieces = polytope(points, facets);
     let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();

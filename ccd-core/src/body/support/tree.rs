@@ -54,7 +54,7 @@ impl SupportTree {
     /// # Complexity
     /// O(n log n).
     pub fn new(points: &[DVec3]) -> Self {
-        let (middle, reach) = ball_about(points);
+        let (middle, reach) = bounding_ball(points);
         let scale = power_of_two_above(reach).recip();
         let placed: Vec<DVec3> = points.iter().map(|&p| (p - middle) * scale).collect();
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
@@ -67,7 +67,7 @@ impl SupportTree {
                 .collect(),
             groups: Vec::new(),
             levels: Vec::new(),
-            ball: ball_about(points),
+            ball: bounding_ball(points),
         };
         let mut width = LANES;
         while width < sorted.len() {
@@ -116,7 +116,7 @@ impl SupportTree {
         let Some(below) = level.checked_sub(1) else {
             return search.at(&self.blocks[at]);
         };
-        let mut bounds = self.groups[self.levels[below] + at].bounds(search.unit);
+        let mut bounds = self.groups[self.levels[below] + at].bounds(search.scaled_direction);
         for _ in 0..LANES {
             let lane = index_of_highest(&bounds);
             // Written so that NaN ends the loop.
@@ -133,7 +133,7 @@ impl SupportTree {
 struct Search {
     direction: DVec3,
     /// The direction of the search, scaled so that its largest component is 1.
-    unit: Vec3,
+    scaled_direction: Vec3,
     size: f64,
     highest: f64,
     /// The height above which a disc is visited.
@@ -149,7 +149,7 @@ impl Search {
         let size = direction.abs().max_element();
         Search {
             direction,
-            unit: (direction / size).as_vec3(),
+            scaled_direction: (direction / size).as_vec3(),
             size,
             highest: f64::NEG_INFINITY,
             min_height: f32::NEG_INFINITY,
@@ -197,7 +197,7 @@ impl Discs {
             rounding: [f32::NEG_INFINITY; LANES],
         };
         for (lane, points) in points.chunks(width).enumerate() {
-            let disc = Disc::about(points);
+            let disc = Disc::enclosing(points);
             for axis in 0..3 {
                 discs.centre[axis][lane] = disc.centre[axis];
                 discs.normal[axis][lane] = disc.normal[axis];
@@ -237,7 +237,7 @@ struct Disc {
 
 impl Disc {
     /// Creates a disc whose normal is the direction in which the points vary least.
-    fn about(points: &[DVec3]) -> Self {
+    fn enclosing(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         // An axis that is not of unit length, due to rounding or underflow, is not used.
         let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
@@ -289,7 +289,7 @@ fn sort_spatially(points: &[DVec3], order: &mut [u32]) {
 }
 
 /// Returns the middle of the bounding box of one or more points, and their largest distance from it.
-pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
+pub(super) fn bounding_ball(points: &[DVec3]) -> (DVec3, f64) {
     let (low, high) = bounding_box(points.iter().copied());
     let middle = low + 0.5 * (high - low);
     let ways = points.iter().map(|&p| distance(p, middle));

@@ -2,7 +2,9 @@
 
 use super::fit::{NodePoints, Sample, fit};
 use super::group::longest_length;
-use super::{Below, BodyBox, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow};
+use super::{
+    BodyBox, BoxGroup, LANES, Node, NodeChildren, NodeId, Slab, StoredTriangleGroup, Tree,
+};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
@@ -77,7 +79,7 @@ impl PieceRanges {
 struct NodeSlot {
     start: u32,
     end: u32,
-    below: Below,
+    below: NodeChildren,
 }
 
 /// The children of a node that are nodes, by the index of the first.
@@ -133,7 +135,7 @@ impl Layout {
             let (start, end) = ranges.of[at as usize];
             let below = if triangles && ranges.len(at) <= LANES {
                 layout.triangles.push(TrianglesBelow { parent, start, end });
-                Below::Triangles(layout.triangles.len() as u32 - 1)
+                NodeChildren::Triangles(layout.triangles.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
                 let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
@@ -147,9 +149,9 @@ impl Layout {
                     first,
                     count,
                 });
-                Below::Boxes(layout.boxes.len() as u32 - 1)
+                NodeChildren::Boxes(layout.boxes.len() as u32 - 1)
             } else {
-                Below::Piece(start)
+                NodeChildren::Piece(start)
             };
             layout.nodes[parent as usize].below = below;
         }
@@ -159,7 +161,7 @@ impl Layout {
     fn push_node(&mut self, opener: &ChildChooser<'_>, at: u32) {
         let (start, end) = opener.ranges.of[at as usize];
         // The group is created when the node is visited.
-        let below = Below::Piece(start);
+        let below = NodeChildren::Piece(start);
         self.nodes.push(NodeSlot { start, end, below });
     }
 
@@ -182,11 +184,12 @@ impl Layout {
         });
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
-        let mut triangles = vec![TriangleRow::EMPTY; self.triangles.len()];
+        let mut triangles = vec![StoredTriangleGroup::EMPTY; self.triangles.len()];
         for_each(&mut triangles, &(), |(), k, group| {
             let TrianglesBelow { parent, start, end } = self.triangles[k];
             let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;
-            *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
+            *group =
+                StoredTriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
             whole: BodyBox::fit_to(

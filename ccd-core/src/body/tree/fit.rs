@@ -3,7 +3,7 @@
 mod sample;
 
 use super::group::round_up_to_f32;
-use super::group::{Below, Node};
+use super::group::{Node, NodeChildren};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
@@ -38,8 +38,8 @@ const TRIED_ROTATIONS: [(f64, f64); 6] = [
 ///
 /// # Guarantee
 /// The box and the ball contain all points: the sample only chooses the frame.
-pub(crate) fn fit(node_points: &NodePoints<'_>, below: Below, sample: &mut Sample) -> Node {
-    sample.take(node_points);
+pub(crate) fn fit(node_points: &NodePoints<'_>, below: NodeChildren, sample: &mut Sample) -> Node {
+    sample.fill_from(node_points);
     let frame = best_frame(sample, node_points.triangles);
     FittedBox::fit_along(frame, node_points.points).to_node(node_points, below)
 }
@@ -101,7 +101,7 @@ impl FittedBox {
     }
 
     /// Creates the node, with axes rounded to f32, the longest first. The sizes are measured along the rounded axes.
-    fn to_node(&self, node_points: &NodePoints<'_>, below: Below) -> Node {
+    fn to_node(&self, node_points: &NodePoints<'_>, below: NodeChildren) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));

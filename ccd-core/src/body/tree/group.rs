@@ -20,15 +20,15 @@ pub(crate) struct BoxGroup {
     pub(crate) half: Rows3,
     pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
-    pub(crate) members: Members,
+    pub(crate) members: GroupHeader,
     /// The lanes whose child is a single piece, as bits.
     pub(crate) leaves: u8,
 }
 
 /// The stored data of a group of up to eight triangles. Their corners are in the pieces.
 #[derive(Clone, Debug)]
-pub(crate) struct TriangleRow {
-    pub(crate) members: Members,
+pub(crate) struct StoredTriangleGroup {
+    pub(crate) members: GroupHeader,
     /// The radius of each triangle's ball, as in [`TriangleGroup`].
     radius: [f32; LANES],
 }
@@ -43,12 +43,12 @@ pub(crate) struct TriangleGroup {
     pub(crate) corners: [Rows3; 3],
     /// The radius of the ball around the mean of the corners, for each triangle.
     pub(crate) radius: [f32; LANES],
-    pub(crate) members: Members,
+    pub(crate) members: GroupHeader,
 }
 
 /// The fields that groups of boxes and of triangles share.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Members {
+pub(crate) struct GroupHeader {
     /// The origin of the group's coordinates, in the body's frame.
     pub(crate) origin: DVec3,
     /// An upper bound of the distances of the children's points from the origin.
@@ -66,14 +66,14 @@ impl BoxGroup {
         half: [[0.0; LANES]; 3],
         rounding: [0.0; LANES],
         radius: [0.0; LANES],
-        members: Members::NONE,
+        members: GroupHeader::NONE,
         leaves: 0,
     };
 
     /// Creates a group of consecutive nodes; `first` is the id of the first one.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {
         let mut group = BoxGroup {
-            members: Members {
+            members: GroupHeader {
                 origin,
                 reach: 0.0,
                 first,
@@ -87,9 +87,9 @@ impl BoxGroup {
             let centre = way.as_vec3();
             // The rounded centre is off by this much: the box and the ball grow by it.
             let off = round_up_to_f32(length(way - centre.as_dvec3()));
-            set(&mut group.centre, lane, centre);
+            set_lane(&mut group.centre, lane, centre);
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
-                set(rows, lane, axis);
+                set_lane(rows, lane, axis);
             }
             for (row, half) in group.half.iter_mut().zip(node.half) {
                 row[lane] = (half + off).next_up();
@@ -98,7 +98,7 @@ impl BoxGroup {
             group.radius[lane] = (node.radius + off).next_up();
             let reach = round_up_to_f32(length(way) + f64::from(node.radius));
             group.members.reach = greater(group.members.reach, reach);
-            if matches!(node.below, Below::Piece(_)) {
+            if matches!(node.below, NodeChildren::Piece(_)) {
                 group.leaves |= 1 << lane;
             }
         }
@@ -106,9 +106,9 @@ impl BoxGroup {
     }
 }
 
-impl Members {
+impl GroupHeader {
     /// The fields of a group without children.
-    const NONE: Members = Members {
+    const NONE: GroupHeader = GroupHeader {
         origin: DVec3::ZERO,
         reach: 0.0,
         first: 0,
@@ -116,17 +116,17 @@ impl Members {
     };
 }
 
-impl TriangleRow {
+impl StoredTriangleGroup {
     /// A placeholder for a row that is not computed yet.
-    pub(super) const EMPTY: TriangleRow = TriangleRow {
-        members: Members::NONE,
+    pub(super) const EMPTY: StoredTriangleGroup = StoredTriangleGroup {
+        members: GroupHeader::NONE,
         radius: [0.0; LANES],
     };
 
     /// Computes the balls of consecutive triangles; `first` is the id of the first one.
     pub(crate) fn new(triangles: &[[DVec3; 3]], first: u32, origin: DVec3) -> Self {
-        let mut row = TriangleRow {
-            members: Members {
+        let mut row = StoredTriangleGroup {
+            members: GroupHeader {
                 origin,
                 reach: 0.0,
                 first,
@@ -150,7 +150,7 @@ impl TriangleRow {
 impl TriangleGroup {
     /// Creates the layout for vector instructions from a row and its triangles' corners.
     #[inline(always)]
-    pub(crate) fn new(row: &TriangleRow, triangles: &[[DVec3; 3]]) -> Self {
+    pub(crate) fn new(row: &StoredTriangleGroup, triangles: &[[DVec3; 3]]) -> Self {
         let mut group = TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
             radius: row.radius,
@@ -159,7 +159,7 @@ impl TriangleGroup {
         let origin = row.members.origin;
         for (lane, triangle) in triangles.iter().enumerate() {
             for (rows, corner) in group.corners.iter_mut().zip(triangle) {
-                set(rows, lane, (*corner - origin).as_vec3());
+                set_lane(rows, lane, (*corner - origin).as_vec3());
             }
         }
         group
@@ -200,7 +200,7 @@ pub(crate) fn round_up_to_f32(x: f64) -> f32 {
 }
 
 #[inline(always)]
-fn set(rows: &mut Rows3, lane: usize, v: Vec3) {
+fn set_lane(rows: &mut Rows3, lane: usize, v: Vec3) {
     for (row, value) in rows.iter_mut().zip(v.to_array()) {
         row[lane] = value;
     }
@@ -216,12 +216,12 @@ pub(crate) struct Node {
     pub(crate) radius: f32,
     /// The largest rounding radius of the pieces below, which the half sizes do not include.
     pub(crate) rounding: f32,
-    pub(crate) below: Below,
+    pub(crate) below: NodeChildren,
 }
 
 /// The children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Below {
+pub(crate) enum NodeChildren {
     /// A group of nodes, by its index.
     Boxes(u32),
     /// A group of triangles, by its index.
@@ -238,7 +238,7 @@ impl Node {
         half: [0.0; 3],
         radius: 0.0,
         rounding: 0.0,
-        below: Below::Piece(0),
+        below: NodeChildren::Piece(0),
     };
 
     /// Returns whether the box is thin enough for the node to count as flat.

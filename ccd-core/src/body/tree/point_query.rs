@@ -1,7 +1,7 @@
 //! Finds the pieces at a point, and the surface near it.
 
 use super::waiting::NodeStack;
-use super::{Below, Tree};
+use super::{NodeChildren, Tree};
 use crate::body::pieces::Pieces;
 use crate::rounding::SIGN_F64;
 use glam::DVec3;
@@ -28,12 +28,12 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
 pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
         Leaf::Triangles(mut triangles) => {
-            triangles.all(|piece| is_beyond(pieces.triangle(piece as usize), point, reach))
+            triangles.all(|piece| is_farther_than(pieces.triangle(piece as usize), point, reach))
         }
         Leaf::Piece(piece) => pieces
             .get(piece as usize)
             .mesh_triangles()
-            .all(|(_, triangle)| is_beyond(triangle, point, reach)),
+            .all(|(_, triangle)| is_farther_than(triangle, point, reach)),
     })
 }
 
@@ -54,12 +54,12 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
                 continue;
             }
             match node.below {
-                Below::Boxes(group) => {
+                NodeChildren::Boxes(group) => {
                     let members = &tree.boxes[group as usize].members;
                     stack.extend(members.first..members.first + members.count);
                 }
-                Below::Piece(piece) => return Some(Leaf::Piece(piece)),
-                Below::Triangles(group) => {
+                NodeChildren::Piece(piece) => return Some(Leaf::Piece(piece)),
+                NodeChildren::Triangles(group) => {
                     let members = tree.triangle_members(group);
                     let first = members.first - tree.nodes.len() as u32;
                     return Some(Leaf::Triangles(first..first + members.count));
@@ -72,7 +72,7 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
 
 /// Returns whether a separating axis proves that a point is farther than `reach` from a triangle. It tries the normal
 /// of the plane, and the directions from the edges and corners.
-pub(crate) fn is_beyond(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
+pub(crate) fn is_farther_than(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {

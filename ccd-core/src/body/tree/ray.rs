@@ -1,7 +1,7 @@
 //! Computes the winding number of a body's surface about a point, by a ray.
 
 use super::waiting::NodeStack;
-use super::{Below, Node, Tree};
+use super::{Node, NodeChildren, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
 use crate::rounding::{SIGN_F64, U64};
@@ -14,13 +14,13 @@ use std::f64::consts::TAU;
 pub(crate) struct Crossings {
     /// The sum of the crossings beyond the ray's start. For a closed surface this is the winding number about points
     /// just ahead of the start.
-    pub(crate) beyond: i32,
+    pub(crate) sum_ahead: i32,
     /// The sum of the crossings at the start, up to rounding.
-    pub(crate) at_start: i32,
+    pub(crate) sum_at_start: i32,
     /// The number of triangles that contain the start.
     pub(crate) triangles_at_start: u32,
     /// The direction of the ray.
-    pub(crate) along: DVec3,
+    pub(crate) direction: DVec3,
 }
 
 /// Counts the crossings along a ray from a point that certainly passes all edges; `None` if no such ray is found. A
@@ -58,10 +58,10 @@ fn direction(k: u32) -> DVec3 {
 
 fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Crossings> {
     let mut found = Crossings {
-        beyond: 0,
-        at_start: 0,
+        sum_ahead: 0,
+        sum_at_start: 0,
         triangles_at_start: 0,
-        along,
+        direction: along,
     };
     let mut stack = NodeStack::root();
     while let Some(id) = stack.pop() {
@@ -70,18 +70,18 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
             continue;
         }
         match node.below {
-            Below::Boxes(group) => {
+            NodeChildren::Boxes(group) => {
                 let members = &tree.boxes[group as usize].members;
                 stack.extend(members.first..members.first + members.count);
             }
-            Below::Triangles(group) => {
+            NodeChildren::Triangles(group) => {
                 let members = tree.triangle_members(group);
                 let first = members.first - tree.nodes.len() as u32;
                 for piece in first..first + members.count {
                     found.add(pieces.triangle(piece as usize), start)?;
                 }
             }
-            Below::Piece(piece) => {
+            NodeChildren::Piece(piece) => {
                 for (_, triangle) in pieces.get(piece as usize).mesh_triangles() {
                     found.add(triangle, start)?;
                 }
@@ -132,7 +132,7 @@ impl Sign {
 impl Crossings {
     /// Adds the crossing of the ray with a triangle; `None` if it is uncertain.
     fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
-        let along = self.along;
+        let along = self.direction;
         let corners = triangle.map(|p| p - start.from);
         let size = |p: DVec3| p.abs().element_sum();
         let ahead = corners.map(|p| Sign::of_number(along.dot(p), size(p)));
@@ -169,10 +169,10 @@ impl Crossings {
             }
         };
         match height {
-            Sign::Positive => self.beyond += sign,
+            Sign::Positive => self.sum_ahead += sign,
             Sign::Negative => {}
             Sign::Unclear => {
-                self.at_start += sign;
+                self.sum_at_start += sign;
                 self.triangles_at_start += 1;
             }
         }

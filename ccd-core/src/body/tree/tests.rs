@@ -7,12 +7,14 @@ use crate::body::{Body, Volume};
 use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tests::nearest::Triangle;
-use crate::tests::scene::{Pcg64, RngExt, SoupKind, body, direction, magnitude, rng, soup, within};
+use crate::tests::scene::{
+    Pcg64, RngExt, SoupKind, body, direction, magnitude, point_in_ball, rng, soup,
+};
 use glam::{DVec3, Vec3};
 
 /// The tolerance of the checks: boxes and balls contain the points up to the rounding of the f64 arithmetic that
 /// checks it.
-const CHECK: f64 = 1e-14;
+const CHECK_TOLERANCE: f64 = 1e-14;
 
 /// Checks the properties of a body's tree, and returns its number of groups.
 fn check(body: &Body) -> usize {
@@ -21,7 +23,7 @@ fn check(body: &Body) -> usize {
     let below_root = visit(tree, pieces, 0, &mut seen);
     assert!(seen.iter().all(|&n| n == 1), "each piece once: {seen:?}");
     assert_eq!(below_root.len(), pieces.len());
-    assert!(tree.span() >= farthest(pieces) * (1.0 - CHECK));
+    assert!(tree.span() >= farthest(pieces) * (1.0 - CHECK_TOLERANCE));
     assert!(tree.bytes() >= size_of::<Node>() * tree.nodes.len());
     tree.boxes.len() + tree.triangles.len()
 }
@@ -41,12 +43,12 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
     };
     let mut below = Vec::new();
     match node.below {
-        Below::Piece(piece) => {
+        NodeChildren::Piece(piece) => {
             assert_eq!(tree.piece(id), Some(piece));
             seen[piece as usize] += 1;
             below.push(piece);
         }
-        Below::Boxes(group) => {
+        NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
             for child in members(&group.members) {
                 let lane = (child - group.members.first) as usize;
@@ -57,7 +59,7 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
                 below.extend(inside);
             }
         }
-        Below::Triangles(group) => {
+        NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, pieces);
             for child in members(&group.members) {
                 let lane = (child - group.members.first) as usize;
@@ -74,7 +76,7 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
     below
 }
 
-fn members(members: &Members) -> std::ops::Range<NodeId> {
+fn members(members: &GroupHeader) -> std::ops::Range<NodeId> {
     assert!((1..=LANES as u32).contains(&members.count));
     members.first..members.first + members.count
 }
@@ -93,7 +95,7 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
         let piece = pieces.get(piece as usize);
         for &point in piece.points {
             let way = point - node.centre;
-            let slack = CHECK * (point.length() + node.centre.length());
+            let slack = CHECK_TOLERANCE * (point.length() + node.centre.length());
             assert!(way.length() + piece.radius <= f64::from(node.radius) + slack);
             let half = node.half.map(|h| f64::from(h) + f64::from(node.rounding));
             for (axis, half) in node.axes.iter().zip(half) {
@@ -113,7 +115,7 @@ fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
         let piece = pieces.get(piece as usize);
         for &point in piece.points {
             let way = point - centre;
-            let slack = CHECK * (point.length() + centre.length());
+            let slack = CHECK_TOLERANCE * (point.length() + centre.length());
             assert!(way.length() + piece.radius <= f64::from(group.radius[lane]) + slack);
             for k in 0..3 {
                 let reach = way.dot(at(&group.axes[k])).abs() + piece.radius;
@@ -132,7 +134,7 @@ fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
     let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (k, &corner) in triangle.iter().enumerate() {
         let exact = corner - group.members.origin;
-        let slack = CHECK * (corner.length() + group.members.origin.length());
+        let slack = CHECK_TOLERANCE * (corner.length() + group.members.origin.length());
         for axis in 0..3 {
             let rounded = f64::from(group.corners[k][axis][lane]);
             let allowed = exact[axis].abs() * f64::from(f32::EPSILON) / 2.0;
@@ -198,7 +200,7 @@ fn components_whose_squares_are_no_numbers() {
     for _ in 0..3_000 {
         let count = rng.random_range(1..30);
         let tiny = magnitude(&mut rng, -170.0, -150.0);
-        let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::Plump, count, 1.0)
+        let triangles: Vec<Triangle> = soup(&mut rng, SoupKind::WellShaped, count, 1.0)
             .iter()
             .map(|t| {
                 let mut kept = |_| [1.0, tiny, 0.0][rng.random_range(0..3)];
@@ -222,10 +224,12 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
     for count in [1, 2, 8, 9, 70, 300] {
         let polytopes: Vec<Polytope> = (0..count)
             .map(|_| {
-                let at = within(&mut rng, 10.0);
+                let at = point_in_ball(&mut rng, 10.0);
                 let points = rng.random_range(1..12);
                 Polytope {
-                    points: (0..points).map(|_| at + within(&mut rng, 1.0)).collect(),
+                    points: (0..points)
+                        .map(|_| at + point_in_ball(&mut rng, 1.0))
+                        .collect(),
                     radius: [0.0, 0.5, 3.0][rng.random_range(0..3)],
                     ..Polytope::default()
                 }
@@ -241,7 +245,7 @@ fn unit_normals_and_upper_numbers_are_those_of_f64_rounded() {
     let mut rng = rng(9);
     for size in [1e-160, 1e-9, 1.0, 1e9] {
         for _ in 0..100 {
-            let corners = [(); 3].map(|()| size * within(&mut rng, 1.0));
+            let corners = [(); 3].map(|()| size * point_in_ball(&mut rng, 1.0));
             let exact = crate::math::vector::normal(corners).unwrap();
             let found = unit_normal(corners).as_dvec3();
             assert!(found.distance(exact) < 2e-7, "{found} for {exact}");

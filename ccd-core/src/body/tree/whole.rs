@@ -27,7 +27,7 @@ pub(crate) struct BodyBox {
 impl BodyBox {
     /// Fits the box to all points of a body.
     pub(super) fn fit_to(node_points: &NodePoints<'_>, sample: &mut Sample) -> Self {
-        sample.take(node_points);
+        sample.fill_from(node_points);
         let axes = best_frame(sample, node_points.triangles);
         let turned = axes.transpose();
         let (low, high) =

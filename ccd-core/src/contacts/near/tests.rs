@@ -1,4 +1,4 @@
-use super::Extent;
+use super::BoundingVolume;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
 use crate::math::order::greater;
@@ -25,7 +25,7 @@ fn worst_box() {
         let body = Body::polytope(of).ok()?;
         let problem =
             Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
-        let node = Extent::new(&problem.a, 0, &Frame::IDENTITY);
+        let node = BoundingVolume::new(&problem.a, 0, &Frame::IDENTITY);
         let along = points[tape.pick(8)] - points[tape.pick(8)];
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
         let [_, high] = node.projection_on(n);

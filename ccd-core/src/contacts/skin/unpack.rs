@@ -1,6 +1,6 @@
 //! Converts pieces to triangles with mesh numbers.
 
-use super::{Corner, Face, PointBits, Skin};
+use super::{Corner, Face, NearSurface, PointBits};
 use crate::body::feature::Feature;
 use crate::body::piece::Combination;
 use crate::body::piece::Piece;
@@ -11,12 +11,12 @@ use std::collections::HashMap;
 /// A triangle with its feature, and its corners with their mesh numbers. Corners have a number if the mesh has one.
 type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
 
-impl Skin<'_> {
+impl NearSurface<'_> {
     /// Adds the triangles of a piece to the surface.
-    pub(super) fn unpack(&mut self, index: u32) {
+    pub(super) fn add_triangles(&mut self, index: u32) {
         let piece = self.body.pieces().get(index as usize);
         for (name, corners) in self.triangles(index, &piece) {
-            let corners = corners.map(|(point, id)| self.corner(point, id));
+            let corners = corners.map(|(point, id)| self.corner_index_of(point, id));
             self.faces.push(Face {
                 corners,
                 piece: index,
@@ -97,7 +97,9 @@ impl Skin<'_> {
     /// among pieces with a point at the same position.
     pub(super) fn mesh_number(&self, corner: u32) -> Option<u32> {
         let Corner {
-            place: here, id, ..
+            position_bits: here,
+            id,
+            ..
         } = &self.corners[corner as usize];
         let there = || pieces_at(self.body.tree(), here.map(f64::from_bits).into());
         id.or_else(|| {
@@ -121,12 +123,12 @@ impl Skin<'_> {
         }
     }
 
-    fn corner(&mut self, point: DVec3, id: Option<u32>) -> u32 {
+    fn corner_index_of(&mut self, point: DVec3, id: Option<u32>) -> u32 {
         let place = point_bits(point);
         *self.corner_index.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
                 at: self.to_a.point(point),
-                place,
+                position_bits: place,
                 id,
             });
             self.corners.len() as u32 - 1

@@ -5,7 +5,7 @@ use super::*;
 use crate::body::pieces::Pieces;
 
 /// Creates a slab whose top and bottom have four triangles each, around a middle point without a mesh number.
-fn hull_cut_about_its_middles(half: DVec3) -> Body {
+fn slab_with_centre_points(half: DVec3) -> Body {
     let mut points = Mesh::cuboid(half).points;
     points.extend([-half.z * DVec3::Z, half.z * DVec3::Z]);
     let side = |corners: &[u32]| Facet {
@@ -33,10 +33,10 @@ fn only_the_foot_on_a_side_is_reported() {
     let half = DVec3::new(1.0, 0.8, 0.3);
     let [cut, whole] = cuboids(half);
     let point = Body::sphere(0.0).unwrap();
-    for slab in [cut, whole, hull_cut_about_its_middles(half)] {
+    for slab in [cut, whole, slab_with_centre_points(half)] {
         let (mut feet, mut beside) = (0, 0);
         for _ in 0..200 {
-            let place = 2.5 * within(rng, 1.0);
+            let place = 2.5 * point_in_ball(rng, 1.0);
             let pairs = contacts(&point, &slab, at(place.x, place.y, place.z), 10.0);
             assert!(!pairs.is_empty());
             for pair in &pairs {
@@ -58,7 +58,7 @@ fn only_the_foot_on_a_side_is_reported() {
 }
 
 /// Creates a polyhedron of flat faces around the centre of a sphere.
-fn globe(rings: u32, sectors: u32) -> Mesh {
+fn uv_sphere(rings: u32, sectors: u32) -> Mesh {
     let angle = |k: u32, of: u32| std::f64::consts::PI * f64::from(k) / f64::from(of);
     let point = |(i, j): (u32, u32)| {
         let (down, round) = (angle(i, rings).sin_cos(), angle(2 * j, sectors).sin_cos());
@@ -90,7 +90,7 @@ fn globe(rings: u32, sectors: u32) -> Mesh {
 /// that of the near pairs of faces, not of all pairs.
 #[test]
 fn a_piece_of_many_faces_is_sorted_once() {
-    let ball = globe(32, 34);
+    let ball = uv_sphere(32, 34);
     let count = ball.faces.len() as u64;
     let facet = |(k, corners): (u32, &[u32; 3])| Facet {
         origin: Origin::Face(k),

@@ -18,8 +18,8 @@ pub(super) struct Mesh {
 
 /// The expected pairs of features with their distances, and the pairs that depend on rounding.
 pub(super) struct Expected {
-    pub(super) sure: BTreeMap<String, f64>,
-    pub(super) doubtful: BTreeSet<String>,
+    pub(super) certain: BTreeMap<String, f64>,
+    pub(super) uncertain: BTreeSet<String>,
 }
 
 impl Mesh {
@@ -185,7 +185,7 @@ struct CollectedPairs {
 
 impl CollectedPairs {
     /// Adds a pair if its distance is within reach up to rounding.
-    fn offer(&mut self, key: Key, distance: f64, clear: bool) {
+    fn add_if_near(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
             let least = self.sure.entry(key).or_insert(distance);
@@ -230,11 +230,11 @@ impl CollectedPairs {
             }),
             _ => true,
         };
-        self.offer(pair(part), distance, clear);
+        self.add_if_near(pair(part), distance, clear);
         if !clear {
             let all = (0..3).flat_map(|k| [Feature::Vertex(ids[k]), edge_name(k)]);
             for part in all.chain([Feature::Face(face as u32)]) {
-                self.offer(pair(part), distance, false);
+                self.add_if_near(pair(part), distance, false);
             }
         }
     }
@@ -255,7 +255,7 @@ impl CollectedPairs {
         let nearest_end = ends.into_iter().fold(f64::INFINITY, lesser);
         let slanted = across.length() > 1e-4 * d.length() * along.length();
         let clear = slanted && nearest_end > distance + 16.0 * self.rounding;
-        self.offer(names, distance, clear);
+        self.add_if_near(names, distance, clear);
     }
 
     /// Drops pairs that follow from others, and replaces edges inside flat parts by faces.
@@ -312,6 +312,9 @@ impl CollectedPairs {
             }
         }
         doubtful.extend(self.doubtful.iter().map(name));
-        Expected { sure, doubtful }
+        Expected {
+            certain: sure,
+            uncertain: doubtful,
+        }
     }
 }

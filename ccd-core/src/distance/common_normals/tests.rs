@@ -1,6 +1,6 @@
 use super::*;
 use crate::math::order::greater;
-use crate::tests::scene::{Pcg64, RngExt, direction, rng, rotation, within};
+use crate::tests::scene::{Pcg64, RngExt, direction, point_in_ball, rng, rotation};
 use glam::DQuat;
 
 const SLACK: f64 = 1e-13;
@@ -55,9 +55,10 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
 }
 
 /// Draws vectors within a cone about an axis. The normals of both bundles are opposite.
-fn bundle(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
+fn random_cone_vectors(rng: &mut Pcg64, about: DVec3) -> Vec<DVec3> {
     let count = rng.random_range(1..12);
-    let offsets = (0..count).map(|_| (about + within(rng, 1.5)) * rng.random_range(0.01..10.0));
+    let offsets =
+        (0..count).map(|_| (about + point_in_ball(rng, 1.5)) * rng.random_range(0.01..10.0));
     offsets.collect()
 }
 
@@ -67,7 +68,7 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
     let rng = &mut rng(82);
     let (mut some, mut none) = (0, 0);
     for _ in 0..2000 {
-        let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| bundle(rng, about));
+        let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| random_cone_vectors(rng, about));
         let normals = common(&a, &b);
         let towards = direction(rng);
         let offsets = normals.offsets.clone();

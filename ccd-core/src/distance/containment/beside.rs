@@ -13,7 +13,7 @@ use glam::DVec3;
 /// A surface that passes through a piece's inside, without any of its faces intersecting it, does
 /// so along such edges. For a part that is entirely in the plane, the faces beyond its edges
 /// decide.
-pub(crate) fn beside_edges(
+pub(crate) fn points_beside_edges(
     piece: &Piece<'_>,
     other: &Piece<'_>,
     place: impl Fn(DVec3) -> DVec3 + Copy,

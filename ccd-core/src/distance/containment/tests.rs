@@ -9,9 +9,9 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::query::Moving;
 use crate::settings::Settings;
-use crate::tests::meshes::{cube, inside_out, moved};
+use crate::tests::meshes::{cube, inside_out, translated_triangles};
 use crate::tests::nearest::Triangle;
-use crate::tests::scene::{RngExt, magnitude, pieces, rng, rotation, within};
+use crate::tests::scene::{RngExt, magnitude, pieces, point_in_ball, rng, rotation};
 use glam::DVec3;
 
 fn solid(triangles: &[Triangle]) -> Body {
@@ -19,14 +19,14 @@ fn solid(triangles: &[Triangle]) -> Body {
 }
 
 fn contained(a: &Body, b: &Body) -> Option<Overlap> {
-    match touching_at_start(a, b, &[]) {
+    match containment_of(a, b, &[]) {
         Some(Outcome::Overlapping { overlap, .. }) => Some(overlap),
         None => None,
         found => panic!("too near to tell: {found:?}"),
     }
 }
 
-fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Option<Outcome> {
+fn containment_of(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Option<Outcome> {
     let moving = |body| Moving::from((body, Motion::still(Pose::IDENTITY)));
     let problem = Problem::about(moving(a), moving(b), 1.0, &Settings::DEFAULT).unwrap();
     containment_at_start(&problem, touching, &mut Vec::new())
@@ -43,7 +43,7 @@ fn points_are_inside_or_outside_of_a_cube() {
     for n in [1, 3, 20] {
         let body = solid(&cube(1.0, n));
         for _ in 0..2_000 {
-            let point = within(&mut rng, 2.0);
+            let point = point_in_ball(&mut rng, 2.0);
             let exact = point.abs().max_element() < 1.0;
             assert_eq!(contains(&body, point), Some(exact), "{point} {n}");
             inside += usize::from(exact);
@@ -101,7 +101,7 @@ fn a_cavity_is_outside_and_a_solid_in_it_inside() {
         assert_eq!(contains(&body, point), Some(inside), "{x}");
     }
     // A body in the cavity is no overlap. A body in the core or the wall is one.
-    let part = |x: f64| solid(&moved(&cube(0.1, 1), x * DVec3::X));
+    let part = |x: f64| solid(&translated_triangles(&cube(0.1, 1), x * DVec3::X));
     for (x, inside) in [(0.0, true), (1.5, false), (2.5, true), (3.5, false)] {
         let overlap = contained(&part(x), &body);
         assert_eq!(matches!(overlap, Some(Overlap::AInsideB(_))), inside, "{x}");
@@ -120,8 +120,8 @@ fn an_inside_out_mesh_contains_the_space_that_it_surrounds() {
 #[test]
 fn only_one_of_many_parts_need_be_inside() {
     let outer = solid(&cube(1.0, 2));
-    let mut parts = moved(&cube(0.1, 1), 5.0 * DVec3::X);
-    parts.extend(moved(&cube(0.1, 1), -5.0 * DVec3::X));
+    let mut parts = translated_triangles(&cube(0.1, 1), 5.0 * DVec3::X);
+    parts.extend(translated_triangles(&cube(0.1, 1), -5.0 * DVec3::X));
     assert_eq!(contained(&solid(&parts), &outer), None);
     parts.extend(cube(0.1, 1));
     let Some(Overlap::AInsideB(point)) = contained(&solid(&parts), &outer) else {
@@ -148,9 +148,9 @@ fn a_part_on_the_surface_is_left_to_its_pieces() {
     let triangle = Body::new(&pieces(&[on_top]), Volume::Surface).unwrap();
     let cube = solid(&cube(1.0, 1));
     let all: Vec<[u32; 2]> = (0..cube.pieces().len() as u32).map(|k| [0, k]).collect();
-    let found = touching_at_start(&triangle, &cube, &all);
+    let found = containment_of(&triangle, &cube, &all);
     assert_eq!(found, None);
-    let found = touching_at_start(&triangle, &cube, &[]);
+    let found = containment_of(&triangle, &cube, &[]);
     assert_eq!(found, Some(Outcome::unresolved(0.0, Limit::Undecided)));
 }
 
@@ -160,12 +160,12 @@ fn placement_and_size_do_not_matter() {
     for _ in 0..200 {
         let scale = magnitude(&mut rng, -6.0, 6.0);
         let turn = rotation(&mut rng);
-        let far = within(&mut rng, 1e3 * scale);
+        let far = point_in_ball(&mut rng, 1e3 * scale);
         let place = |triangles: Vec<Triangle>, at: DVec3| -> Vec<Triangle> {
             let put = |p: DVec3| turn * (p + at) * scale + far;
             triangles.iter().map(|t| t.map(put)).collect()
         };
-        let at = within(&mut rng, 2.0);
+        let at = point_in_ball(&mut rng, 2.0);
         let inside = at.abs().max_element() < 0.9;
         if (0.9..1.1).contains(&at.abs().max_element()) {
             continue;
@@ -210,7 +210,7 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let sheet = Body::new(&pieces(&[plate]), Volume::Surface).unwrap();
     let solid = solid(&octahedron);
     let touching: Vec<[u32; 2]> = (0..8).map(|k| [k, 0]).collect();
-    let found = |sheet: &Body| touching_at_start(&solid, sheet, &touching);
+    let found = |sheet: &Body| containment_of(&solid, sheet, &touching);
     assert!(matches!(
         found(&sheet),
         Some(Outcome::Overlapping {
@@ -219,7 +219,11 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
         })
     ));
     // A triangle that rests on a tip is not inside.
-    let above = Body::new(&pieces(&moved(&[plate], DVec3::Z)), Volume::Surface).unwrap();
+    let above = Body::new(
+        &pieces(&translated_triangles(&[plate], DVec3::Z)),
+        Volume::Surface,
+    )
+    .unwrap();
     assert_eq!(found(&above), None);
 }
 
@@ -237,7 +241,7 @@ fn a_lone_needle_through_an_edge_is_inside() {
         .collect();
     assert_eq!(touching.len(), 2);
     assert!(matches!(
-        touching_at_start(&solid(&cube), &needle, &touching),
+        containment_of(&solid(&cube), &needle, &touching),
         Some(Outcome::Overlapping {
             overlap: Overlap::BInsideA(_),
             ..

@@ -1,8 +1,8 @@
 //! Tests combinations of points, and oracles with a fallback.
 
 use super::*;
-use crate::tests::oracle::Always;
-use crate::tests::scene::{RngExt, rng, within};
+use crate::tests::oracle::ConstantOracle;
+use crate::tests::scene::{RngExt, point_in_ball, rng};
 
 #[test]
 fn terms_are_merged_dropped_and_capped() {
@@ -27,7 +27,7 @@ fn terms_are_merged_dropped_and_capped() {
 fn a_combination_names_a_point_of_the_hull() {
     let mut rng = rng(1);
     for _ in 0..1_000 {
-        let points = [(); 4].map(|()| within(&mut rng, 1e6));
+        let points = [(); 4].map(|()| point_in_ball(&mut rng, 1e6));
         let weights = [(); 4].map(|()| rng.random_range(1e-3..1.0));
         let mut out = Combination::EMPTY;
         for (k, weight) in weights.into_iter().enumerate() {
@@ -69,18 +69,19 @@ fn the_second_oracle_is_asked_where_the_first_gives_up() {
         b: Combination::point(0),
     };
     let (first, second) = (claim(DVec3::X), claim(DVec3::Y));
-    let mut sure = Always(Ok(first)).or_else(Always(Ok(second)));
+    let mut sure = ConstantOracle(Ok(first)).or_else(ConstantOracle(Ok(second)));
     assert_eq!(ask(&mut sure), Ok(first));
     assert_eq!(sure.fallbacks(), 0);
-    let mut unsure = Always(Err(GiveUp::Cycle)).or_else(Always(Ok(second)));
+    let mut unsure = ConstantOracle(Err(GiveUp::Cycle)).or_else(ConstantOracle(Ok(second)));
     assert_eq!(ask(&mut unsure), Ok(second));
     assert_eq!(ask(&mut unsure), Ok(second));
     assert_eq!(unsure.fallbacks(), 2);
-    let mut hopeless = Always(Err(GiveUp::Cycle)).or_else(Always(Err(GiveUp::StepCap)));
+    let mut hopeless =
+        ConstantOracle(Err(GiveUp::Cycle)).or_else(ConstantOracle(Err(GiveUp::StepCap)));
     assert_eq!(ask(&mut hopeless), Err(GiveUp::StepCap));
     // This is a chain of three oracles.
-    let mut chain = Always(Err(GiveUp::Cycle))
-        .or_else(Always(Err(GiveUp::StepCap)))
-        .or_else(Always(Ok(first)));
+    let mut chain = ConstantOracle(Err(GiveUp::Cycle))
+        .or_else(ConstantOracle(Err(GiveUp::StepCap)))
+        .or_else(ConstantOracle(Ok(first)));
     assert_eq!(ask(&mut chain), Ok(first));
 }

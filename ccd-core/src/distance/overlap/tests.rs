@@ -10,14 +10,14 @@ use crate::math::order::greater;
 use crate::motion::pose::{Frame, Pose};
 use crate::tests::double::{Double, Double3};
 use crate::tests::nearest::Triangle;
-use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{RngExt, couple, rng, rotation, within};
+use crate::tests::oracle::ExhaustiveOracle;
+use crate::tests::scene::{RngExt, couple, point_in_ball, rng, rotation};
 use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
 
 /// Returns whether the pieces intersect, and asserts that this is decided.
-fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
+fn assert_decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
     match intersects(pair, &checked, ROUNDING, &mut InnerPolytope::default()) {
         Intersection::Certain => true,
@@ -39,8 +39,8 @@ fn triangles(a: &Triangle, b: &Triangle) -> bool {
         b: Piece::from_points(b),
         b_to_a: Frame::IDENTITY,
     };
-    let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-    decided(&pair, &claim)
+    let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
+    assert_decided(&pair, &claim)
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn boxes(b_to_a: Frame) -> bool {
         a: named(middle),
         b: named(b_to_a.inverse_point(middle)),
     };
-    decided(&pair, &claim)
+    assert_decided(&pair, &claim)
 }
 
 /// Returns weights of corners 0, 1, 3, 7 of a unit box that represent a point with x ≥ y ≥ z.
@@ -161,7 +161,7 @@ fn boxes_overlap_by_more_than_rounding_or_not() {
     assert!(!crossed(1e-9));
     assert!(crossed(-1e-3));
     for _ in 0..100 {
-        let pose = Pose::new(within(&mut rng, 0.5), rotation(&mut rng)).unwrap();
+        let pose = Pose::new(point_in_ball(&mut rng, 0.5), rotation(&mut rng)).unwrap();
         assert!(boxes(Frame::from(pose)), "deep inside: {pose:?}");
     }
 }
@@ -177,8 +177,8 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
             b: piece,
             b_to_a: turn.into(),
         };
-        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-        decided(&pair, &claim)
+        let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
+        assert_decided(&pair, &claim)
     };
     assert!(cross(0.0) && cross(0.5) && cross(1.0 - 1e-9));
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
@@ -192,19 +192,19 @@ fn false_claims_do_not_change_the_decision() {
     let piece = body.pieces().get(0);
     let (mut overlaps, mut others) = (0, 0);
     for _ in 0..2_000 {
-        let pose = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pose = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
         let pair = PiecePair {
             a: piece,
             b: piece,
             b_to_a: pose.into(),
         };
         let lie = Claim {
-            axis: within(&mut rng, 1.0),
+            axis: point_in_ball(&mut rng, 1.0),
             a: Combination::point(rng.random_range(0..8)),
             b: Combination::point(rng.random_range(0..8)),
         };
         let exact = overlap_by_axes(&pair);
-        assert_eq!(decided(&pair, &lie), exact, "{pose:?}");
+        assert_eq!(assert_decided(&pair, &lie), exact, "{pose:?}");
         overlaps += usize::from(exact);
         others += usize::from(!exact);
     }
@@ -218,9 +218,10 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
     for _ in 0..2_000 {
         let stretch = [0; 3].map(|_| 10f64.powf(rng.random_range(-4.0..0.0)));
         let turn = rotation(&mut rng);
-        let mut cloud = || [0; 8].map(|_| turn * (within(&mut rng, 1.0) * DVec3::from(stretch)));
+        let mut cloud =
+            || [0; 8].map(|_| turn * (point_in_ball(&mut rng, 1.0) * DVec3::from(stretch)));
         let (ours, theirs) = (cloud(), cloud());
-        let aside = within(&mut rng, 2.0);
+        let aside = point_in_ball(&mut rng, 2.0);
         let pair = PiecePair {
             a: Piece::from_points(&ours),
             b: Piece::from_points(&theirs),
@@ -255,7 +256,7 @@ fn flat_differences_have_no_tetrahedron() {
     let mut rng = rng(5);
     for _ in 0..200 {
         let turn = rotation(&mut rng);
-        let mut flat = || [0; 3].map(|_| turn * within(&mut rng, 1.0).reject_from(DVec3::Z));
+        let mut flat = || [0; 3].map(|_| turn * point_in_ball(&mut rng, 1.0).reject_from(DVec3::Z));
         let (ours, theirs) = (flat(), flat());
         let pair = PiecePair {
             a: Piece::from_points(&ours),
@@ -299,7 +300,7 @@ fn balls_that_touch_exactly_do_not_intersect() {
         b: ball.pieces().get(0),
         b_to_a: at(DVec3::X),
     };
-    let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+    let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
     let checked = separation::check(&pair, &claim, 0.0);
     let decision = intersects(&pair, &checked, 0.0, &mut InnerPolytope::default());
     assert_eq!(decision, Intersection::None);

@@ -1,6 +1,6 @@
 //! Improves the axis of a checked claim, from the features that contain the nearest points.
 
-use super::{Checked, support_gap};
+use super::{CheckedClaim, support_gap};
 use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::PiecePair;
@@ -11,14 +11,18 @@ use glam::{DMat3, DVec3};
 ///
 /// The vector between nearest points is only as exact as their coordinates. Along it, two pieces that are near for
 /// their size lose some of their distance. The normal of a face, or of two edges, is exact to its last bits.
-pub(crate) fn sharpen(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
+pub(crate) fn improve_axis(
+    pair: &PiecePair<'_>,
+    checked: &CheckedClaim,
+    rounding: f64,
+) -> CheckedClaim {
     let radii = pair.a.radius + pair.b.radius;
     let mut best = *checked;
     for axis in axes(pair, checked).into_iter().filter_map(unit) {
         for axis in [axis, -axis] {
             let lower = support_gap(pair, axis, checked.witness_a) - radii - rounding;
             if lower > best.lower {
-                best = Checked {
+                best = CheckedClaim {
                     lower,
                     axis,
                     ..best
@@ -31,12 +35,12 @@ pub(crate) fn sharpen(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) ->
 
 /// Returns the candidate axes. They are the vector between the nearest points, the vector perpendicular to it and a
 /// single edge, the normals of faces, and the normal of two edges.
-fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
+fn axes(pair: &PiecePair<'_>, checked: &CheckedClaim) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
     let on_a = Feature::at_combination(&pair.a, &checked.claim.a, checked.axis);
     let on_b =
-        Feature::at_combination(&pair.b, &checked.claim.b, axis_in_b).seen(pair.b_to_a.rotation);
+        Feature::at_combination(&pair.b, &checked.claim.b, axis_in_b).rotated(pair.b_to_a.rotation);
     let edges = match (on_a.edge, on_b.edge) {
         (Some(e), Some(f)) => across(e, f),
         (Some(e), None) | (None, Some(e)) => across(across(e, way), e),
@@ -71,7 +75,7 @@ impl Feature {
         Feature { edge, normal }
     }
 
-    fn seen(self, turn: DMat3) -> Self {
+    fn rotated(self, turn: DMat3) -> Self {
         Feature {
             edge: self.edge.map(|e| turn * e),
             normal: turn * self.normal,

@@ -1,6 +1,6 @@
 //! Tests the bounds that come from true and from false claims.
 
-use super::sharp::sharpen;
+use super::sharp::improve_axis;
 use super::*;
 use crate::body::Body;
 use crate::body::piece::Combination;
@@ -9,21 +9,21 @@ use crate::body::support::Support;
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::pose::{Frame, Pose};
 use crate::tests::nearest::{Triangle, nearest};
-use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{self, Pcg64, RngExt, magnitude, rng, rotation, within};
+use crate::tests::oracle::ExhaustiveOracle;
+use crate::tests::scene::{self, Pcg64, RngExt, magnitude, point_in_ball, rng, rotation};
 
 const ROUNDING: f64 = 1e-13;
 
 /// Draws two triangles and the frame between them, and computes their exact distance.
-fn couple(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
+fn random_triangle_pair(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
     let pair = scene::couple(rng);
-    let pose = Pose::new(within(rng, 0.5), rotation(rng)).unwrap();
+    let pose = Pose::new(point_in_ball(rng, 0.5), rotation(rng)).unwrap();
     let frame = Frame::from(pose);
     let distance = nearest(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
     (pair[0], pair[1], frame, distance)
 }
 
-fn claim_of(rng: &mut Pcg64) -> Claim {
+fn random_claim(rng: &mut Pcg64) -> Claim {
     let mut numbers = || match rng.random_range(0..6) {
         0 => f64::NAN,
         1 => f64::INFINITY,
@@ -53,13 +53,13 @@ fn bounds_hold_for_any_claim() {
     let mut rng = rng(1);
     let mut replaced = 0;
     for _ in 0..50_000 {
-        let (a, b, b_to_a, distance) = couple(&mut rng);
+        let (a, b, b_to_a, distance) = random_triangle_pair(&mut rng);
         let pair = PiecePair {
             a: Piece::from_points(&a),
             b: Piece::from_points(&b),
             b_to_a,
         };
-        let claim = claim_of(&mut rng);
+        let claim = random_claim(&mut rng);
         let checked = check(&pair, &claim, ROUNDING);
         assert!(
             checked.lower <= distance,
@@ -88,13 +88,13 @@ fn a_true_claim_is_tight() {
     let mut rng = rng(2);
     let (mut apart, mut across) = (0, 0);
     for _ in 0..10_000 {
-        let (a, b, b_to_a, distance) = couple(&mut rng);
+        let (a, b, b_to_a, distance) = random_triangle_pair(&mut rng);
         let pair = PiecePair {
             a: Piece::from_points(&a),
             b: Piece::from_points(&b),
             b_to_a,
         };
-        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
         let checked = check(&pair, &claim, ROUNDING);
         assert!(checked.upper <= distance + 3.0 * ROUNDING);
         if distance > 1e-3 {
@@ -170,12 +170,12 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
 /// Checks that a tilted claim can be improved to the distance, and returns whether it was poor.
 fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     let checked = check(pair, tilted, ROUNDING);
-    let Checked {
+    let CheckedClaim {
         lower,
         axis,
         witness_a,
         ..
-    } = sharpen(pair, &checked, ROUNDING);
+    } = improve_axis(pair, &checked, ROUNDING);
     // The bound was computed along this axis.
     assert_eq!(support_gap(pair, axis, witness_a) - ROUNDING, lower);
     assert!(lower <= distance, "{lower} {distance}");
@@ -203,9 +203,9 @@ fn features_have_better_axes_than_near_points() {
             b: Piece::from_points(&b),
             b_to_a,
         };
-        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let claim = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
         let tilted = Claim {
-            axis: DVec3::Z + within(&mut rng, 1e-11),
+            axis: DVec3::Z + point_in_ball(&mut rng, 1e-11),
             ..claim
         };
         poor += usize::from(is_sharpened(&pair, &tilted, distance));
@@ -245,7 +245,7 @@ fn facets_have_better_axes_than_corners_across_them() {
             across.push(corner, 1.0 / corners.len() as f64);
         }
         let tilted = Claim {
-            axis: -DVec3::Z + within(&mut rng, 1e-9),
+            axis: -DVec3::Z + point_in_ball(&mut rng, 1e-9),
             a: Combination::point(0),
             b: across,
         };
@@ -259,14 +259,14 @@ fn facets_have_better_axes_than_corners_across_them() {
 fn searches_for_extremal_points_change_no_gap() {
     let mut rng = rng(5);
     let round = |rng: &mut Pcg64| -> Vec<DVec3> {
-        let middle = within(rng, 2.0);
+        let middle = point_in_ball(rng, 2.0);
         (0..100).map(|_| middle + scene::direction(rng)).collect()
     };
     let mut apart = 0;
     for _ in 0..500 {
         let points = [round(&mut rng), round(&mut rng)];
         let supports = [0, 1].map(|k| Support::of_points(&points[k]));
-        let pose = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pose = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
         let pair = |is_searched: bool| {
             let [a, b] = [0, 1].map(|k| Piece {
                 support: is_searched.then_some(&supports[k]),
@@ -275,7 +275,7 @@ fn searches_for_extremal_points_change_no_gap() {
             let b_to_a = Frame::from(pose);
             PiecePair { a, b, b_to_a }
         };
-        let [n, from] = [scene::direction(&mut rng), within(&mut rng, 3.0)];
+        let [n, from] = [scene::direction(&mut rng), point_in_ball(&mut rng, 3.0)];
         let scanned = support_gap(&pair(false), n, from);
         let searched = support_gap(&pair(true), n, from);
         assert!(
@@ -293,7 +293,7 @@ fn the_better_one_of_axis_and_way_counts() {
     let mut rng = rng(6);
     let mut apart = 0;
     for _ in 0..2_000 {
-        let (a, b, b_to_a, distance) = couple(&mut rng);
+        let (a, b, b_to_a, distance) = random_triangle_pair(&mut rng);
         if distance < 1e-2 {
             continue;
         }
@@ -308,7 +308,7 @@ fn the_better_one_of_axis_and_way_counts() {
             b: round(&b),
             b_to_a,
         };
-        let right = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let right = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
         let corner = Combination::point(0);
         let axis = scene::direction(&mut rng);
         let wrong_axis = check(&pair, &Claim { axis, ..right }, ROUNDING);

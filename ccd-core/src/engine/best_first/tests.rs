@@ -10,12 +10,12 @@ use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::Side;
+use crate::problem::BodyWithPath;
 use crate::query::Moving;
 use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::nearest::{Triangle, nearest};
-use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
     Kind, Pcg64, RngExt, Scene, body, direction, distance, pieces, rng, scene,
 };
@@ -23,7 +23,7 @@ use glam::DVec3;
 use rand::seq::SliceRandom;
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut Exhaustive)
+    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
 /// Draws a scene that does not begin in contact.
@@ -47,7 +47,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
         let problem = scene.problem();
         let (margin, tolerance) = (problem.margin, problem.tolerance());
         let answer = solve(&problem);
-        let twin = Naive::default().solve(&problem, &mut Exhaustive);
+        let twin = Naive::default().solve(&problem, &mut ExhaustiveOracle);
         let (until, least) = match (answer.outcome, twin.outcome) {
             (Outcome::Contact { time, contact }, Outcome::Contact { time: other, .. }) => {
                 hits += 1;
@@ -137,7 +137,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
 
 /// Checks that the pieces of a contact are as far apart as claimed.
 fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
-    let placed = |side: &Side<'_>, piece: u32| {
+    let placed = |side: &BodyWithPath<'_>, piece: u32| {
         let frame = side.path.frame(s);
         side.body
             .pieces()
@@ -216,8 +216,8 @@ fn answers_do_not_depend_on_earlier_queries() {
         let scene = apart(&mut rng);
         let problem = scene.problem();
         let fresh = solve(&problem);
-        assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
-        assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
+        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
+        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
     }
 }
 
@@ -242,7 +242,7 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
             a: Combination::point(rng.random_range(0..5)),
             b: Combination::point(rng.random_range(0..5)),
         };
-        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
             let answer = BestFirst::default().solve(&problem, &mut { oracle });
             match answer.outcome {
                 Outcome::Unresolved(Unresolved { safe_until, .. }) => {

@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// Creates the problem of two equal balls at rest, with limits.
-fn limited<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
+fn limited_problem<'a>(ball: &'a Body, settings: &'a Settings) -> Problem<'a> {
     let still = (ball, Motion::STILL);
     Problem::about(still, still, 1.0, settings).unwrap()
 }
@@ -33,7 +33,7 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
         ..Settings::DEFAULT
     };
     let ball = ball();
-    let problem = limited(&ball, &config);
+    let problem = limited_problem(&ball, &config);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
     meter.stats.point_looks += 3 * EVALUATIONS_PER_VISIT;
@@ -46,7 +46,7 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
 fn a_deadline_that_is_past_ends_the_first_visit() {
     let ball = ball();
     let settings = with_deadline(Duration::ZERO);
-    let problem = limited(&ball, &settings);
+    let problem = limited_problem(&ball, &settings);
     assert_eq!(
         Meter::new(&problem).count_visit(&problem),
         Err(Limit::Deadline)
@@ -57,7 +57,7 @@ fn a_deadline_that_is_past_ends_the_first_visit() {
 fn a_deadline_is_seen_within_the_work_between_two_looks() {
     let ball = ball();
     let settings = with_deadline(Duration::from_millis(1));
-    let problem = limited(&ball, &settings);
+    let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
@@ -81,7 +81,7 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
         stop: Some(Arc::clone(&stop)),
         ..Settings::DEFAULT
     };
-    let problem = limited(&ball, &settings);
+    let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));
     std::thread::scope(|scope| {
@@ -101,7 +101,7 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
 fn an_unreachable_deadline_counts_as_none() {
     let ball = ball();
     let settings = with_deadline(Duration::MAX);
-    let problem = limited(&ball, &settings);
+    let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));
 }

@@ -6,24 +6,24 @@ use crate::engine::queue::Queue;
 
 /// The lists of a search for the nearest pieces, whose memory is reused.
 #[derive(Debug, Default)]
-pub(crate) struct Lists {
+pub(crate) struct SearchBuffers {
     /// Pairs of nodes, ordered by lower bounds of their distances.
-    pub(crate) waiting: Queue<Siblings>,
+    pub(crate) waiting_pairs: Queue<Siblings>,
     /// All pairs of pieces that no axis separates, and which therefore have no distance.
-    pub(crate) touching: Vec<[u32; 2]>,
+    pub(crate) touching_pairs: Vec<[u32; 2]>,
     /// Scratch memory for the test whether one body is inside the other.
     pub(crate) pieces: Vec<u32>,
 }
 
-impl Lists {
+impl SearchBuffers {
     pub(crate) fn clear(&mut self) {
-        self.waiting.clear();
-        empty(&mut self.touching);
+        self.waiting_pairs.clear();
+        empty(&mut self.touching_pairs);
         empty(&mut self.pieces);
     }
 
     /// Returns all pairs of pieces that no axis separates, and the list of pieces as scratch memory.
     pub(crate) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
-        (&self.touching, &mut self.pieces)
+        (&self.touching_pairs, &mut self.pieces)
     }
 }

@@ -9,8 +9,8 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 pub(crate) struct Axis<L: Simd> {
     pub(crate) n: Vec3x8<L>,
     pub(crate) gap: f32x8<L>,
-    pub(crate) split_reach: f32x8<L>,
-    pub(crate) other_reach: f32x8<L>,
+    pub(crate) split_extent: f32x8<L>,
+    pub(crate) other_extent: f32x8<L>,
 }
 
 /// Returns for each pair the axis with the widest gap among three: the normals of the two nodes, and the vector between
@@ -69,8 +69,8 @@ pub(crate) fn axis_along<L: Simd, C: Children, P: OtherNode>(
     Axis {
         n: v * unit,
         gap: axis.gap * unit,
-        split_reach: axis.split_reach * unit,
-        other_reach: axis.other_reach * unit,
+        split_extent: axis.split_extent * unit,
+        other_extent: axis.other_extent * unit,
     }
 }
 
@@ -80,8 +80,8 @@ impl<L: Simd> Axis<L> {
         Axis {
             n,
             gap: n.dot(offset) - split_reach - other_reach,
-            split_reach,
-            other_reach,
+            split_extent: split_reach,
+            other_extent: other_reach,
         }
     }
 }
@@ -100,7 +100,7 @@ fn wider_of<L: Simd>(a: Axis<L>, b: Axis<L>) -> Axis<L> {
     Axis {
         n: choose(pick, b.n, a.n),
         gap: pick.select(b.gap, a.gap),
-        split_reach: pick.select(b.split_reach, a.split_reach),
-        other_reach: pick.select(b.other_reach, a.other_reach),
+        split_extent: pick.select(b.split_extent, a.split_extent),
+        other_extent: pick.select(b.other_extent, a.other_extent),
     }
 }

@@ -4,7 +4,7 @@
 //! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
 use super::axis::{self, Axis};
-use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
+use super::eight_pairs::{EightPairs, LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherNode};
 use crate::body::tree::LANES;
 use crate::math::order::lesser;
@@ -16,12 +16,12 @@ use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// The time for which each pair is certainly farther apart than the required gap.
-    pub(crate) free: FreeTimes,
+    pub(crate) free_times: FreeTimes,
     /// The pairs that are far apart for their size, as bits. A second visit after their time is worth more than a
     /// split.
-    pub(crate) revisit: u8,
+    pub(crate) revisit_mask: u8,
     /// The pairs whose child should be split rather than the other node, as bits: it is thicker along the axis.
-    pub(crate) split_child: u8,
+    pub(crate) split_child_mask: u8,
     /// True if the other node is a single piece, and cannot be split.
     pub(crate) other_is_piece: bool,
 }
@@ -45,8 +45,8 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit = widest.gap - motion.slack - (radius + other.radius()) * REVISIT_DISTANCE;
-    let split_child = (widest.split_reach + radius * ADDED_THICKNESS)
-        - (widest.other_reach + ADDED_THICKNESS * other.radius());
+    let split_child = (widest.split_extent + radius * ADDED_THICKNESS)
+        - (widest.other_extent + ADDED_THICKNESS * other.radius());
     let mut free = pairs.free(widest).max(pairs.free(passing));
     let mut revisit = bits(revisit.simd_gt(0.0));
     if let Some(past) = PassingNode::new(&pairs, widest) {
@@ -59,9 +59,9 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
         bits(split_child.simd_gt(0.0))
     };
     Bounds {
-        free: FreeTimes::pack(free, lanes),
-        revisit,
-        split_child: split_child & !bits(children.pieces(level)),
+        free_times: FreeTimes::pack(free, lanes),
+        revisit_mask: revisit,
+        split_child_mask: split_child & !bits(children.pieces(level)),
         other_is_piece: other.is_piece(),
     }
 }
@@ -79,7 +79,7 @@ struct PassingNode<L: Simd> {
     spin: f32,
     arm: f32x8<L>,
     /// The radius of the large node.
-    large: f32x8<L>,
+    large_radius: f32x8<L>,
     small: f32x8<L>,
     /// Set if the large node is a single piece. Then only the size of the small node decides whether it is far.
     other_is_piece: mask32x8<L>,
@@ -100,19 +100,19 @@ impl<L: Simd> PassingNode<L> {
         } = *pairs;
         let level = pairs.level();
         match motion.larger? {
-            Larger::Split => Some(PassingNode {
+            LargerBody::Split => Some(PassingNode {
                 turning_plane_time: pairs.free_with_split(axis),
                 spin: motion.split.rate,
                 arm: splat(level, motion.split.distance_from_centre(other.centre())),
-                large: children.radius(level),
+                large_radius: children.radius(level),
                 small: splat(level, other.radius()),
                 other_is_piece: children.pieces(level),
             }),
-            Larger::Other => Some(PassingNode {
+            LargerBody::Other => Some(PassingNode {
                 turning_plane_time: pairs.free_with_other(axis),
                 spin: motion.other.rate,
                 arm: motion.other.distances_from_centre(children.centre(level)),
-                large: splat(level, other.radius()),
+                large_radius: splat(level, other.radius()),
                 small: children.radius(level),
                 other_is_piece: mask32x8::splat(level, other.is_piece()),
             }),
@@ -122,7 +122,7 @@ impl<L: Simd> PassingNode<L> {
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
     fn revisit(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
-        let swept = free * self.spin * self.arm - self.large * MIN_SWEEP;
+        let swept = free * self.spin * self.arm - self.large_radius * MIN_SWEEP;
         let clear = apart - self.small * REVISIT_DISTANCE;
         swept.simd_gt(0.0) | self.other_is_piece & clear.simd_gt(0.0)
     }
@@ -143,8 +143,8 @@ const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 
 impl FreeTimes {
     /// Creates the times of a single pair, in the first lane, with a free time of 0.
-    pub(crate) fn first_lane() -> Self {
-        FreeTimes::of_lane(0)
+    pub(crate) fn single_in_first_lane() -> Self {
+        FreeTimes::single_in_lane(0)
     }
 
     /// Packs the times of the lanes in `used`; the others count as finished.
@@ -166,7 +166,7 @@ impl FreeTimes {
     }
 
     /// Creates the times of a single pair in this lane, with a free time of 0.
-    pub(crate) fn of_lane(lane: usize) -> Self {
+    pub(crate) fn single_in_lane(lane: usize) -> Self {
         let mut times = [FINISHED; LANES];
         times[lane] = lane as u32;
         FreeTimes(times)

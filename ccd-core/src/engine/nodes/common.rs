@@ -3,8 +3,8 @@
 use crate::body::tree::round_up_to_f32;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
-use crate::motion::relative::View;
-use crate::problem::{Problem, Side, Which};
+use crate::motion::relative::RelativePath;
+use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
 use crate::shortcuts::Shortcut;
 use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
@@ -17,7 +17,7 @@ pub(crate) struct NodeContext<'p> {
     pub(crate) problem: &'p Problem<'p>,
     /// The motion of B relative to A, and of A relative to B. Each is computed at the first split of its body: queries
     /// of a few pieces need neither.
-    views: [OnceCell<View>; 2],
+    relative_paths: [OnceCell<RelativePath>; 2],
     /// The angular velocities of A and of B in their own frames, and the angular speeds, rounded up; `None` for a body
     /// that does not turn.
     spins: [Option<(Vec3, f32)>; 2],
@@ -31,22 +31,22 @@ pub(crate) struct NodeContext<'p> {
     /// A bound of the rounding of closing rates.
     pub(crate) rate_slack: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
-    pub(crate) closed: f32,
+    pub(crate) closed_gap: f32,
     /// The ratio of radii above which a node counts as much larger than another.
-    pub(crate) much_larger: f32,
+    pub(crate) much_larger_ratio: f32,
 }
 
 /// Returns an upper bound of the speeds from which closing rates are computed. The rounding of the positions of arms
 /// adds a share.
-fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
+fn speed(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
     let straight = length(b.path.velocity - a.path.velocity)
         + length(b.path.acceleration - a.path.acceleration);
-    let turning = |own: &Side<'_>, other: &Side<'_>| {
+    let turning = |own: &BodyWithPath<'_>, other: &BodyWithPath<'_>| {
         // An arm is the difference of two positions, each rounded at its place, as seen from a group of the other
         // body. That group is in a ball which moves straight, and turns with its body.
         let (ball, radius) = other.body.tree().bounding_ball();
         let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
-        let start = distance(other.path.start_of(ball), own.path.centre_at(0.0));
+        let start = distance(other.path.point_at_start(ball), own.path.centre_at(0.0));
         let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
         own.path.rate * (reach(own) + PLACES * places)
     };
@@ -55,7 +55,7 @@ fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
 
 /// Returns an upper bound of the distances of a body's nodes from its centre of rotation. The points of a node are
 /// within the diameter of the whole body from the node's centre, and that is in a cube around the body.
-fn reach(side: &Side<'_>) -> f64 {
+fn reach(side: &BodyWithPath<'_>) -> f64 {
     let (centre, radius) = side.body.tree().bounding_ball();
     centre.distance(side.path.centre) + 4.0 * radius
 }
@@ -64,17 +64,21 @@ impl<'p> NodeContext<'p> {
     pub(crate) fn new(problem: &'p Problem<'_>) -> Self {
         NodeContext {
             problem,
-            views: [const { OnceCell::new() }; 2],
+            relative_paths: [const { OnceCell::new() }; 2],
             spins: [&problem.a.path, &problem.b.path].map(|path| {
-                path.turns()
-                    .then(|| (path.spin_local.as_vec3(), round_up_to_f32(path.rate)))
+                path.is_turning().then(|| {
+                    (
+                        path.local_angular_velocity.as_vec3(),
+                        round_up_to_f32(path.rate),
+                    )
+                })
             }),
             gap: round_up_to_f32(problem.gap()),
             node_gap: round_up_to_f32(problem.node_gap()),
             rounding: round_up_to_f32(problem.rounding),
             rate_slack: RATE_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
-            closed: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
-            much_larger: if problem.uses(Shortcut::TurningNodes) {
+            closed_gap: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
+            much_larger_ratio: if problem.uses(Shortcut::TurningNodes) {
                 MUCH_LARGER_RATIO
             } else {
                 f32::INFINITY
@@ -84,15 +88,16 @@ impl<'p> NodeContext<'p> {
 
     /// Returns the motion of the other body relative to this one.
     #[inline(always)]
-    pub(crate) fn view_from(&self, body: Which) -> &View {
-        let path = |body: Which| &body.of(self.problem).path;
-        self.views[body as usize].get_or_init(|| View::new(path(body), path(body.other())))
+    pub(crate) fn relative_path_from(&self, body: WhichBody) -> &RelativePath {
+        let path = |body: WhichBody| &body.of(self.problem).path;
+        self.relative_paths[body as usize]
+            .get_or_init(|| RelativePath::new(path(body), path(body.other())))
     }
 
     /// Returns the angular velocity of a body in its own frame, and its angular speed, rounded up; `None` if the body
     /// does not turn.
     #[inline(always)]
-    pub(crate) fn spin(&self, body: Which) -> Option<(Vec3, f32)> {
+    pub(crate) fn spin(&self, body: WhichBody) -> Option<(Vec3, f32)> {
         self.spins[body as usize]
     }
 }

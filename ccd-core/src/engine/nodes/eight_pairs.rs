@@ -25,12 +25,12 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) closed: f32,
     /// A bound of the rounding of a closing rate.
     pub(crate) rate_slack: f32,
-    pub(crate) larger: Option<Larger>,
+    pub(crate) larger: Option<LargerBody>,
 }
 
 /// The body that turns and whose nodes are much larger than the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Larger {
+pub(crate) enum LargerBody {
     Split,
     Other,
 }
@@ -94,12 +94,12 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
         let mut second_derivative = splat(axis.n.level(), LEAST_BEND_F32);
         if motion.split.is_turning {
-            let m = motion.split.cross_spin(axis.n);
+            let m = motion.split.cross_angular_velocity(axis.n);
             rate += self.children.extent_along(m);
             second_derivative += second_derivative_bound(m, motion.split.rate, self.speed);
         }
         if motion.other.is_turning {
-            let m = motion.other.cross_spin(axis.n);
+            let m = motion.other.cross_angular_velocity(axis.n);
             rate += self.other.extent_along(m);
             second_derivative += second_derivative_bound(m, motion.other.rate, self.other_speed);
         }
@@ -166,7 +166,7 @@ impl BodyRotation {
 
     /// Returns the cross products `n × ω`.
     #[inline(always)]
-    pub(crate) fn cross_spin<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
+    pub(crate) fn cross_angular_velocity<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
         if self.is_turning {
             n.cross(Vec3x8::splat(n.level(), self.spin))
         } else {

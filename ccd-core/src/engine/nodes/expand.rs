@@ -3,15 +3,15 @@
 use super::bounds::{Bounds, bound};
 use super::common::NodeContext;
 use super::eight_pairs::BodyRotation;
-use super::eight_pairs::{Larger, RelativeMotionF32};
+use super::eight_pairs::{LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use crate::body::tree::{
-    Below, LANES, Members, Node, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
+    GroupHeader, LANES, Node, NodeChildren, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
 };
 use crate::math::order::greater;
-use crate::math::simd::{Packed, PackedMatrix, as_vec3};
-use crate::motion::relative::{RelativeState, View};
-use crate::problem::{Side, Which};
+use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
+use crate::motion::relative::{RelativePath, RelativeState};
+use crate::problem::{BodyWithPath, WhichBody};
 use crate::rounding::{REACH_F32, WAY_F32};
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
@@ -28,21 +28,21 @@ pub(crate) struct Expansion {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split {
     /// The body to which the split node belongs.
-    pub(crate) body: Which,
+    pub(crate) body: WhichBody,
     pub(crate) node: NodeId,
     pub(crate) other: NodeId,
     /// The children to bound, as bits.
-    pub(crate) lanes: u8,
+    pub(crate) lane_mask: u8,
 }
 
 impl Split {
     /// Creates the split of a node with all children.
-    pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
+    pub(crate) fn all(body: WhichBody, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
             node,
             other,
-            lanes: u8::MAX,
+            lane_mask: u8::MAX,
         }
     }
 }
@@ -52,7 +52,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    split_at(common, split, s, ClosingRate::OfMotion)
+    bound_children(common, split, s, ClosingRate::OfMotion)
 }
 
 /// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
@@ -61,9 +61,9 @@ pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansi
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    let mut expansion = split_at(common, split, s, ClosingRate::Unit);
+    let mut expansion = bound_children(common, split, s, ClosingRate::Unit);
     // A second visit would give the same result.
-    expansion.bounds.revisit = 0;
+    expansion.bounds.revisit_mask = 0;
     expansion
 }
 
@@ -79,7 +79,7 @@ enum ClosingRate {
 /// Bounds the children, with the best vector instructions. This function alone contains the kernels, compiled once for
 /// each set of instructions.
 #[inline(never)]
-fn split_at(
+fn bound_children(
     common: &NodeContext<'_>,
     split: &Split,
     s: f64,
@@ -103,17 +103,17 @@ fn split_node<L: Simd>(
         unreachable!("a triangle is a single piece");
     };
     let (bounds, first) = match node.below {
-        Below::Boxes(group) => {
+        NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
             let members = &group.members;
             (motion.bound(group, members), members.first)
         }
-        Below::Triangles(group) => {
+        NodeChildren::Triangles(group) => {
             let group = &tree.triangle_group(group, body.pieces());
             let members = &group.members;
             (motion.bound(group, members), members.first)
         }
-        Below::Piece(_) => unreachable!("a single piece has no children"),
+        NodeChildren::Piece(_) => unreachable!("a single piece has no children"),
     };
     Expansion { bounds, first }
 }
@@ -123,11 +123,11 @@ struct RelativeMotion<'p, L: Simd> {
     level: L,
     common: &'p NodeContext<'p>,
     split: &'p Split,
-    split_side: &'p Side<'p>,
-    other_side: &'p Side<'p>,
+    split_side: &'p BodyWithPath<'p>,
+    other_side: &'p BodyWithPath<'p>,
     /// The other body's present pose and motion in the split body's frame.
     seen: RelativeState<L>,
-    view: &'p View,
+    relative_path: &'p RelativePath,
     /// The time left to the end of the duration.
     horizon: f32,
     closing_rate: ClosingRate,
@@ -143,7 +143,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         s: f64,
         closing_rate: ClosingRate,
     ) -> Self {
-        let view = common.view_from(split.body);
+        let view = common.relative_path_from(split.body);
         RelativeMotion {
             level,
             common,
@@ -151,7 +151,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             split_side: split.body.of(common.problem),
             other_side: split.body.other().of(common.problem),
             seen: view.at(level, s),
-            view,
+            relative_path: view,
             horizon: (1.0 - s) as f32,
             closing_rate,
         }
@@ -159,13 +159,14 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 
     /// Bounds the children in a group against the other body's node.
     #[inline(always)]
-    fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
+    fn bound<C: Children>(&self, group: &C, members: &GroupHeader) -> Bounds {
         let RelativeState {
             rotation, offset, ..
         } = self.seen;
-        let centre = self.view.centre(self.level) - Packed::new(self.level, members.origin);
+        let centre =
+            self.relative_path.centre(self.level) - PackedVector::new(self.level, members.origin);
         let other_centre = centre + offset;
-        let group_view = GroupView {
+        let group_view = GroupMotion {
             rotation,
             turn: rotation.narrow(),
             centre: centre.as_vec3(),
@@ -184,26 +185,26 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 }
 
 /// The relative motion in coordinates about the origin of a group.
-struct GroupView<'m, L: Simd> {
+struct GroupMotion<'m, L: Simd> {
     motion: &'m RelativeMotion<'m, L>,
-    members: &'m Members,
+    members: &'m GroupHeader,
     /// The rotation from the other body's frame to the split body's frame.
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
     turn: [f32x4<L>; 3],
     /// The centre of rotation of the split body, relative to the group's origin.
     centre: Vec3,
-    other_centre: Packed<L>,
+    other_centre: PackedVector<L>,
 }
 
-impl<L: Simd> GroupView<'_, L> {
+impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
         let motion = match self.motion.closing_rate {
             ClosingRate::OfMotion => self.motion_in_f32(other.centre(), other.radius()),
             ClosingRate::Unit => self.at_unit_rate(other.centre(), other.radius()),
         };
-        let lanes = self.motion.split.lanes & u8::MAX >> (LANES as u32 - self.members.count);
+        let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.members.count);
         bound(self.motion.level, group, other, &motion, lanes)
     }
 
@@ -216,15 +217,15 @@ impl<L: Simd> GroupView<'_, L> {
             half: node.half,
             rounding: node.rounding,
             radius: node.radius,
-            piece: matches!(node.below, Below::Piece(_)),
+            piece: matches!(node.below, NodeChildren::Piece(_)),
         }
     }
 
     /// Transforms a point of the other body to the group's coordinates.
     #[inline(always)]
-    fn placed(&self, point: DVec3) -> Packed<L> {
+    fn placed(&self, point: DVec3) -> PackedVector<L> {
         let level = self.motion.level;
-        let arm = Packed::new(level, point) - self.motion.view.other_centre(level);
+        let arm = PackedVector::new(level, point) - self.motion.relative_path.other_centre(level);
         self.rotation * arm + self.other_centre
     }
 
@@ -263,7 +264,7 @@ impl<L: Simd> GroupView<'_, L> {
     }
 
     #[inline(always)]
-    fn other_turn(&self) -> BodyRotation {
+    fn other_rotation(&self) -> BodyRotation {
         match self.motion.common.spin(self.motion.split.body.other()) {
             Some((_, rate)) => BodyRotation {
                 is_turning: true,
@@ -278,7 +279,7 @@ impl<L: Simd> GroupView<'_, L> {
     /// Returns the motion in f32, for a node with this centre and radius.
     #[inline(always)]
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
-        let (split, other) = (self.split_turn(), self.other_turn());
+        let (split, other) = (self.split_turn(), self.other_rotation());
         let reach = self.members.reach;
         let common = self.motion.common;
         let rounding = self.rounding(centre, radius);
@@ -291,12 +292,12 @@ impl<L: Simd> GroupView<'_, L> {
             other,
             horizon: self.motion.horizon,
             slack,
-            closed: common.closed,
+            closed: common.closed_gap,
             rate_slack: common.rate_slack,
-            larger: if split.is_turning && reach > common.much_larger * radius {
-                Some(Larger::Split)
-            } else if other.is_turning && radius > common.much_larger * reach {
-                Some(Larger::Other)
+            larger: if split.is_turning && reach > common.much_larger_ratio * radius {
+                Some(LargerBody::Split)
+            } else if other.is_turning && radius > common.much_larger_ratio * reach {
+                Some(LargerBody::Other)
             } else {
                 None
             },

@@ -50,7 +50,7 @@ pub(crate) trait OtherNode {
 /// Returns the lesser of the extents of a grown box and of a ball along n: `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`. The box
 /// has half extents hₖ along uₖ, and is grown by r.
 #[inline(always)]
-fn box_reach<L: Simd>(
+fn box_extent<L: Simd>(
     n: Vec3x8<L>,
     axes: [Vec3x8<L>; 3],
     half: [f32x8<L>; 3],
@@ -91,7 +91,7 @@ impl Children for BoxGroup {
         ];
         let half = [load(level, x), load(level, y), load(level, z)];
         let grown = [load(level, &self.rounding), load(level, &self.radius)];
-        box_reach(n, axes, half, grown)
+        box_extent(n, axes, half, grown)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -191,7 +191,7 @@ impl OtherNode for OtherBox {
         let [x, y, z] = self.half;
         let half = [splat(level, x), splat(level, y), splat(level, z)];
         let grown = [splat(level, self.rounding), splat(level, self.radius)];
-        box_reach(n, splats(level, self.axes), half, grown)
+        box_extent(n, splats(level, self.axes), half, grown)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {

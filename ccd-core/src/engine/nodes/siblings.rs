@@ -4,14 +4,14 @@ use super::bounds::FreeTimes;
 use super::expand::{Expansion, Split};
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
-use crate::problem::{Problem, Side, Which};
+use crate::problem::{BodyWithPath, Problem, WhichBody};
 
 /// Up to eight waiting pairs: the children of a split node, each with the same node of the other body.
 #[derive(Debug)]
 pub(crate) struct Siblings {
-    /// For each pair, how long after `since` it is certified apart; infinite for a finished pair.
+    /// For each pair, how long after `start_clock` it is certified apart; infinite for a finished pair.
     free: FreeTimes,
-    since: f64,
+    start_clock: f64,
     /// The split that created the pairs.
     split: Split,
     first: NodeId,
@@ -27,34 +27,34 @@ pub(crate) struct Siblings {
 
 /// What to do with a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Next {
+pub(crate) enum NextStep {
     /// Two pieces, of A and of B, whose distance the oracle computes next.
     Measure(u32, u32),
     /// One of the two nodes is split next.
     Split(Split),
 }
 
-impl Next {
+impl NextStep {
     /// Creates the pair of both roots. If both can be split, the smaller one is, as a large node is best kept whole as
     /// long as possible.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
-            (Some(a), Some(b)) => return Next::Measure(a, b),
-            (None, None) if !(b.radius() < a.radius()) => Which::A,
-            (None, Some(_)) => Which::A,
-            _ => Which::B,
+            (Some(a), Some(b)) => return NextStep::Measure(a, b),
+            (None, None) if !(b.radius() < a.radius()) => WhichBody::A,
+            (None, Some(_)) => WhichBody::A,
+            _ => WhichBody::B,
         };
-        Next::Split(Split::all(body, 0, 0))
+        NextStep::Split(Split::all(body, 0, 0))
     }
 }
 
 impl Siblings {
     /// Creates the pair of both roots, of which the root of `body` is split first.
-    pub(crate) fn roots(body: Which) -> Self {
+    pub(crate) fn roots(body: WhichBody) -> Self {
         Siblings {
-            free: FreeTimes::first_lane(),
-            since: 0.0,
+            free: FreeTimes::single_in_first_lane(),
+            start_clock: 0.0,
             split: Split::all(body, 0, 0),
             first: 0,
             split_child: 1,
@@ -68,13 +68,13 @@ impl Siblings {
     #[inline]
     pub(crate) fn new(expansion: &Expansion, split: Split, s: f64) -> Self {
         Siblings {
-            free: expansion.bounds.free,
-            since: s,
+            free: expansion.bounds.free_times,
+            start_clock: s,
             split,
             first: expansion.first,
-            split_child: expansion.bounds.split_child,
+            split_child: expansion.bounds.split_child_mask,
             other_is_piece: expansion.bounds.other_is_piece,
-            revisit: expansion.bounds.revisit,
+            revisit: expansion.bounds.revisit_mask,
             times_advanced: 0,
         }
     }
@@ -85,9 +85,12 @@ impl Siblings {
         let free = self.free.least();
         if free > 0.0 {
             // One step down undoes the rounding of the sum.
-            greater(self.since, (self.since + f64::from(free)).next_down())
+            greater(
+                self.start_clock,
+                (self.start_clock + f64::from(free)).next_down(),
+            )
         } else {
-            self.since
+            self.start_clock
         }
     }
 
@@ -100,15 +103,15 @@ impl Siblings {
     fn pair(&self, lane: usize) -> [NodeId; 2] {
         let child = self.first + lane as NodeId;
         match self.split.body {
-            Which::A => [child, self.split.other],
-            Which::B => [self.split.other, child],
+            WhichBody::A => [child, self.split.other],
+            WhichBody::B => [self.split.other, child],
         }
     }
 
     /// Marks pairs that are proven apart to the end as finished, if `keeps_apart` returns `true`. If it returns
     /// `false`, the pair will be split and not visited again: most of its children stay apart.
     pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
-        let horizon = (1.0 - self.since) as f32;
+        let horizon = (1.0 - self.start_clock) as f32;
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
             if self.free.time_of_lane(lane) < horizon {
@@ -130,8 +133,8 @@ impl Siblings {
     /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
     pub(crate) fn remove_least(&mut self, clock: f64) -> Self {
         Siblings {
-            free: FreeTimes::of_lane(self.free.take_least()),
-            since: clock,
+            free: FreeTimes::single_in_lane(self.free.take_least()),
+            start_clock: clock,
             times_advanced: self.times_advanced.saturating_add(1),
             ..*self
         }
@@ -140,8 +143,8 @@ impl Siblings {
     /// Removes the pair with the least clock `s`, and returns its next step.
     // In the search's loop: a larger program, such as Python's module, would call it, and take 1 % more time.
     #[inline(always)]
-    pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {
-        let advanced = s > self.since;
+    pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
+        let advanced = s > self.start_clock;
         let lane = self.free.take_least();
         let Split {
             body, node, other, ..
@@ -149,8 +152,8 @@ impl Siblings {
         let child = self.first + lane as NodeId;
         // A second visit at the same instant would give the same result.
         if advanced && self.revisit >> lane & 1 == 1 {
-            return Next::Split(Split {
-                lanes: 1 << lane,
+            return NextStep::Split(Split {
+                lane_mask: 1 << lane,
                 ..Split::all(body, node, other)
             });
         }
@@ -161,15 +164,15 @@ impl Siblings {
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);
         let k = usize::from(split_child);
-        Next::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
+        NextStep::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
     }
 }
 
 /// Returns the step that measures two nodes of a single piece each.
-fn measure_step(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
-    let piece = |side: &Side<'_>, node| side.body.tree().piece(node);
+fn measure_step(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> NextStep {
+    let piece = |side: &BodyWithPath<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {
-        (Some(a), Some(b)) => Next::Measure(a, b),
+        (Some(a), Some(b)) => NextStep::Measure(a, b),
         _ => unreachable!("only single pieces are thin beside a single piece"),
     }
 }

@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, AxisMotion, RotatingVector, Track};
-use crate::problem::Side;
+use crate::problem::BodyWithPath;
 use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
 
@@ -45,16 +45,16 @@ pub(crate) struct Point {
 }
 
 /// The largest number of points of a piece for which all pairs of points are bounded one by one.
-const MAX_FEW: usize = 3;
+const MAX_TRACKED_POINTS: usize = 3;
 
 /// The tracks of up to three points; unused entries repeat the last.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FewTracks([(Track, f64); MAX_FEW]);
+pub(crate) struct FewTracks([(Track, f64); MAX_TRACKED_POINTS]);
 
 impl FewTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
-    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; MAX_FEW] {
+    pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; MAX_TRACKED_POINTS] {
         self.0.map(|(track, second_derivative)| Point {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
@@ -65,7 +65,7 @@ impl FewTracks {
 
 impl<'a> Heights<'a> {
     pub(crate) fn new(
-        side: &Side<'_>,
+        side: &BodyWithPath<'_>,
         piece: &'a Piece<'a>,
         frame: &'a Frame,
         normal: DVec3,
@@ -85,7 +85,7 @@ impl<'a> Heights<'a> {
             speed: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
             least_height: f64::INFINITY,
-            few_tracks: FewTracks([(Track::default(), 0.0); MAX_FEW]),
+            few_tracks: FewTracks([(Track::default(), 0.0); MAX_TRACKED_POINTS]),
             second_derivative: 0.0,
             support_error: 0.0,
         };
@@ -110,7 +110,7 @@ impl<'a> Heights<'a> {
     }
 
     fn init_many(&mut self, middle: DVec3, radius: f64) {
-        self.least_height = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
+        self.least_height = self.lowest_track(self.normal).height_at(0.0, Angle::ZERO);
         if self.is_nonrotating() {
             return;
         }
@@ -147,7 +147,7 @@ impl<'a> Heights<'a> {
     }
 
     pub(crate) fn few_tracks(&self) -> Option<&FewTracks> {
-        (self.piece.points.len() <= MAX_FEW).then_some(&self.few_tracks)
+        (self.piece.points.len() <= MAX_TRACKED_POINTS).then_some(&self.few_tracks)
     }
 
     /// Returns lower bounds of the heights and rates of all points after `tau`.
@@ -198,7 +198,7 @@ impl<'a> Heights<'a> {
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
-    pub(crate) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+    pub(crate) fn least_value_after(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         match self.piece.bounding_ball() {
             Some(_) => of(&self.bound_all(tau)),
             None => self
@@ -229,15 +229,15 @@ impl<'a> Heights<'a> {
         let seen = RotatingVector::new(-self.axis, self.normal);
         let (axis, derivative_length) = (seen.at(angle), seen.derivative_at(angle));
         Point {
-            height: self.lowest_of(axis).height_at(tau, angle) - self.support_error,
-            rate: self.lowest_of(derivative_length).rate_at(tau, angle)
+            height: self.lowest_track(axis).height_at(tau, angle) - self.support_error,
+            rate: self.lowest_track(derivative_length).rate_at(tau, angle)
                 - self.omega * self.support_error,
             second_derivative: self.second_derivative,
         }
     }
 
     /// Returns the track of the point that is lowest along a direction, in the body's current pose.
-    fn lowest_of(&self, direction: DVec3) -> Track {
+    fn lowest_track(&self, direction: DVec3) -> Track {
         let index = self.piece.extremal(self.frame.inverse_vector(-direction));
         self.track(self.piece.points[index as usize]).0
     }
@@ -256,7 +256,7 @@ impl<'a> Heights<'a> {
 
 /// Returns the least free time over all pairs of a point of `above` and a point of `below`.
 #[inline]
-pub(crate) fn least_free(
+pub(crate) fn least_free_time(
     above: &[Point],
     below: &[Point],
     free: impl Fn(&Point, &Point) -> f64,
@@ -271,7 +271,7 @@ pub(crate) fn least_free(
 /// Returns a lower bound of the least free time over all pairs of points. The points of one body, each by itself, are
 /// paired with a bound of the other body's. The lowest point and the one with the least rate may differ, and a bound of
 /// both bodies would treat them as one. A body that does not turn loses nothing by its bound.
-pub(crate) fn least_free_of_many(
+pub(crate) fn least_free_time_of_many(
     above: &Heights<'_>,
     below: &Heights<'_>,
     tau: f64,
@@ -279,11 +279,11 @@ pub(crate) fn least_free_of_many(
 ) -> f64 {
     let of_below = || {
         let bound = above.bound_all(tau);
-        below.least_of(tau, |x| free(&bound, x))
+        below.least_value_after(tau, |x| free(&bound, x))
     };
     let of_above = || {
         let bound = below.bound_all(tau);
-        above.least_of(tau, |y| free(y, &bound))
+        above.least_value_after(tau, |y| free(y, &bound))
     };
     match (above.is_nonrotating(), below.is_nonrotating()) {
         (true, _) => of_below(),

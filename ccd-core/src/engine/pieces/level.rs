@@ -4,7 +4,7 @@ use super::snapshot::{Plane, Snapshot};
 use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
-use crate::problem::{Problem, Which};
+use crate::problem::{Problem, WhichBody};
 use crate::rounding::RESTING;
 use crate::touching_plane::TouchingPlane;
 use crate::tuning::RESTED;
@@ -14,7 +14,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlaneContact {
     /// The body with which the plane moves.
-    plane_body: Which,
+    plane_body: WhichBody,
     /// The gap along the plane's normal below which the pieces count as approaching.
     min_gap: f64,
 }
@@ -34,7 +34,7 @@ impl TouchingPlane {
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
             normals: [frame_a, frame_b].map(|frame| frame.inverse_vector(normal)),
-            floor: gap - resting,
+            least_gap: gap - resting,
         })
     }
 }
@@ -52,17 +52,17 @@ impl Snapshot<'_> {
         from: DVec3,
     ) -> Option<PlaneContact> {
         let resting = RESTING * self.problem.rounding;
-        let of = |plane_body: Which| {
+        let of = |plane_body: WhichBody| {
             let normal = self.plane_normal(plane_body)?;
             let gap = self.gap_across(normal, from);
             let level = PlaneContact {
                 plane_body,
-                min_gap: greater(plane.floor, gap - resting),
+                min_gap: greater(plane.least_gap, gap - resting),
             };
             self.is_between_solids(ids, normal, from).then_some(level)
         };
         let time = |level: &PlaneContact| self.plane_time(level, from).unwrap_or(f64::INFINITY);
-        [Which::A, Which::B]
+        [WhichBody::A, WhichBody::B]
             .into_iter()
             .filter_map(of)
             .map(|level| (time(&level), level))
@@ -86,12 +86,12 @@ impl Snapshot<'_> {
     }
 
     /// Returns the normal of the plane that moves with a body, in the problem's coordinates.
-    fn plane_normal(&self, plane_body: Which) -> Option<DVec3> {
+    fn plane_normal(&self, plane_body: WhichBody) -> Option<DVec3> {
         let [in_a, in_b] = self.problem.touching.as_ref()?.normals;
         let [frame_a, frame_b] = &self.frames;
         Some(match plane_body {
-            Which::A => frame_a.rotation * in_a,
-            Which::B => frame_b.rotation * in_b,
+            WhichBody::A => frame_a.rotation * in_a,
+            WhichBody::B => frame_b.rotation * in_b,
         })
     }
 

@@ -6,11 +6,11 @@ use crate::answer::{Contact, Separation};
 use crate::body::piece::Combination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
-use crate::distance::separation::Checked;
-use crate::distance::separation::sharp::sharpen;
+use crate::distance::separation::CheckedClaim;
+use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RESTING;
 use crate::settings::StartPolicy;
 use glam::DVec3;
@@ -95,7 +95,7 @@ impl<C: Default + Clone> Pair<C> {
         snapshot: &Snapshot<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        free_time: impl FnOnce(&Snapshot<'_>, &Checked, f64) -> Option<f64>,
+        free_time: impl FnOnce(&Snapshot<'_>, &CheckedClaim, f64) -> Option<f64>,
     ) -> Step {
         let (problem, s) = (snapshot.problem, snapshot.clock);
         let Some(checked) = snapshot.query_oracle(oracle, &mut self.cache, meter) else {
@@ -147,7 +147,7 @@ impl<C: Default + Clone> Pair<C> {
         // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
         // such a loss.
         let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
-            sharpen(&snapshot.pieces, &checked, problem.rounding)
+            improve_axis(&snapshot.pieces, &checked, problem.rounding)
         } else {
             checked
         };
@@ -188,7 +188,7 @@ impl<C: Default + Clone> Pair<C> {
         }
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
         let start = snapshot.query_oracle(oracle, &mut C::default(), meter)?;
-        let start = sharpen(&snapshot.pieces, &start, problem.rounding);
+        let start = improve_axis(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting =
             start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
@@ -213,11 +213,15 @@ fn step_after(s: f64, free: Option<f64>) -> Option<Step> {
 }
 
 /// Converts a checked pair to a contact in world coordinates, with its features.
-pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
+pub(crate) fn contact(
+    snapshot: &Snapshot<'_>,
+    [a, b]: [u32; 2],
+    checked: &CheckedClaim,
+) -> Contact {
     let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
     let feature =
-        |side: &Side<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);
+        |side: &BodyWithPath<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);
     Contact {
         separation: Separation {
             lower: checked.lower,

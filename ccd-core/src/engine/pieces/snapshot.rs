@@ -1,14 +1,14 @@
 //! Two pieces at one instant, and how long planes keep them apart from then on.
 
-use super::heights::{Heights, Point, least_free, least_free_of_many};
+use super::heights::{Heights, Point, least_free_time, least_free_time_of_many};
 use crate::body::facing::Facing;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
-use crate::distance::separation::{self, Checked};
+use crate::distance::separation::{self, CheckedClaim};
 use crate::engine::meter::Meter;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
-use crate::motion::bound::{Bound, published, sound};
+use crate::motion::bound::{Bound, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
@@ -30,7 +30,7 @@ pub(crate) struct Snapshot<'p> {
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
     /// The number of evaluations of points' heights.
-    looks: Cell<u64>,
+    evaluations: Cell<u64>,
 }
 
 impl<'p> Snapshot<'p> {
@@ -48,7 +48,7 @@ impl<'p> Snapshot<'p> {
             frames,
             pieces: PiecePair { a, b, b_to_a },
             clock,
-            looks: Cell::new(0),
+            evaluations: Cell::new(0),
         }
     }
 
@@ -60,7 +60,7 @@ impl<'p> Snapshot<'p> {
                 b,
                 ..self.pieces
             },
-            looks: Cell::new(0),
+            evaluations: Cell::new(0),
             ..*self
         }
     }
@@ -71,7 +71,7 @@ impl<'p> Snapshot<'p> {
         oracle: &mut O,
         cache: &mut O::Cache,
         meter: &mut Meter,
-    ) -> Option<Checked> {
+    ) -> Option<CheckedClaim> {
         let stats = &mut meter.stats;
         stats.oracle_calls += 1;
         let before = oracle.effort().steps;
@@ -95,7 +95,7 @@ impl<'p> Snapshot<'p> {
 
     /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
     /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
-    pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
+    pub(crate) fn first_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
         match self.fixed_axis_time(direct.normal, direct.slack)? {
             free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
@@ -106,7 +106,7 @@ impl<'p> Snapshot<'p> {
     /// Returns a time for which the pieces certainly stay farther apart than `kept`; `None` if they always do. The
     /// function tries two normals, the claim's axis and the direction in which the nearest points pass each other. The
     /// planes are fixed, or turn with one of the bodies.
-    pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
+    pub(crate) fn free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
         let free = self.fixed_axis_time(direct.normal, direct.slack)?;
         self.longest_free_time(checked, kept, &direct, free)
@@ -115,7 +115,7 @@ impl<'p> Snapshot<'p> {
     /// Returns the longest free time of any plane; `free` is that of the fixed plane perpendicular to the claim's axis.
     fn longest_free_time(
         &self,
-        checked: &Checked,
+        checked: &CheckedClaim,
         kept: f64,
         direct: &Plane,
         mut free: f64,
@@ -138,7 +138,7 @@ impl<'p> Snapshot<'p> {
     /// No guarantee with [`Bound::Published`].
     pub(crate) fn free_time_along_axis(
         &self,
-        checked: &Checked,
+        checked: &CheckedClaim,
         kept: f64,
         bound: Bound,
         reaches: [f64; 2],
@@ -153,8 +153,8 @@ impl<'p> Snapshot<'p> {
         for (side, n, piece, frame, reach) in sides {
             let motion = side.path.velocities();
             rate += match bound {
-                Bound::Sound => sound(&motion, n, reach),
-                Bound::Published => published(&motion, n, |c| {
+                Bound::Sound => sound_bound(&motion, n, reach),
+                Bound::Published => published_bound(&motion, n, |c| {
                     let farthest = piece.farthest(frame.inverse_vector(c));
                     frame.rotation * (farthest - side.path.centre)
                 }),
@@ -188,7 +188,7 @@ impl<'p> Snapshot<'p> {
     /// of them bounds a solid, the plane keeps them apart on the outside only.
     pub(crate) fn resting_time(
         &self,
-        checked: &Checked,
+        checked: &CheckedClaim,
         kept: f64,
         [a, b]: [u32; 2],
     ) -> Option<f64> {
@@ -245,7 +245,7 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns the plane perpendicular to the claim's axis.
-    fn plane_of_claim(&self, checked: &Checked, kept: f64) -> Plane {
+    fn plane_of_claim(&self, checked: &CheckedClaim, kept: f64) -> Plane {
         Plane {
             normal: self.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
@@ -254,7 +254,7 @@ impl<'p> Snapshot<'p> {
 
     /// Returns the plane perpendicular to the vector between the nearest points at their time of closest approach, for
     /// constant velocities; `None` if it does not keep the pieces apart now.
-    fn plane_of_closest_approach(&self, checked: &Checked, kept: f64) -> Option<Plane> {
+    fn plane_of_closest_approach(&self, checked: &CheckedClaim, kept: f64) -> Option<Plane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
             - self.problem.b.path.velocity_at(b, self.clock);
@@ -304,11 +304,11 @@ impl<'p> Snapshot<'p> {
 
     /// Returns the number of evaluations of points' heights so far.
     pub(crate) fn evaluations(&self) -> u64 {
-        self.looks.get()
+        self.evaluations.get()
     }
 
     fn count_evaluations(&self, points: u64) {
-        self.looks.set(self.looks.get() + points);
+        self.evaluations.set(self.evaluations.get() + points);
     }
 
     fn time_left(&self) -> f64 {
@@ -350,7 +350,7 @@ impl<'p> Snapshot<'p> {
         let crossing = match (a.few_tracks(), b.few_tracks()) {
             (Some(below), Some(above)) => first_crossing(self.time_left(), rounds, |tau| {
                 self.count_evaluations(points);
-                least_free(
+                least_free_time(
                     &above.at(b.angle(tau), tau),
                     &below.at(a.angle(tau), tau),
                     free,
@@ -358,7 +358,7 @@ impl<'p> Snapshot<'p> {
             }),
             _ => first_crossing(self.time_left(), rounds, |tau| {
                 self.count_evaluations(points);
-                least_free_of_many(&b, &a, tau, free)
+                least_free_time_of_many(&b, &a, tau, free)
             }),
         }?;
         if self.rotation_keeps_slack(&a, &b, slack) {

@@ -1,7 +1,7 @@
 //! Compares the queue with a sorted list.
 
 use super::Queue;
-use crate::engine::queue::{Rank, Waiting};
+use crate::engine::queue::{Rank, Worklist};
 use crate::math::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;

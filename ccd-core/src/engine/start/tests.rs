@@ -16,13 +16,13 @@ use crate::schedule::Fast;
 use crate::schedule::{BestFirst, Naive};
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::torus;
-use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
 use glam::DVec3;
 use std::time::Duration;
 
 /// Returns one solver for each schedule.
-fn schedules() -> Vec<Box<dyn Solve<Exhaustive>>> {
+fn schedules() -> Vec<Box<dyn Solve<ExhaustiveOracle>>> {
     vec![
         Box::new(BestFirst::default()),
         Box::new(Naive::default()),
@@ -32,30 +32,35 @@ fn schedules() -> Vec<Box<dyn Solve<Exhaustive>>> {
 }
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut Exhaustive)
+    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
 /// Creates two tori with the same cuts, one at the origin, the other at `x`.
-fn tori<R>(cuts: Cuts, x: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
-    let torus = body(&torus(cuts.around, cuts.about));
+fn tori<R>(
+    cuts: TorusSegments,
+    x: f64,
+    config: &Settings,
+    then: impl FnOnce(&Problem<'_>) -> R,
+) -> R {
+    let torus = body(&torus(cuts.around_axis, cuts.about));
     let moving = |x: f64| Moving::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
 /// The number of cuts of a torus around its axis, and around its tube.
 #[derive(Clone, Copy)]
-struct Cuts {
-    around: usize,
+struct TorusSegments {
+    around_axis: usize,
     about: usize,
 }
 
-const FINE: Cuts = Cuts {
-    around: 64,
+const FINE: TorusSegments = TorusSegments {
+    around_axis: 64,
     about: 32,
 };
 
-const COARSE: Cuts = Cuts {
-    around: 8,
+const COARSE: TorusSegments = TorusSegments {
+    around_axis: 8,
     about: 6,
 };
 
@@ -163,7 +168,11 @@ fn all_schedules_say_the_same_of_a_start() {
         let scene = within_margin(&mut rng, 8);
         let answers: Vec<Outcome> = schedules()
             .into_iter()
-            .map(|mut schedule| schedule.solve(&scene.problem(), &mut Exhaustive).outcome)
+            .map(|mut schedule| {
+                schedule
+                    .solve(&scene.problem(), &mut ExhaustiveOracle)
+                    .outcome
+            })
             .collect();
         if answers
             .iter()
@@ -190,7 +199,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
         };
         for mut schedule in schedules() {
             let answer = tori(COARSE, 3.0, &config, |problem| {
-                schedule.solve(problem, &mut Exhaustive)
+                schedule.solve(problem, &mut ExhaustiveOracle)
             });
             let Outcome::Unresolved(Unresolved {
                 safe_until,
@@ -228,7 +237,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
             a: Combination::point(rng.random_range(0..3)),
             b: Combination::point(rng.random_range(0..3)),
         };
-        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
             let answer = BestFirst::default().solve(&problem, &mut { oracle });
             if let Outcome::Touching { contact } = answer.outcome {
                 touching += 1;

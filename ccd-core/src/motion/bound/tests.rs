@@ -1,4 +1,4 @@
-use super::{Velocities, published, sound};
+use super::{Velocities, published_bound, sound_bound};
 use crate::math::vector::{length, unit};
 use crate::rounding::RATE_F64;
 use crate::tests::double::{Double, Double3};
@@ -17,7 +17,7 @@ fn worst_sound_bound() {
         let reach = tape.size(-20..=10);
         let [n3, v, spin] = [n, motion.linear, motion.spin].map(Double3::from);
         let exact = n3.dot(v) + n3.cross(spin).length() * Double::from(reach);
-        let lost = exact - Double::from(sound(&motion, n, reach));
+        let lost = exact - Double::from(sound_bound(&motion, n, reach));
         let speed = length(motion.linear) + length(motion.spin) * reach;
         Some(share(lost.get(), RATE_F64 * speed))
     });
@@ -36,6 +36,6 @@ fn the_published_bound_is_the_speed_of_the_farthest_arm_at_this_instant() {
             assert_eq!(along, DVec3::new(0.0, -2.0, 0.0));
             DVec3::new(5.0, arm, 7.0)
         };
-        assert_eq!(published(&motion, DVec3::X, farthest), expected);
+        assert_eq!(published_bound(&motion, DVec3::X, farthest), expected);
     }
 }

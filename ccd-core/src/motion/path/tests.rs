@@ -6,15 +6,15 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::rounding::place_rounding;
 use crate::tests::double::{Double, Double3};
-use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
+use crate::tests::worst::{RandomCase, Worst, share};
 use glam::{DMat3, DVec3};
 
 #[test]
 fn frames_are_the_poses_of_the_motion_less_the_origin() {
     let mut rng = rng(1);
     for _ in 0..2_000 {
-        let start = Pose::new(within(&mut rng, 9.0), rotation(&mut rng)).unwrap();
+        let start = Pose::new(point_in_ball(&mut rng, 9.0), rotation(&mut rng)).unwrap();
         let turn = match rng.random_range(0..3) {
             0 => 0.0,
             1 => magnitude(&mut rng, -12.0, -3.0),
@@ -23,14 +23,14 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
         let duration = magnitude(&mut rng, -3.0, 3.0);
         let motion = Motion::about(
             start,
-            within(&mut rng, 5.0) / duration,
+            point_in_ball(&mut rng, 5.0) / duration,
             direction(&mut rng) * turn / duration,
-            within(&mut rng, 3.0),
+            point_in_ball(&mut rng, 3.0),
         )
         .unwrap();
-        let origin = within(&mut rng, 9.0);
+        let origin = point_in_ball(&mut rng, 9.0);
         let path = Path::new(&motion, origin, duration);
-        let point = within(&mut rng, 3.0);
+        let point = point_in_ball(&mut rng, 3.0);
         for s in [0.0, 0.3, 1.0, rng.random_range(0.0..1.0)] {
             let frame = path.frame(s);
             let truth = motion.pose(s * duration).transform_point(point) - origin;
@@ -51,7 +51,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
             );
         }
         // Points move at their distance from the axis times the rate, the farthest one the fastest.
-        let points = [point, within(&mut rng, 3.0)];
+        let points = [point, point_in_ball(&mut rng, 3.0)];
         let place = |x| path.frame(0.4).point(x);
         let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
         let expected = greater(fastest[0], fastest[1]);
@@ -60,8 +60,8 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
             (found - expected).abs() <= 1e-13 * (1.0 + turn),
             "{found} {expected}"
         );
-        assert_eq!(path.turns(), turn > 0.0);
-        let spin = path.frame(0.7).rotation * path.spin_local;
+        assert_eq!(path.is_turning(), turn > 0.0);
+        let spin = path.frame(0.7).rotation * path.local_angular_velocity;
         assert!(spin.distance(path.spin) < 1e-13 * (1.0 + turn));
     }
 }
@@ -93,24 +93,25 @@ fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
 /// Compares positions on a part of a path with those on the whole path.
 #[test]
 fn worst_part() {
-    let found = Worst::of("place_rounding, part of a path", 4_000).search(|tape: &mut Tape| {
-        let start = Pose::new(tape.vector(-20..=10).map(f64::from), rotation(tape)).ok()?;
-        let spin = direction(tape) * tape.size(-10..=19);
-        let centre = tape.vector(-20..=4);
-        let motion = Motion::about(start, tape.vector(-20..=10), spin, centre).ok()?;
-        let path = Path::new(&motion, DVec3::ZERO, 1.0);
-        let path = path.accelerated(tape.vector(-20..=4).into());
-        let (from, time, share_of_time) = (tape.fraction(), tape.fraction(), tape.fraction());
-        let to = from + (1.0 - from) * time;
-        let arm = DVec3::from(tape.vector(-20..=4));
-        let part = path.subpath([from, to]);
-        let [begins, ends, share_of_time] = [from, to, share_of_time].map(Double::from);
-        let s = begins + share_of_time * (ends - begins);
-        let x = path.centre + arm;
-        let error = exact_place(&part, share_of_time, x) - exact_place(&path, s, x);
-        let way = path.centre_at(0.0).length() + path.speed();
-        let allowed = place_rounding(x.distance(path.centre), path.rate, way);
-        Some(share(error.length().get(), allowed))
-    });
+    let found =
+        Worst::of("place_rounding, part of a path", 4_000).search(|tape: &mut RandomCase| {
+            let start = Pose::new(tape.vector(-20..=10).map(f64::from), rotation(tape)).ok()?;
+            let spin = direction(tape) * tape.size(-10..=19);
+            let centre = tape.vector(-20..=4);
+            let motion = Motion::about(start, tape.vector(-20..=10), spin, centre).ok()?;
+            let path = Path::new(&motion, DVec3::ZERO, 1.0);
+            let path = path.accelerated(tape.vector(-20..=4).into());
+            let (from, time, share_of_time) = (tape.fraction(), tape.fraction(), tape.fraction());
+            let to = from + (1.0 - from) * time;
+            let arm = DVec3::from(tape.vector(-20..=4));
+            let part = path.subpath([from, to]);
+            let [begins, ends, share_of_time] = [from, to, share_of_time].map(Double::from);
+            let s = begins + share_of_time * (ends - begins);
+            let x = path.centre + arm;
+            let error = exact_place(&part, share_of_time, x) - exact_place(&path, s, x);
+            let way = path.centre_at(0.0).length() + path.speed();
+            let allowed = place_rounding(x.distance(path.centre), path.rate, way);
+            Some(share(error.length().get(), allowed))
+        });
     found.is_within(100.0);
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::rounding::place_rounding;
-use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
+use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use glam::DVec3;
 
 #[test]
@@ -15,21 +15,22 @@ fn distances_change_by_no_more_than_said() {
         let reach = 2.0;
         let rate = TAU * magnitude(&mut rng, 0.5, 4.0);
         let ratio = [0.0, 1.0, 3.0 / 7.0, 0.5001, 1e-6][number % 5];
-        let velocity = within(&mut rng, 1.0);
-        let drift = within(&mut rng, 1.0) * [0.0, magnitude(&mut rng, -6.0, 0.0)][number / 5 % 2];
-        let pull = within(&mut rng, 1.0) * [0.0, 1.0][number / 10 % 2];
+        let velocity = point_in_ball(&mut rng, 1.0);
+        let drift =
+            point_in_ball(&mut rng, 1.0) * [0.0, magnitude(&mut rng, -6.0, 0.0)][number / 5 % 2];
+        let pull = point_in_ball(&mut rng, 1.0) * [0.0, 1.0][number / 10 % 2];
         let spins = [rate, ratio * rate].map(|rate| rate * direction(&mut rng));
         let velocities = [velocity, velocity + drift];
         let mut paths = [0, 1].map(|k| {
-            let start = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
-            let centre = within(&mut rng, 3.0);
+            let start = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+            let centre = point_in_ball(&mut rng, 3.0);
             let motion = Motion::about(start, velocities[k], spins[k], centre).unwrap();
             Path::new(&motion, DVec3::ZERO, 1.0).accelerated(pull)
         });
         if number % 3 == 0 {
             paths.swap(0, 1);
         }
-        let points = paths.map(|path| path.centre + within(&mut rng, reach));
+        let points = paths.map(|path| path.centre + point_in_ball(&mut rng, reach));
         let rounding = paths
             .iter()
             .map(|path| place_rounding(reach, path.rate, 10.0))
@@ -38,7 +39,7 @@ fn distances_change_by_no_more_than_said() {
             let [a, b] = [0, 1].map(|k| paths[k].frame(s).point(points[k]));
             a.distance(b)
         };
-        let bodies = [0, 1].map(|k| PathWithReach {
+        let bodies = [0, 1].map(|k| PathWithRadius {
             path: &paths[k],
             reach,
         });

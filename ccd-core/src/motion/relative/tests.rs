@@ -1,28 +1,34 @@
 //! Compares the relative motion with the frames of both bodies.
 
-use super::{RelativeState, View};
-use crate::math::simd::{Packed, PackedMatrix, rows};
+use super::{RelativePath, RelativeState};
+use crate::math::simd::{PackedMatrix, PackedVector, rows};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::settings::Instructions;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use crate::vectorize;
 use fearless_simd::Simd;
 use glam::DVec3;
 
 fn path(rng: &mut Pcg64) -> Path {
-    let start = Pose::new(within(rng, 9.0), rotation(rng)).unwrap();
+    let start = Pose::new(point_in_ball(rng, 9.0), rotation(rng)).unwrap();
     let turn = match rng.random_range(0..3) {
         0 => 0.0,
         1 => magnitude(rng, -12.0, -3.0),
         _ => magnitude(rng, -3.0, 1.6),
     };
     let spin = direction(rng) * turn;
-    let motion = Motion::about(start, within(rng, 5.0), spin, within(rng, 3.0)).unwrap();
-    let path = Path::new(&motion, within(rng, 9.0), 1.0);
+    let motion = Motion::about(
+        start,
+        point_in_ball(rng, 5.0),
+        spin,
+        point_in_ball(rng, 3.0),
+    )
+    .unwrap();
+    let path = Path::new(&motion, point_in_ball(rng, 9.0), 1.0);
     if rng.random_bool(0.5) {
-        path.accelerated(within(rng, 5.0))
+        path.accelerated(point_in_ball(rng, 5.0))
     } else {
         path
     }
@@ -31,7 +37,12 @@ fn path(rng: &mut Pcg64) -> Path {
 /// Returns the position, velocity and acceleration of a point of the seen body, and that body's angular velocity, in
 /// the seeing body's frame.
 #[inline(always)]
-fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
+fn relative_state_of_point<L: Simd>(
+    level: L,
+    view: &RelativePath,
+    s: f64,
+    point: DVec3,
+) -> [DVec3; 4] {
     let RelativeState {
         rotation,
         offset,
@@ -39,15 +50,15 @@ fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
         acceleration,
         spin,
     } = view.at(level, s);
-    let point = rotation * (Packed::new(level, point) - view.other_centre(level));
-    let acceleration = acceleration.unwrap_or(Packed::new(level, DVec3::ZERO));
+    let point = rotation * (PackedVector::new(level, point) - view.other_centre(level));
+    let acceleration = acceleration.unwrap_or(PackedVector::new(level, DVec3::ZERO));
     [
         offset + point + view.centre(level),
         velocity,
         acceleration,
         spin,
     ]
-    .map(Packed::unpacked)
+    .map(PackedVector::unpacked)
 }
 
 #[test]
@@ -56,13 +67,13 @@ fn each_body_sees_what_the_frames_of_both_say() {
     let mut counts = [0; 3];
     for _ in 0..4_000 {
         let paths = (path(&mut rng), path(&mut rng));
-        counts[usize::from(paths.0.turns()) + usize::from(paths.1.turns())] += 1;
+        counts[usize::from(paths.0.is_turning()) + usize::from(paths.1.is_turning())] += 1;
         for (own, other) in [(&paths.0, &paths.1), (&paths.1, &paths.0)] {
-            let view = View::new(own, other);
+            let view = RelativePath::new(own, other);
             for s in [0.0, 1.0, rng.random_range(0.0..1.0)] {
-                let x = within(&mut rng, 3.0);
+                let x = point_in_ball(&mut rng, 3.0);
                 let [best, plain] = [Instructions::Best, Instructions::Baseline]
-                    .map(|set| vectorize!(set.level(), level => look(level, &view, s, x)));
+                    .map(|set| vectorize!(set.level(), level => relative_state_of_point(level, &view, s, x)));
                 assert_eq!(best, plain);
                 let frame = own.frame(s);
                 let expected = [
@@ -88,13 +99,13 @@ fn packed_products_are_those_of_the_library() {
     let mut rng = rng(4);
     for _ in 0..1_000 {
         let frame = path(&mut rng).frame(rng.random_range(0.0..1.0));
-        let (v, w) = (within(&mut rng, 5.0), within(&mut rng, 5.0));
+        let (v, w) = (point_in_ball(&mut rng, 5.0), point_in_ball(&mut rng, 5.0));
         let products = |set: Instructions| {
             vectorize!(set.level(), level => {
-                let columns = rows(frame.rotation).map(|column| Packed::load(level, &column));
+                let columns = rows(frame.rotation).map(|column| PackedVector::load(level, &column));
                 let matrix = PackedMatrix::new(columns);
-                let (a, b) = (Packed::new(level, v), Packed::new(level, w));
-                [matrix * a, a + b, a - b, -a, a * w.x].map(Packed::unpacked)
+                let (a, b) = (PackedVector::new(level, v), PackedVector::new(level, w));
+                [matrix * a, a + b, a - b, -a, a * w.x].map(PackedVector::unpacked)
             })
         };
         let expected = [frame.rotation * v, v + w, v - w, -v, v * w.x];

@@ -5,11 +5,11 @@ mod sin_cos;
 use super::{Angle, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
-use crate::motion::bound::{Velocities, published, sound};
+use crate::motion::bound::{Velocities, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::rounding::RATE_F64;
 use crate::tests::double::Double;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
 use crate::tests::worst::{Worst, share};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
@@ -42,7 +42,7 @@ fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
         linear: direction(rng) * fast,
         spin: direction(rng) * turn,
     };
-    (motion, direction(rng), within(rng, 1.0))
+    (motion, direction(rng), point_in_ball(rng, 1.0))
 }
 
 fn height(motion: &Velocities, n: DVec3, height: f64, arm: DVec3, tau: f64) -> f64 {
@@ -183,18 +183,18 @@ fn farthest(arms: &[DVec3], c: DVec3) -> DVec3 {
     arms.iter().copied().max_by(farther).unwrap()
 }
 
-/// Tests that no point moves along `n` faster than the bound of [`sound`], at any time.
+/// Tests that no point moves along `n` faster than the bound of [`sound_bound`], at any time.
 #[test]
 fn the_sound_bound_holds_over_intervals() {
     let mut rng = rng(6);
     let mut beaten = 0;
     for _ in 0..2_000 {
         let (motion, n, _) = setting(&mut rng);
-        let arms: Vec<DVec3> = (0..8).map(|_| within(&mut rng, 1.0)).collect();
+        let arms: Vec<DVec3> = (0..8).map(|_| point_in_ball(&mut rng, 1.0)).collect();
         let axis = motion.spin.normalize_or_zero();
         let reach = arms.iter().map(|r| r.reject_from_normalized(axis).length());
-        let bound = sound(&motion, n, reach.fold(0.0, greater));
-        let instant = published(&motion, n, |c| farthest(&arms, c));
+        let bound = sound_bound(&motion, n, reach.fold(0.0, greater));
+        let instant = published_bound(&motion, n, |c| farthest(&arms, c));
         let turning = instant - motion.linear.dot(n).abs();
         let most = greater(0.0, bound - motion.linear.dot(n));
         assert!(turning <= most + 1e-12 * (1.0 + bound.abs() + instant));
@@ -227,12 +227,12 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     let ball = 0.1;
     let gap = wall - ball;
     // The bound is the fastest advance of the tips, and of the ball about the centre, which does not advance.
-    let allowed = gap / published(&motion, DVec3::Y, |c| farthest(&tips, c));
+    let allowed = gap / published_bound(&motion, DVec3::Y, |c| farthest(&tips, c));
     let reach = tips[0].length();
     let contact = (length.atan2(width) + (wall / reach).asin()) / 3.0;
     assert!(allowed > 1.0, "a step of {allowed} passes the whole motion");
     assert!(contact < 0.7);
-    let step = gap / sound(&motion, DVec3::Y, reach);
+    let step = gap / sound_bound(&motion, DVec3::Y, reach);
     assert!(step < contact);
     let tracks = tips.map(|tip| Track::new(&motion, DVec3::Y, tip.y, tip));
     let turns = motion.spin.length() * step;

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::math::order::greater;
-use crate::tests::scene::{RngExt, direction, magnitude, rng, within};
-use crate::tests::trajectories::Swing;
+use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng};
+use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
 /// Returns the largest deviation of points at a distance from the centre, divided by its bound, at some times of a
@@ -29,7 +29,7 @@ fn smooth_trajectories_stray_by_no_more_than_their_accelerations_allow() {
     let mut rng = rng(1);
     let mut tightest = 0.0;
     for _ in 0..3_000 {
-        let swing = Swing::draw(&mut rng, 3.0);
+        let swing = SwingingTrajectory::draw(&mut rng, 3.0);
         let from = rng.random_range(0.0..2.0);
         let to = from + magnitude(&mut rng, -6.0, 0.0);
         let found = worst(&swing, from, to, rng.random_range(0.0..2.0));
@@ -44,11 +44,11 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
     let mut rng = rng(2);
     for _ in 0..2_000 {
         let start = Pose::new(
-            within(&mut rng, 9.0),
+            point_in_ball(&mut rng, 9.0),
             crate::tests::scene::rotation(&mut rng),
         );
         let spin = magnitude(&mut rng, -2.0, 3.0) * direction(&mut rng);
-        let [velocity, centre] = [(); 2].map(|()| within(&mut rng, 3.0));
+        let [velocity, centre] = [(); 2].map(|()| point_in_ball(&mut rng, 3.0));
         let motion = Motion::about(start.unwrap(), velocity, spin, centre).unwrap();
         let whole = motion.stretch(0.0, 1.0).unwrap();
         assert_eq!(whole, Stretch::exact(motion));
@@ -89,7 +89,7 @@ fn what_is_no_bound_bounds_nothing() {
 #[test]
 fn trajectories_have_the_poses_of_their_tangents() {
     let mut rng = rng(3);
-    let swing = Swing::draw(&mut rng, 3.0);
+    let swing = SwingingTrajectory::draw(&mut rng, 3.0);
     for k in 0..10 {
         let t = f64::from(k) / 10.0;
         let [pose, tangent] = [swing.pose(t), swing.tangent(t).map(|motion| motion.start())];

@@ -2,13 +2,13 @@
 
 use super::front::{Front, Item, Node};
 use super::hull_pair::{FeatureOwners, HullPair};
-use super::reach::Reaches;
+use super::reach::AxisDistances;
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Step;
 use crate::engine::pieces::snapshot::Snapshot;
-use crate::engine::proven::Proven;
+use crate::engine::proven::ProvenFacts;
 use crate::math::order::lesser;
 use crate::motion::bound::Bound;
 use crate::problem::Problem;
@@ -24,8 +24,8 @@ pub(super) struct Descent<'s, 'p, C> {
     pub(super) hulls: HullPair<'p>,
     pub(super) bound: Bound,
     pub(super) front: &'s mut Front<C>,
-    pub(super) reaches: &'s mut Reaches,
-    pub(super) proven: &'s Proven,
+    pub(super) reaches: &'s mut AxisDistances,
+    pub(super) proven: &'s ProvenFacts,
     pub(super) meter: &'s mut Meter,
 }
 
@@ -141,14 +141,14 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
         let free = snapshot.free_time_along_axis(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
-        node.near = self.hulls.feature_owners(node.pair, &checked.claim);
+        node.feature_owners = self.hulls.feature_owners(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         let apart = checked.lower > reach && node.clock > s;
         // The distance bound is that of the pieces below the nodes, which are not in contact.
-        let settled = node.near == FeatureOwners::Pieces && checked.upper > contact;
+        let settled = node.feature_owners == FeatureOwners::Pieces && checked.upper > contact;
         if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
         }
@@ -187,7 +187,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         if let Step::Contact(contact) = step
             && s > 0.0
         {
-            found.in_contact(contact);
+            found.record_contact(contact);
             return ControlFlow::Continue(());
         }
         node.clock = self
@@ -235,14 +235,15 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
 impl<C> Node<C> {
     /// Marks a pair to be split, whatever its distance.
     fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
-        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, FeatureOwners::Bridges, s);
+        (self.lower, self.feature_owners, self.clock) =
+            (f64::NEG_INFINITY, FeatureOwners::Bridges, s);
         let lower = self.lower;
         OpenPair { lower, at }
     }
 }
 
 impl DescentState {
-    fn in_contact(&mut self, contact: Contact) {
+    fn record_contact(&mut self, contact: Contact) {
         let separation = &contact.separation;
         self.distance = lesser(self.distance, separation.upper);
         let nearest = self.contact.get_or_insert(contact);

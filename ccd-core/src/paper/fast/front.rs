@@ -31,7 +31,7 @@ pub(super) struct Node<C> {
     /// the end.
     pub(super) clock: f64,
     /// Whether pieces or bridges own the pair's nearest features.
-    pub(super) near: FeatureOwners,
+    pub(super) feature_owners: FeatureOwners,
     /// The distance of the bodies below which joining the pair's children is tried again.
     pub(super) join_below: f64,
 }
@@ -114,7 +114,7 @@ impl<C: Clone + Default> Front<C> {
     /// Splits a leaf into two pairs that cover it, and returns the first of them; `None` for a pair of pieces.
     pub(super) fn split(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
-        let Below::Pairs(pairs) = hulls.children_of_pair(node.pair, node.near) else {
+        let Below::Pairs(pairs) = hulls.children_of_pair(node.pair, node.feature_owners) else {
             return None;
         };
         // Nearest points of a covering pair are a good start for the pair. This does not hold for
@@ -180,7 +180,7 @@ impl<C: Default + Clone> Node<C> {
             children: None,
             lower: f64::NEG_INFINITY,
             clock: 0.0,
-            near: FeatureOwners::Bridges,
+            feature_owners: FeatureOwners::Bridges,
             join_below: f64::INFINITY,
         }
     }

@@ -7,7 +7,7 @@ use crate::body::piece::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::Claim;
 use crate::problem::Problem;
-use crate::problem::Which;
+use crate::problem::WhichBody;
 
 /// The hull trees of both bodies.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(super) enum FeatureOwners {
     /// Both features belong to pieces.
     Pieces,
     /// The feature of this body belongs to a bridge.
-    Bridge(Which),
+    Bridge(WhichBody),
     /// Both features belong to bridges.
     Bridges,
 }
@@ -53,8 +53,8 @@ impl<'a> HullPair<'a> {
     pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> FeatureOwners {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
             (false, false) => FeatureOwners::Pieces,
-            (true, false) => FeatureOwners::Bridge(Which::A),
-            (false, true) => FeatureOwners::Bridge(Which::B),
+            (true, false) => FeatureOwners::Bridge(WhichBody::A),
+            (false, true) => FeatureOwners::Bridge(WhichBody::B),
             (true, true) => FeatureOwners::Bridges,
         }
     }
@@ -69,18 +69,18 @@ impl<'a> HullPair<'a> {
         };
         match (self.a.children_of_pair(a), self.b.children_of_pair(b), body) {
             (Leaf(a), Leaf(b), _) => Below::Pieces([a, b]),
-            (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, Which::A) => {
+            (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, WhichBody::A) => {
                 Below::Pairs([[left, b], [right, b]])
             }
             (_, Inner(left, right), _) => Below::Pairs([[a, left], [a, right]]),
         }
     }
 
-    fn larger(&self, [a, b]: [u32; 2]) -> Which {
+    fn larger(&self, [a, b]: [u32; 2]) -> WhichBody {
         if self.b.half_diagonal(b) > self.a.half_diagonal(a) {
-            Which::B
+            WhichBody::B
         } else {
-            Which::A
+            WhichBody::A
         }
     }
 }

@@ -4,13 +4,13 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::problem::Problem;
 
 #[derive(Debug, Default)]
-pub(super) struct Reaches {
+pub(super) struct AxisDistances {
     query: u64,
     /// The cached distances by body and node, each with the number of its query.
     known: [Vec<(u64, f64)>; 2],
 }
 
-impl Reaches {
+impl AxisDistances {
     /// Invalidates all cached distances.
     pub(super) fn invalidate(&mut self) {
         self.query += 1;

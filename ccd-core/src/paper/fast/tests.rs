@@ -16,8 +16,10 @@ use crate::problem::Problem;
 use crate::query::Moving;
 use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
-use crate::tests::oracle::{Always, Exhaustive};
-use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
+use crate::tests::scene::{
+    Passage, Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation,
+};
 use glam::DVec3;
 
 /// Creates balls on a line, in a hull tree split in halves. One tree in three has balls of several sizes.
@@ -84,13 +86,13 @@ impl Scene {
                 rotation: rotation(rng),
                 place,
                 middle: DVec3::ZERO,
-                velocity: within(rng, 8.0),
+                velocity: point_in_ball(rng, 8.0),
                 spin: if rng.random_bool(0.3) {
                     DVec3::ZERO
                 } else {
-                    within(rng, 9.0)
+                    point_in_ball(rng, 9.0)
                 },
-                centre: within(rng, 1.0),
+                centre: point_in_ball(rng, 1.0),
             };
             passage.motion()
         };
@@ -116,7 +118,7 @@ impl Scene {
 }
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    Fast::default().solve(problem, &mut Exhaustive)
+    Fast::default().solve(problem, &mut ExhaustiveOracle)
 }
 
 /// Returns the least distance of any two pieces at a clock.
@@ -173,8 +175,8 @@ fn answers_are_right_and_those_of_the_other_schedules() {
     for number in 0..800 {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
-        let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
-        let twin = Naive::default().solve(&problem, &mut Exhaustive);
+        let boxes = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+        let twin = Naive::default().solve(&problem, &mut ExhaustiveOracle);
         let time = checked(&problem, &solve(&problem).outcome);
         // Every schedule that visits pieces at the start finds those within the tolerance there.
         let twin = checked(&problem, &twin.outcome);
@@ -292,7 +294,7 @@ fn false_claims_and_give_ups_never_make_it_late() {
             a: Combination::point(rng.random_range(0..3)),
             b: Combination::point(rng.random_range(0..3)),
         };
-        let wrong = [Always(Ok(lie)), Always(Err(GiveUp::Cycle))];
+        let wrong = [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))];
         for mut oracle in wrong {
             match Fast::default().solve(&problem, &mut oracle).outcome {
                 Outcome::Unresolved(Unresolved {
@@ -316,8 +318,8 @@ fn answers_do_not_depend_on_earlier_queries() {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
         let fresh = solve(&problem);
-        assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
-        assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
+        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
+        assert_eq!(kept.solve(&problem, &mut ExhaustiveOracle), fresh);
     }
 }
 
@@ -341,7 +343,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     )
     .unwrap();
     assert!(soup.hull_tree().is_none());
-    let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
+    let boxes = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
     assert_eq!(solve(&problem), boxes);
     assert!(matches!(boxes.outcome, Outcome::Contact { .. }));
 }

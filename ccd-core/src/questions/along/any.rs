@@ -1,9 +1,9 @@
 //! Decides whether two bodies on trajectories touch at all.
 
-use super::contacts::{ProvenContacts, StretchResult};
-use super::drive::{Question, drive};
+use super::contacts::{ProvenGap, StretchResult};
+use super::drive::{Question, search_stretches};
 use super::lengths::{cut_at_once, length};
-use super::motions::{Motions, Span};
+use super::motions::{Span, StretchMotions};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -24,16 +24,16 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let mut any = AnyContactSearch {
             schedule: self,
-            proven: ProvenContacts::new(query),
+            proven: ProvenGap::new(query),
             undecided: f64::INFINITY,
         };
-        drive(&mut any, query, oracle)
+        search_stretches(&mut any, query, oracle)
     }
 }
 
 struct AnyContactSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
-    proven: ProvenContacts,
+    proven: ProvenGap,
     /// The first time at which it is undecided whether one body is inside the other.
     undecided: f64,
 }
@@ -54,7 +54,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
         cut_at_once(stretches, motions, oracle, &mut self.schedule.scratch)
@@ -63,7 +63,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
     fn examine(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {

@@ -2,8 +2,8 @@
 
 mod found;
 
-use super::drive::{Question, drive};
-use super::motions::{Motions, Span};
+use super::drive::{Question, search_stretches};
+use super::motions::{Span, StretchMotions};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
@@ -11,8 +11,8 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::questions::closest::required::Required;
-use crate::questions::closest::{Beyond, meets_later};
+use crate::questions::closest::required::RequiredClearance;
+use crate::questions::closest::{FartherThanCutoff, meets_later};
 use crate::questions::depth_first::DepthFirst;
 use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
 use found::{BestSoFar, StretchResult};
@@ -45,7 +45,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             query,
             found: BestSoFar::new(query),
         };
-        drive(&mut closest, query, oracle)
+        search_stretches(&mut closest, query, oracle)
     }
 
     /// Decides whether the bodies keep a distance, or their shapes come nearer.
@@ -55,7 +55,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         distance: f64,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        let required = Required {
+        let required = RequiredClearance {
             distance,
             tolerance: query.terms.tolerance,
             budget: query.terms.budget,
@@ -63,7 +63,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         let begun = query.terms.deadline.map(|_| Instant::now());
         required.decide(|rung| {
-            let mut query = query.asking(rung);
+            let mut query = query.contact_query(rung);
             query.terms.deadline = begun.and_then(|begun| {
                 let deadline = query.terms.deadline;
                 deadline.map(|deadline| deadline.saturating_sub(begun.elapsed()))
@@ -94,7 +94,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         ) else {
             return Ok(());
         };
-        let mut query = self.query.asking(rung);
+        let mut query = self.query.contact_query(rung);
         query.terms.budget = rung.budget;
         query.terms.deadline = left.deadline;
         let answer = self.schedule.any_contact_along(&query, oracle)?;
@@ -114,7 +114,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
         let Some(time) = stretches.end_if_too_long(motions) else {
@@ -133,7 +133,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     fn examine(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {
@@ -144,8 +144,8 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let answer = self.schedule.least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.found {
-            Err(Beyond { lower }) => StretchResult::beyond(lower),
-            Ok(Outcome::Overlapping { .. }) if stretches.look_at_start(motions)? => {
+            Err(FartherThanCutoff { lower }) => StretchResult::beyond(lower),
+            Ok(Outcome::Overlapping { .. }) if stretches.schedule_start_examination(motions)? => {
                 return Ok(ControlFlow::Continue(()));
             }
             Ok(outcome @ Outcome::Overlapping { .. }) if stretches.begins_at_start(motions)? => {
@@ -190,7 +190,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
     ) -> Result<Answer, InputError> {
         let nearest = self.found.nearest(self.query, stretches);
         if meets_later(&nearest.outcome, nearest.tolerance) {
-            self.or_overlap(stretches, oracle, nearest)
+            self.nearest_or_overlap(stretches, oracle, nearest)
         } else {
             Ok(nearest)
         }
@@ -199,7 +199,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
 
 impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
     /// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
-    fn or_overlap(
+    fn nearest_or_overlap(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
@@ -227,7 +227,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         &mut self,
         stretches: &mut Stretches<'_, '_>,
         oracle: &mut O,
-        motions: &Motions,
+        motions: &StretchMotions,
         seen: &StretchResult,
     ) -> Result<bool, InputError> {
         let time = motions.time(seen.time);
@@ -293,12 +293,12 @@ struct DistanceAtTime {
 }
 
 impl DistanceAtTime {
-    fn length(&self, motions: &Motions) -> f64 {
+    fn length(&self, motions: &StretchMotions) -> f64 {
         motions.length_for(DEVIATION_SHARE * self.stray)
     }
 
     /// Returns whether the distance increases from an end of the stretch inward.
-    fn increases_into(&self, motions: &Motions, end: f64) -> bool {
+    fn increases_into(&self, motions: &StretchMotions, end: f64) -> bool {
         if end > motions.span.from {
             self.rate <= 0.0
         } else {

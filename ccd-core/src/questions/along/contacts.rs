@@ -1,6 +1,6 @@
 //! The results so far of a search for contacts along trajectories.
 
-use super::motions::Motions;
+use super::motions::StretchMotions;
 use super::stretches::Stretches;
 use crate::answer::{Answer, Contact, Limit, Outcome};
 use crate::error::InputError;
@@ -8,7 +8,7 @@ use crate::math::order::{greater, lesser};
 use crate::query::Query;
 
 /// The gap and the tolerance that are proven for the stretches searched so far.
-pub(super) struct ProvenContacts {
+pub(super) struct ProvenGap {
     gap: f64,
     margin: f64,
     tolerance: f64,
@@ -24,9 +24,9 @@ pub(super) enum StretchResult {
     Near(f64, Option<Contact>),
 }
 
-impl ProvenContacts {
+impl ProvenGap {
     pub(super) fn new(query: &Query<'_>) -> Self {
-        ProvenContacts {
+        ProvenGap {
             gap: f64::INFINITY,
             margin: query.terms.margin,
             tolerance: query.terms.tolerance,
@@ -34,7 +34,7 @@ impl ProvenContacts {
     }
 
     /// Records the gap that the motions of a stretch keep.
-    pub(super) fn record_gap(&mut self, motions: &Motions, proven_gap: f64) {
+    pub(super) fn record_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }
 
@@ -42,7 +42,7 @@ impl ProvenContacts {
     pub(super) fn record(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         answer: &Answer,
     ) -> Result<StretchResult, InputError> {
         stretches.add(&answer.stats);
@@ -57,7 +57,9 @@ impl ProvenContacts {
             }
             Outcome::Contact { time, contact } => StretchResult::Near(time, Some(contact)),
             Outcome::Touching { contact } => StretchResult::Near(0.0, Some(contact)),
-            Outcome::Overlapping { .. } if stretches.look_at_start(motions)? => StretchResult::Done,
+            Outcome::Overlapping { .. } if stretches.schedule_start_examination(motions)? => {
+                StretchResult::Done
+            }
             Outcome::Overlapping { overlap, .. } => StretchResult::Near(0.0, overlap.contact()),
             Outcome::Interval { .. } | Outcome::Measured { .. } => {
                 unreachable!("no outcome of a search for contacts")
@@ -91,7 +93,7 @@ impl ProvenContacts {
     pub(super) fn contact_answer(
         &mut self,
         stretches: &Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         outcome: Outcome,
     ) -> Result<Answer, InputError> {
         let at = |time: f64, contact: Contact| {

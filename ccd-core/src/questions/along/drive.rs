@@ -1,6 +1,6 @@
 //! The loop of all searches along trajectories.
 
-use super::motions::{Motions, Span};
+use super::motions::{Span, StretchMotions};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
@@ -29,7 +29,7 @@ pub(super) trait Question<O: DistanceOracle> {
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError>;
 
@@ -37,7 +37,7 @@ pub(super) trait Question<O: DistanceOracle> {
     fn examine(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError>;
@@ -55,7 +55,7 @@ pub(super) trait Question<O: DistanceOracle> {
 
 /// Answers a question about two trajectories: takes one waiting stretch after the other, and cuts or examines it, until
 /// none is left.
-pub(super) fn drive<O: DistanceOracle, Q: Question<O>>(
+pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
     question: &mut Q,
     query: &Query<'_>,
     oracle: &mut O,

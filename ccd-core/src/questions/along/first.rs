@@ -1,9 +1,9 @@
 //! Computes the first contact along trajectories, by stretches in order of time.
 
-use super::contacts::{ProvenContacts, StretchResult};
-use super::drive::{Question, drive};
+use super::contacts::{ProvenGap, StretchResult};
+use super::drive::{Question, search_stretches};
 use super::lengths::{cut_at_once, length};
-use super::motions::{Motions, Span};
+use super::motions::{Span, StretchMotions};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
@@ -22,14 +22,14 @@ pub(crate) fn first_contact<O: DistanceOracle, S: Solve<O>>(
 ) -> Result<Answer, InputError> {
     let mut first = FirstContactSearch {
         schedule,
-        proven: ProvenContacts::new(query),
+        proven: ProvenGap::new(query),
     };
-    drive(&mut first, query, oracle)
+    search_stretches(&mut first, query, oracle)
 }
 
 struct FirstContactSearch<'s, S> {
     schedule: &'s mut S,
-    proven: ProvenContacts,
+    proven: ProvenGap,
 }
 
 impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
@@ -40,7 +40,7 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
     fn cut_at_once(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
         cut_at_once(stretches, motions, oracle, self.schedule.scratch())
@@ -49,7 +49,7 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
     fn examine(
         &mut self,
         stretches: &mut Stretches<'_, '_>,
-        motions: &Motions,
+        motions: &StretchMotions,
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Result<ControlFlow<Answer>, InputError> {

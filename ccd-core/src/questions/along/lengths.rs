@@ -1,7 +1,7 @@
 //! Chooses the length of the next stretch. It has to be long enough for progress, and so short that the deviations are
 //! less than the bodies' distance.
 
-use super::motions::Motions;
+use super::motions::StretchMotions;
 use super::stretches::Stretches;
 use crate::answer::Contact;
 use crate::distance::oracle::DistanceOracle;
@@ -9,14 +9,14 @@ use crate::engine::scratch::Scratch;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
-use crate::settings::Terms;
+use crate::settings::QuerySettings;
 use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
 
 /// Cuts a stretch that is probably too long before it is searched. The bodies are measured where it meets a proven
 /// stretch. Returns whether it was cut.
 pub(super) fn cut_at_once<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
-    motions: &Motions,
+    motions: &StretchMotions,
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
@@ -39,7 +39,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
 /// Returns the length of the next stretch to search after a contact of the motions at a time.
 pub(super) fn length<O: DistanceOracle>(
     stretches: &mut Stretches<'_, '_>,
-    motions: &Motions,
+    motions: &StretchMotions,
     (time, seen): (f64, Option<Contact>),
     oracle: &mut O,
     scratch: &mut Scratch,
@@ -68,10 +68,10 @@ pub(super) fn length<O: DistanceOracle>(
 /// and pass each other closely, they are nearest after about `2 d/r`.
 fn length_from_distance(
     query: &Query<'_>,
-    motions: &Motions,
+    motions: &StretchMotions,
     (contact, approach): (Contact, f64),
 ) -> f64 {
-    let Terms {
+    let QuerySettings {
         margin, tolerance, ..
     } = query.terms;
     let gap = greater(contact.separation.upper - margin, tolerance);

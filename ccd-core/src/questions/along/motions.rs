@@ -10,7 +10,7 @@ use crate::motion::trajectory::Trajectory;
 use crate::problem::Problem;
 use crate::query::{Moving, Query};
 use crate::rounding::STRETCH_F64;
-use crate::settings::{StartPolicy, Terms};
+use crate::settings::{QuerySettings, StartPolicy};
 use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
 
@@ -44,20 +44,20 @@ impl Span {
 
 /// The approximate motions of both bodies in a stretch of time, with their deviations.
 #[derive(Debug)]
-pub(super) struct Motions {
+pub(super) struct StretchMotions {
     pub(super) stretches: [Stretch; 2],
     /// The sum of the deviations of both bodies.
     pub(super) stray: f64,
     pub(super) span: Span,
 }
 
-impl Motions {
+impl StretchMotions {
     pub(super) fn new(query: &Query<'_>, span: Span) -> Result<Self, InputError> {
         let bodies = [&query.a, &query.b];
         let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.to));
         let stretches = [a?, b?];
         let stray = |k: usize| stretches[k].stray.at(reach(bodies[k], &stretches[k]));
-        Ok(Motions {
+        Ok(StretchMotions {
             stray: rounded_up_sum(stray(0), stray(1)),
             stretches,
             span,
@@ -131,12 +131,12 @@ impl Motions {
     pub(super) fn problem<'a>(
         &self,
         query: &Query<'a>,
-        terms: &Terms<'a>,
+        terms: &QuerySettings<'a>,
     ) -> Result<Problem<'a>, InputError> {
         let tolerance = self.tolerance(terms.tolerance);
         // Both tolerances have the same middle: the gap that is proven.
         let beyond = 0.5 * greater(terms.tolerance - tolerance, 0.0);
-        let terms = Terms {
+        let terms = QuerySettings {
             margin: terms.margin + beyond + self.stray,
             tolerance,
             start: StartPolicy::Report,

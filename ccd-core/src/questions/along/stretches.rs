@@ -1,6 +1,6 @@
 //! The waiting stretches of time of a search along trajectories, and the budget left for them.
 
-use super::motions::{Motions, Span};
+use super::motions::{Span, StretchMotions};
 use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::run_metered;
@@ -10,7 +10,7 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
 use crate::query::{Moving, Query};
-use crate::settings::Terms;
+use crate::settings::QuerySettings;
 use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -21,7 +21,7 @@ pub(super) struct Stretches<'j, 'a> {
     waiting: Vec<Span>,
     pub(super) stats: Stats,
     budgets: Budgets,
-    looked_at_start: bool,
+    was_start_examined: bool,
     /// The stretch that was proven last, with its deviation.
     proven: Option<(Span, f64)>,
     /// The time at which the query started; `None` if there is no deadline. No clock is read then.
@@ -40,7 +40,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             }],
             stats: Stats::default(),
             budgets: Budgets::default(),
-            looked_at_start: false,
+            was_start_examined: false,
             proven: None,
             started_at: query.terms.deadline.map(|_| Instant::now()),
         }
@@ -66,7 +66,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the settings with what is left of the budget and of the time to the deadline.
-    pub(super) fn remaining_terms(&self) -> Result<Terms<'a>, Limit> {
+    pub(super) fn remaining_terms(&self) -> Result<QuerySettings<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
@@ -80,7 +80,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             },
             _ => None,
         };
-        Ok(Terms {
+        Ok(QuerySettings {
             budget: budget.filter(|&left| left > 0).ok_or(Limit::Budget)?,
             deadline,
             ..*terms
@@ -97,7 +97,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Adds work on the whole query, which no part's budget pays for.
     pub(super) fn add_uncharged(&mut self, stats: &Stats) {
         self.stats.add(stats);
-        self.budgets.charged_from += stats.work();
+        self.budgets.work_at_part_start += stats.work();
     }
 
     /// Returns the motions in a stretch, with the settings; or the limit that was reached. The stretch is cut until the
@@ -106,14 +106,14 @@ impl<'j, 'a> Stretches<'j, 'a> {
         &mut self,
         mut span: Span,
         accelerations: bool,
-    ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
+    ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
         loop {
             self.charge_to(span);
             let terms = match self.remaining_terms() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
             };
-            let motions = Motions::new(self.query, span)?;
+            let motions = StretchMotions::new(self.query, span)?;
             let motions = if accelerations {
                 motions
             } else {
@@ -129,7 +129,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns whether a contact of a stretch's motions counts as one of the bodies: the tolerance is met, or cutting
     /// does not improve it.
-    pub(super) fn accepts_contact(&self, motions: &Motions) -> Result<bool, InputError> {
+    pub(super) fn accepts_contact(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(
             motions.stray <= DEVIATION_SHARE * self.query.terms.tolerance
                 || self.is_limited_by_rounding(motions)?,
@@ -138,13 +138,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns whether the deviations are at most twice those of a stretch of length 0, so that they are mostly
     /// rounding and a cut does not help.
-    fn is_limited_by_rounding(&self, motions: &Motions) -> Result<bool, InputError> {
-        let least = Motions::new(self.query, motions.span.start())?;
+    fn is_limited_by_rounding(&self, motions: &StretchMotions) -> Result<bool, InputError> {
+        let least = StretchMotions::new(self.query, motions.span.start())?;
         Ok(motions.stray <= 2.0 * least.stray)
     }
 
     /// Returns whether the motions of a stretch start at the poses of the bodies at time 0, up to rounding.
-    pub(super) fn begins_at_start(&self, motions: &Motions) -> Result<bool, InputError> {
+    pub(super) fn begins_at_start(&self, motions: &StretchMotions) -> Result<bool, InputError> {
         Ok(motions.span.from == 0.0
             && (motions.stray == 0.0 || self.is_limited_by_rounding(motions)?))
     }
@@ -152,23 +152,26 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Schedules an examination of the start, and then the stretch again. An overlap of the stretch's motions at time 0
     /// need not be one of the bodies. Returns false if the start was examined already, and for stretches that begin
     /// later.
-    pub(super) fn look_at_start(&mut self, motions: &Motions) -> Result<bool, InputError> {
-        if motions.span.from > 0.0 || self.looked_at_start || self.begins_at_start(motions)? {
+    pub(super) fn schedule_start_examination(
+        &mut self,
+        motions: &StretchMotions,
+    ) -> Result<bool, InputError> {
+        if motions.span.from > 0.0 || self.was_start_examined || self.begins_at_start(motions)? {
             return Ok(false);
         }
-        self.looked_at_start = true;
+        self.was_start_examined = true;
         self.waiting.extend([motions.span, motions.span.start()]);
         Ok(true)
     }
 
     /// Records that the bodies are proven apart in a stretch.
-    pub(super) fn record_proven(&mut self, motions: &Motions) {
+    pub(super) fn record_proven(&mut self, motions: &StretchMotions) {
         self.proven = Some((motions.span, motions.stray));
     }
 
     /// Returns the common time of a stretch and the last proven one, if the stretch's deviations are much larger: then
     /// the stretch is probably too long.
-    pub(super) fn end_if_too_long(&mut self, motions: &Motions) -> Option<f64> {
+    pub(super) fn end_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = motions.span;
         let beside = [(from, proven.to), (to, proven.from)];
@@ -185,7 +188,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     pub(super) fn pose_at(
         &self,
         time: f64,
-    ) -> Result<Result<(Motions, Terms<'a>), Limit>, InputError> {
+    ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
         let terms = match self.remaining_terms() {
             Ok(terms) => terms,
             Err(reason) => return Ok(Err(reason)),
@@ -195,7 +198,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             to: time,
             part: self.budgets.part,
         };
-        Ok(Ok((Motions::new(self.query, span)?, terms)))
+        Ok(Ok((StretchMotions::new(self.query, span)?, terms)))
     }
 
     /// Measures the distance of the bodies at a time, up to rounding. Returns the nearest points and the rate at which
@@ -310,19 +313,19 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
 /// The work spent on each part of a query. Each part between two corners has its own budget.
 struct Budgets {
-    spent: Vec<u64>,
+    work_by_part: Vec<u64>,
     /// The index of the part that pays at present.
     part: usize,
     /// The total work when this part began to pay.
-    charged_from: u64,
+    work_at_part_start: u64,
 }
 
 impl Default for Budgets {
     fn default() -> Self {
         Budgets {
-            spent: vec![0],
+            work_by_part: vec![0],
             part: 0,
-            charged_from: 0,
+            work_at_part_start: 0,
         }
     }
 }
@@ -330,21 +333,21 @@ impl Default for Budgets {
 impl Budgets {
     /// Returns the work spent on the present part; `work` is the total of all parts.
     fn spent_on_part(&self, work: u64) -> u64 {
-        self.spent[self.part] + (work - self.charged_from)
+        self.work_by_part[self.part] + (work - self.work_at_part_start)
     }
 
     /// Makes another part pay for the work that follows.
     fn charge_to(&mut self, part: usize, work: u64) {
-        self.spent[self.part] = self.spent_on_part(work);
-        (self.part, self.charged_from) = (part, work);
+        self.work_by_part[self.part] = self.spent_on_part(work);
+        (self.part, self.work_at_part_start) = (part, work);
     }
 
     /// Adds a part with a budget of its own, and returns its index; or returns `part` if there are too many.
     fn new_part(&mut self, part: usize) -> usize {
-        if self.spent.len() >= MAX_BUDGET_PARTS {
+        if self.work_by_part.len() >= MAX_BUDGET_PARTS {
             return part;
         }
-        self.spent.push(0);
-        self.spent.len() - 1
+        self.work_by_part.push(0);
+        self.work_by_part.len() - 1
     }
 }

@@ -16,28 +16,28 @@ use crate::query::Query;
 use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
 use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, Pcg64, RngExt, SoupKind, body, magnitude, rng, scene, soup};
-use crate::tests::trajectories::Swing;
+use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
 /// Two bodies that swing back and forth near each other.
-struct Swings {
+struct SwingingBodies {
     soups: [Vec<Triangle>; 2],
     bodies: [Body; 2],
-    swings: [Swing; 2],
+    swings: [SwingingTrajectory; 2],
     config: Settings,
 }
 
-impl Swings {
+impl SwingingBodies {
     fn draw(rng: &mut Pcg64) -> Self {
         let soups = [(); 2].map(|()| {
             let count = rng.random_range(1..6);
-            soup(rng, SoupKind::Plump, count, 1.0)
+            soup(rng, SoupKind::WellShaped, count, 1.0)
         });
-        let mut swings = [(); 2].map(|()| Swing::draw(rng, 0.7));
+        let mut swings = [(); 2].map(|()| SwingingTrajectory::draw(rng, 0.7));
         swings[0].place += 1.2 * DVec3::X;
-        Swings {
+        SwingingBodies {
             bodies: [body(&soups[0]), body(&soups[1])],
             soups,
             swings,
@@ -67,7 +67,7 @@ impl Swings {
     }
 
     fn first(&self) -> Outcome {
-        let answer = BestFirst::default().first_contact(&self.query(), &mut Exhaustive);
+        let answer = BestFirst::default().first_contact(&self.query(), &mut ExhaustiveOracle);
         answer.unwrap().outcome
     }
 }
@@ -79,7 +79,7 @@ fn first_contacts_hold_at_sampled_times() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut starts) = (0, 0, 0);
     for number in 0..600 {
-        let swings = Swings::draw(&mut rng);
+        let swings = SwingingBodies::draw(&mut rng);
         let Settings {
             margin, tolerance, ..
         } = swings.config;
@@ -123,12 +123,12 @@ fn every_schedule_finds_first_contacts_along_trajectories() {
     let mut rng = rng(31);
     let (mut hits, mut misses) = (0, 0);
     for number in 0..60 {
-        let mut swings = Swings::draw(&mut rng);
+        let mut swings = SwingingBodies::draw(&mut rng);
         swings.config.tolerance = magnitude(&mut rng, -3.0, -2.0);
         let Settings {
             margin, tolerance, ..
         } = swings.config;
-        let naive = Naive::default().first_contact(&swings.query(), &mut Exhaustive);
+        let naive = Naive::default().first_contact(&swings.query(), &mut ExhaustiveOracle);
         match (naive.unwrap().outcome, swings.first()) {
             (Outcome::Contact { time, .. }, other) => {
                 hits += 1;
@@ -166,9 +166,9 @@ fn any_contact_has_the_verdict_of_the_first() {
     let mut rng = rng(2);
     let (mut hits, mut misses, mut grazes) = (0, 0, 0);
     for number in 0..600 {
-        let swings = Swings::draw(&mut rng);
+        let swings = SwingingBodies::draw(&mut rng);
         let within = swings.config.margin + swings.config.tolerance;
-        let any = DepthFirst::default().any_contact(&swings.query(), &mut Exhaustive);
+        let any = DepthFirst::default().any_contact(&swings.query(), &mut ExhaustiveOracle);
         match (any.unwrap().outcome, swings.first()) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => misses += 1,
             (Outcome::Contact { time, .. }, first) => {
@@ -198,8 +198,8 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(3);
     let (mut apart, mut touching) = (0, 0);
     for number in 0..400 {
-        let swings = Swings::draw(&mut rng);
-        let answer = DepthFirst::default().closest_approach(&swings.query(), &mut Exhaustive);
+        let swings = SwingingBodies::draw(&mut rng);
+        let answer = DepthFirst::default().closest_approach(&swings.query(), &mut ExhaustiveOracle);
         let answer = answer.unwrap();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
@@ -265,8 +265,8 @@ fn plain_motions_have_their_own_answers() {
         let unknown = scene.motions.map(HiddenMotion);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &unknown[k]));
         let query = Query::new(a, b, 1.0, &scene.config).unwrap();
-        let answer = BestFirst::default().solve(&problem, &mut Exhaustive);
-        let along = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        let answer = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+        let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
         assert_eq!(along.unwrap().outcome, answer.outcome, "{number}");
         match answer.outcome {
             Outcome::Free { .. } => misses += 1,
@@ -286,8 +286,8 @@ fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance
         let own = scene.motions.map(UserTrajectory);
         let [a, b] = [0, 1].map(|k| (&scene.bodies[k], &own[k]));
         let query = Query::new(a, b, 1.0, &scene.config).unwrap();
-        let answer = BestFirst::default().solve(&problem, &mut Exhaustive);
-        let along = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        let answer = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
+        let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
         match (answer.outcome, along.unwrap().outcome) {
             (Outcome::Contact { time, .. }, Outcome::Contact { time: other, .. }) => {
                 hits += 1;
@@ -316,11 +316,11 @@ fn no_contact_is_before_the_first_or_after_the_last() {
     let mut rng = rng(8);
     let (mut within, mut early) = (0, 0);
     for number in 0..400 {
-        let swings = Swings::draw(&mut rng);
+        let swings = SwingingBodies::draw(&mut rng);
         let Settings {
             margin, tolerance, ..
         } = swings.config;
-        let answer = BestFirst::default().contact_interval(&swings.query(), &mut Exhaustive);
+        let answer = BestFirst::default().contact_interval(&swings.query(), &mut ExhaustiveOracle);
         match (answer.unwrap().outcome, swings.first()) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => {}
             (Outcome::Interval { first, last }, first_contact) => {
@@ -358,7 +358,7 @@ fn durations_may_be_very_long() {
     let ask = |duration| Query::new((&ball, &slow), (&ball, &Motion::STILL), duration, &config);
     assert!(ask(1e51).is_err());
     let query = ask(1e50).unwrap();
-    let answer = BestFirst::default().first_contact(&query, &mut Exhaustive);
+    let answer = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
     assert!(matches!(
         answer.unwrap().outcome,
         Outcome::Free { proven_gap } if proven_gap > 0.0
@@ -369,10 +369,10 @@ fn durations_may_be_very_long() {
 fn no_time_is_a_pose() {
     let mut rng = rng(7);
     for _ in 0..100 {
-        let swings = Swings::draw(&mut rng);
+        let swings = SwingingBodies::draw(&mut rng);
         let [a, b] = [0, 1].map(|k| (&swings.bodies[k], &swings.swings[k]));
         let query = Query::new(a, b, 0.0, &swings.config).unwrap();
-        let along = BestFirst::default().first_contact(&query, &mut Exhaustive);
+        let along = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
         let within = swings.config.margin + swings.config.tolerance;
         match along.unwrap().outcome {
             Outcome::Free { proven_gap } => assert!(swings.distance(0.0) >= proven_gap - ROUNDING),

@@ -12,18 +12,22 @@ use crate::motion::pose::Pose;
 use crate::schedule::BestFirst;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::meshes::cube;
-use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{Kind, RngExt, direction, distance, pieces, rng, scene};
 
 const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
 
 fn any(problem: &Problem<'_>) -> Outcome {
     let mut schedule = DepthFirst::default();
-    schedule.any_contact_of(problem, &mut Exhaustive).outcome
+    schedule
+        .any_contact_of(problem, &mut ExhaustiveOracle)
+        .outcome
 }
 
 fn first(problem: &Problem<'_>) -> Outcome {
-    BestFirst::default().solve(problem, &mut Exhaustive).outcome
+    BestFirst::default()
+        .solve(problem, &mut ExhaustiveOracle)
+        .outcome
 }
 
 #[test]
@@ -31,7 +35,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
     for number in 0..2_000 {
-        let scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
+        let scene = scene(&mut rng, KINDS[number % 4], 12).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
         match (any(&problem), first(&problem)) {
@@ -144,7 +148,7 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
             a: Combination::point(rng.random_range(0..5)),
             b: Combination::point(rng.random_range(0..5)),
         };
-        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
             let answer = DepthFirst::default().any_contact_of(&problem, &mut { oracle });
             match answer.outcome {
                 Outcome::Unresolved(Unresolved { safe_until, .. }) => {
@@ -169,17 +173,17 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
 }
 
 /// An oracle that gives up after some calls.
-struct Tiring {
+struct LimitedOracle {
     calls_left: usize,
 }
 
-impl DistanceOracle for Tiring {
+impl DistanceOracle for LimitedOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
         let left = self.calls_left.checked_sub(1);
         self.calls_left = left.ok_or(GiveUp::BadFacets)?;
-        Exhaustive.separation(pair, &mut ())
+        ExhaustiveOracle.separation(pair, &mut ())
     }
 }
 
@@ -202,7 +206,7 @@ fn a_body_inside_a_solid_is_never_certified_apart() {
                 let bodies = [(&inner, leaving), (&outer, Motion::STILL)];
                 let problem = Problem::new(bodies, 1.0, &config.terms()).unwrap();
                 let mut schedule = DepthFirst::default();
-                let answer = schedule.any_contact_of(&problem, &mut Tiring { calls_left });
+                let answer = schedule.any_contact_of(&problem, &mut LimitedOracle { calls_left });
                 match answer.outcome {
                     Outcome::Unresolved(ended) => {
                         early += 1;
@@ -226,9 +230,9 @@ fn answers_do_not_depend_on_earlier_searches() {
     for number in 0..200 {
         let scene = scene(&mut rng, KINDS[number % 4], 12);
         let problem = scene.problem();
-        let fresh = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
-        assert_eq!(kept.any_contact_of(&problem, &mut Exhaustive), fresh);
-        kept.closest_approach_of(&problem, &mut Exhaustive);
-        assert_eq!(kept.any_contact_of(&problem, &mut Exhaustive), fresh);
+        let fresh = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
+        assert_eq!(kept.any_contact_of(&problem, &mut ExhaustiveOracle), fresh);
+        kept.closest_approach_of(&problem, &mut ExhaustiveOracle);
+        assert_eq!(kept.any_contact_of(&problem, &mut ExhaustiveOracle), fresh);
     }
 }

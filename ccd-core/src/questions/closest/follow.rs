@@ -11,7 +11,7 @@ use crate::tuning::{FOLLOW_ACCURACY, MAX_FOLLOW_MEASUREMENTS, MAX_FOLLOW_ROTATIO
 
 /// Follows the pieces of a contact to a nearby local minimum of their distance over time. Returns the nearest
 /// measurement.
-pub(crate) fn follow<O: DistanceOracle>(
+pub(crate) fn follow_to_minimum<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -40,7 +40,7 @@ struct Descent<'d, O: DistanceOracle> {
 
 /// The distance of two pieces at one clock, and its rate of change.
 #[derive(Clone, Copy)]
-struct Slope {
+struct DistanceAndRate {
     clock: f64,
     distance: f64,
     rate: f64,
@@ -49,7 +49,7 @@ struct Slope {
 impl<O: DistanceOracle> Descent<'_, O> {
     /// Measures the pieces at a clock. Returns `None` if the oracle gives up, or if the pieces are so near that the
     /// search is done.
-    fn measure(&mut self, clock: f64) -> Option<Slope> {
+    fn measure(&mut self, clock: f64) -> Option<DistanceAndRate> {
         if self.best.contact.separation.upper <= self.problem.tolerance {
             return None;
         }
@@ -67,7 +67,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.point(w));
         let velocity = self.problem.b.path.velocity_at(on_b, clock)
             - self.problem.a.path.velocity_at(on_a, clock);
-        Some(Slope {
+        Some(DistanceAndRate {
             clock,
             distance: checked.upper,
             rate: (frame.rotation * checked.axis).dot(velocity),
@@ -76,7 +76,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
 
     /// Steps downhill from a clock until the distance grows again. Returns two clocks with a local minimum of the
     /// distance between them; the distance decreases from the first one on.
-    fn bracket(&mut self, from: f64) -> Option<[Slope; 2]> {
+    fn bracket(&mut self, from: f64) -> Option<[DistanceAndRate; 2]> {
         let mut here = self.measure(from)?;
         let forward = here.rate < 0.0;
         let end = if forward { 1.0 } else { 0.0 };
@@ -113,7 +113,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
     }
 
     /// Narrows the interval around a local minimum of the distance, which decreases from the clock of `falling` on.
-    fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
+    fn narrow(&mut self, mut falling: DistanceAndRate, mut other: DistanceAndRate) {
         for look in 0..MAX_FOLLOW_MEASUREMENTS {
             let width = other.clock - falling.clock;
             // Written so that NaN is narrow enough.

@@ -1,6 +1,6 @@
 //! Estimates the least distance first, from measurements at a few times.
 
-use super::follow::follow;
+use super::follow::follow_to_minimum;
 use super::{BestPair, unresolved_outcome};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
@@ -30,7 +30,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
         let Some(found) = found.map_break(|stop| outcome_of_stop(problem, best, stop))? else {
             break;
         };
-        let followed = follow(problem, oracle, meter, found);
+        let followed = follow_to_minimum(problem, oracle, meter, found);
         let fell = found.contact.separation.upper - followed.contact.separation.upper;
         best = Some(followed);
         clock = followed.clock;

@@ -9,7 +9,7 @@ use crate::problem::Problem;
 
 /// A sequence of increasing shares of the least measured distance, each of which is proven as a lower bound.
 #[derive(Debug)]
-pub(crate) struct Ladder {
+pub(crate) struct LowerBoundLadder {
     /// The amount of work at which the next rung is tried.
     next: u64,
     /// The amount of work at which the last rung is tried. The rest of the budget is reserved for it.
@@ -23,14 +23,14 @@ pub(crate) struct Ladder {
 /// One attempt to prove a lower bound: a query for any contact within a margin. If there is no contact, the margin is a
 /// lower bound.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rung {
+pub(crate) struct MarginQuery {
     pub(crate) margin: f64,
     pub(crate) tolerance: f64,
     /// The largest amount of work for the attempt.
     pub(crate) budget: u64,
 }
 
-impl Rung {
+impl MarginQuery {
     /// Returns the problem of whether there is any contact within the rung's margin.
     pub(crate) fn problem<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
         let mut asking = problem.with_margin(self.margin, self.tolerance);
@@ -40,20 +40,20 @@ impl Rung {
 }
 
 /// The amount of work after which the first rung is tried. Most searches end sooner.
-const FIRST: u64 = 1 << 17;
+const FIRST_RUNG_WORK: u64 = 1 << 17;
 
 /// The amount of work after which the first rung is tried, if there is a deadline or a stop flag.
-const FIRST_TIMED: u64 = 1 << 14;
+const FIRST_TIMED_RUNG_WORK: u64 = 1 << 14;
 
 /// The largest number of rungs that are tried after a search reached a limit.
 pub(crate) const MAX_FINAL_RUNGS: usize = 8;
 
-impl Ladder {
+impl LowerBoundLadder {
     /// Creates the ladder with a known lower bound, for a search with a given budget.
     pub(crate) fn new(lower: f64, budget: u64) -> Self {
         let last = budget - budget / 4;
-        Ladder {
-            next: FIRST.min(last),
+        LowerBoundLadder {
+            next: FIRST_RUNG_WORK.min(last),
             last,
             part: 0.5,
             // Written so that NaN is no bound.
@@ -63,15 +63,15 @@ impl Ladder {
 
     /// Makes the first rung earlier, for a search that a deadline or another thread may end.
     pub(crate) fn with_early_start(self) -> Self {
-        Ladder {
-            next: self.next.min(FIRST_TIMED),
+        LowerBoundLadder {
+            next: self.next.min(FIRST_TIMED_RUNG_WORK),
             ..self
         }
     }
 
     /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.
     #[inline]
-    pub(crate) fn next_if_due(&mut self, work: u64, upper: f64) -> Option<Rung> {
+    pub(crate) fn next_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
         if work < self.next {
             return None;
         }
@@ -85,11 +85,11 @@ impl Ladder {
 
     /// Returns the next rung for a measured distance `upper`; `None` if the distance is unknown, or the rung would
     /// improve nothing.
-    pub(crate) fn next_rung(&self, upper: f64, budget: u64) -> Option<Rung> {
+    pub(crate) fn next_rung(&self, upper: f64, budget: u64) -> Option<MarginQuery> {
         let level = self.part * upper;
         // The tolerance leaves room for proofs.
         let (margin, tolerance) = (0.75 * level, 0.25 * level);
-        (margin > self.lower && level < f64::INFINITY && budget > 0).then_some(Rung {
+        (margin > self.lower && level < f64::INFINITY && budget > 0).then_some(MarginQuery {
             margin,
             tolerance,
             budget,

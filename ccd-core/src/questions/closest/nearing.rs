@@ -1,19 +1,19 @@
 //! Searches for the least distance of two bodies.
 
-use super::follow::follow;
-use super::ladder::{Ladder, MAX_FINAL_RUNGS, Rung};
-use super::{BestPair, Beyond};
+use super::follow::follow_to_minimum;
+use super::ladder::{LowerBoundLadder, MAX_FINAL_RUNGS, MarginQuery};
+use super::{BestPair, FartherThanCutoff};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::Step;
-use crate::engine::proven::Proven;
-use crate::engine::search::{Advance, Question, Search};
+use crate::engine::proven::ProvenFacts;
+use crate::engine::search::{AdvanceResult, Question, Search};
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::questions::depth_first::Stack;
-use crate::shortcuts::closer_look::CloserLook;
+use crate::shortcuts::closer_look::TighterBounds;
 use std::ops::ControlFlow;
 
 /// A search for the least distance, in which each pair is proven to keep the least distance found so far.
@@ -21,11 +21,11 @@ pub(crate) struct LeastDistanceSearch {
     pub(crate) best: Option<BestPair>,
     /// The distance above which pairs are ignored.
     pub(crate) beyond: f64,
-    pub(crate) proven: Proven,
+    pub(crate) proven: ProvenFacts,
     /// The reason why some pair could not be proven to the end, if there is one.
     pub(crate) first_failure: Option<Limit>,
     /// The lower bound that is proven for all pairs.
-    pub(crate) ladder: Ladder,
+    pub(crate) ladder: LowerBoundLadder,
 }
 
 impl LeastDistanceSearch {
@@ -34,8 +34,12 @@ impl LeastDistanceSearch {
         self.best.map_or(self.beyond, upper)
     }
 
-    pub(crate) fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<Outcome, Beyond> {
-        let best = self.best.ok_or(Beyond { lower })?;
+    pub(crate) fn found(
+        &self,
+        problem: &Problem<'_>,
+        lower: f64,
+    ) -> Result<Outcome, FartherThanCutoff> {
+        let best = self.best.ok_or(FartherThanCutoff { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
         Ok(Outcome::Measured {
             lower,
@@ -63,19 +67,19 @@ impl LeastDistanceSearch {
     pub(crate) fn climb<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
-        rung: Rung,
+        rung: MarginQuery,
         oracle: &mut O,
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
         let work = meter.stats.work();
         let budget = problem.budget.min(work.saturating_add(rung.budget));
-        let lower = Rung { budget, ..rung }.problem(problem);
+        let lower = MarginQuery { budget, ..rung }.problem(problem);
         let mut below = LeastDistanceSearch {
             best: None,
             beyond: lower.contact_distance(),
-            proven: Proven::default(),
+            proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: Ladder::new(0.0, 0),
+            ladder: LowerBoundLadder::new(0.0, 0),
         };
         let mut stack = Stack::default();
         let mut search = Search {
@@ -84,7 +88,7 @@ impl LeastDistanceSearch {
             meter,
         };
         let common = NodeContext::new(&lower);
-        let mut look = CloserLook::new(&lower);
+        let mut look = TighterBounds::new(&lower);
         let mut found = None;
         if search.push_roots(&lower).is_ok() {
             while below.best.is_none() && found.is_none() {
@@ -95,7 +99,7 @@ impl LeastDistanceSearch {
             Some(Ok(overlapping @ Outcome::Overlapping { .. })) => {
                 return ControlFlow::Break(overlapping);
             }
-            Some(Err(Beyond { lower })) => self.ladder.climb(Some(lower)),
+            Some(Err(FartherThanCutoff { lower })) => self.ladder.climb(Some(lower)),
             _ => self.ladder.climb(None),
         }
         if let Some(best) = below
@@ -112,10 +116,10 @@ impl LeastDistanceSearch {
     pub(crate) fn final_outcome<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
-        found: Result<Outcome, Beyond>,
+        found: Result<Outcome, FartherThanCutoff>,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<Outcome, Beyond> {
+    ) -> Result<Outcome, FartherThanCutoff> {
         let limit = match (&found, self.first_failure) {
             (Ok(Outcome::Unresolved(known)), Some(_)) => known.limit,
             _ => return found,
@@ -134,16 +138,16 @@ impl LeastDistanceSearch {
 }
 
 impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
-    type Found = Result<Outcome, Beyond>;
+    type Found = Result<Outcome, FartherThanCutoff>;
 
     fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        advance: Advance,
+        advance: AdvanceResult,
     ) -> ControlFlow<Self::Found, f64> {
-        let Advance {
+        let AdvanceResult {
             pieces,
             clock,
             step,
@@ -156,7 +160,7 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
                     pieces,
                     contact,
                 };
-                self.best = Some(follow(problem, oracle, meter, seen));
+                self.best = Some(follow_to_minimum(problem, oracle, meter, seen));
                 // The pair is examined again, since it keeps a smaller distance.
                 ControlFlow::Continue(clock)
             }

@@ -1,6 +1,6 @@
 //! Decides whether bodies keep a required distance, by two queries for any contact.
 
-use super::ladder::{Ladder, MAX_FINAL_RUNGS, Rung};
+use super::ladder::{LowerBoundLadder, MAX_FINAL_RUNGS, MarginQuery};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
 use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
@@ -8,7 +8,7 @@ use crate::math::order::{greater, lesser};
 
 /// A required distance, and the tolerance and budget of the decision.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Required {
+pub(crate) struct RequiredClearance {
     pub(crate) distance: f64,
     pub(crate) tolerance: f64,
     pub(crate) budget: u64,
@@ -17,7 +17,7 @@ pub(crate) struct Required {
     pub(crate) excess: Excess,
 }
 
-impl Required {
+impl RequiredClearance {
     /// Decides whether the bodies keep the distance. The first query asks whether they come near it. If they do, the
     /// second asks whether they come nearer by the excess. In between, neither answer is certain for the shapes.
     ///
@@ -25,7 +25,7 @@ impl Required {
     /// The errors of the query for any contact.
     pub(crate) fn decide<E>(
         &self,
-        any_contact: impl FnMut(Rung) -> Result<Answer, E>,
+        any_contact: impl FnMut(MarginQuery) -> Result<Answer, E>,
     ) -> Result<Answer, E> {
         let mut decision = Decision {
             required: *self,
@@ -39,7 +39,7 @@ impl Required {
         // A finer tolerance may not be certified in f64.
         decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
         let outcome = match self.decision_for(near.outcome) {
-            Outcome::Measured { time, contact, .. } if self.certainly_violating() > 0.0 => {
+            Outcome::Measured { time, contact, .. } if self.violation_distance() > 0.0 => {
                 decision.decide_nearer(time, contact)?
             }
             found => found,
@@ -60,8 +60,8 @@ impl Required {
 
     /// Returns the distance of bodies below which their shapes are certainly nearer than the required distance. It is 0
     /// or less if there is none.
-    fn certainly_violating(&self) -> f64 {
-        self.excess.certainly_nearer_below(self.distance)
+    fn violation_distance(&self) -> f64 {
+        self.excess.certain_nearness_threshold(self.distance)
     }
 
     /// Converts the outcome of a query with the distance as its margin to a decision.
@@ -86,16 +86,16 @@ impl Required {
 
 /// A decision in progress, with the work spent so far.
 struct Decision<F> {
-    required: Required,
+    required: RequiredClearance,
     any_contact: F,
     stats: Stats,
     /// The tolerance of each query: half the tolerance of the answer.
     query_tolerance: f64,
 }
 
-impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
+impl<E, F: FnMut(MarginQuery) -> Result<Answer, E>> Decision<F> {
     fn run_query(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
-        let answer = (self.any_contact)(Rung {
+        let answer = (self.any_contact)(MarginQuery {
             margin,
             tolerance: greater(LEAST_TOLERANCE, tolerance),
             budget,
@@ -113,7 +113,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
     /// `time` is the result of the first query, which found that they come near the distance.
     fn decide_nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, query_tolerance) =
-            (self.required.certainly_violating(), self.query_tolerance);
+            (self.required.violation_distance(), self.query_tolerance);
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
         // and the excess.
         let margin = greater(0.0, distance - 1.5 * query_tolerance);
@@ -138,7 +138,7 @@ impl<E, F: FnMut(Rung) -> Result<Answer, E>> Decision<F> {
 
     /// Proves the best lower bound that the rest of the budget allows.
     fn prove_lower_bound(&mut self, reason: Limit) -> Result<f64, E> {
-        let mut ladder = Ladder::new(0.0, self.required.budget);
+        let mut ladder = LowerBoundLadder::new(0.0, self.required.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
             return Ok(ladder.lower);
         }

@@ -12,13 +12,13 @@ use crate::engine::answer::Solve;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;
-use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
 
 const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
 
 fn approach(problem: &Problem<'_>) -> Answer {
-    DepthFirst::default().closest_approach_of(problem, &mut Exhaustive)
+    DepthFirst::default().closest_approach_of(problem, &mut ExhaustiveOracle)
 }
 
 /// Returns the least distance at equal time steps.
@@ -32,7 +32,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(1);
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
     for number in 0..1_000 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12).with_random_accelerations(&mut rng);
         scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
         let Answer {
@@ -96,7 +96,7 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
         let mut at = |margin: f64| {
             scene.config.margin = margin;
             BestFirst::default()
-                .solve(&scene.problem(), &mut Exhaustive)
+                .solve(&scene.problem(), &mut ExhaustiveOracle)
                 .outcome
         };
         if lower > 2.0 * tolerance {
@@ -188,7 +188,7 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
             a: Combination::point(rng.random_range(0..5)),
             b: Combination::point(rng.random_range(0..5)),
         };
-        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
             let answer = DepthFirst::default().closest_approach_of(&problem, &mut { oracle });
             let outcome = answer.outcome;
             assert!(
@@ -212,8 +212,14 @@ fn answers_do_not_depend_on_earlier_searches() {
         let scene = scene(&mut rng, KINDS[number % 4], 12);
         let problem = scene.problem();
         let fresh = approach(&problem);
-        assert_eq!(kept.closest_approach_of(&problem, &mut Exhaustive), fresh);
-        assert_eq!(kept.closest_approach_of(&problem, &mut Exhaustive), fresh);
+        assert_eq!(
+            kept.closest_approach_of(&problem, &mut ExhaustiveOracle),
+            fresh
+        );
+        assert_eq!(
+            kept.closest_approach_of(&problem, &mut ExhaustiveOracle),
+            fresh
+        );
     }
 }
 

@@ -7,20 +7,20 @@ use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};
 use glam::DVec3;
 
 /// Answers a query in steps of random lengths, and counts the steps.
 fn in_steps(
     problem: &Problem<'_>,
-    memory: &mut BestFirst<Exhaustive>,
+    memory: &mut BestFirst<ExhaustiveOracle>,
     rng: &mut Pcg64,
 ) -> (Answer, u32) {
     let mut search = Steps::new(problem.clone(), std::mem::take(memory));
     let (mut until, mut steps) = (0.0, 0);
     let answer = loop {
-        match search.advance(&mut Exhaustive, until) {
+        match search.advance(&mut ExhaustiveOracle, until) {
             Progress::ApartUntil(time) => {
                 assert!(time >= until, "{time:e} {until:e}");
                 // The step is often the least possible one.
@@ -34,7 +34,7 @@ fn in_steps(
         }
     };
     assert_eq!(
-        search.advance(&mut Exhaustive, 0.0),
+        search.advance(&mut ExhaustiveOracle, 0.0),
         Progress::Answered(answer)
     );
     *memory = search.into_memory();
@@ -58,7 +58,7 @@ fn steps_do_not_change_the_answer() {
             scene.config.budget = rng.random_range(0..60);
         }
         let problem = scene.problem();
-        let whole = BestFirst::default().solve(&problem, &mut Exhaustive);
+        let whole = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
         let (answer, taken) = in_steps(&problem, &mut memory, &mut rng);
         assert_eq!(answer, whole, "{number}");
         steps += taken;
@@ -85,9 +85,9 @@ fn a_search_goes_no_further_than_it_is_asked() {
         let scene = scene(&mut rng, Kind::Sliding, 12);
         let problem = scene.problem();
         let mut search = Steps::new(problem.clone(), BestFirst::default());
-        search.advance(&mut Exhaustive, 0.05);
+        search.advance(&mut ExhaustiveOracle, 0.05);
         less += search.meter.stats.iterations;
-        search.advance(&mut Exhaustive, 1.0);
+        search.advance(&mut ExhaustiveOracle, 1.0);
         all += search.meter.stats.iterations;
     }
     assert!(less > 0 && 2 * less < all, "{less} of {all}");
@@ -113,7 +113,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
             let mut search = Steps::new(problem, BestFirst::default());
             for exponent in [-320, -17, -9, -3, -1, -1, -1] {
                 let until = duration * rng.random_range(0.5..1.5) * 10f64.powi(exponent);
-                if let Progress::ApartUntil(time) = search.advance(&mut Exhaustive, until) {
+                if let Progress::ApartUntil(time) = search.advance(&mut ExhaustiveOracle, until) {
                     assert!(time >= until, "{time:e} {until:e} {duration:e}");
                     reached += 1;
                 }
@@ -126,7 +126,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
 /// Tests a body inside another: no pair of pieces meets, and no time passes before containment is tested.
 #[test]
 fn a_body_inside_the_other_is_no_body_apart() {
-    let room = room(4.0);
+    let room = solid_cube(4.0);
     let ball = Body::sphere(0.5).unwrap();
     let flies = Motion::new(Pose::IDENTITY, DVec3::X, DVec3::ZERO).unwrap();
     for motion in [Motion::STILL, flies] {
@@ -134,7 +134,7 @@ fn a_body_inside_the_other_is_no_body_apart() {
         let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
         for until in [0.0, 1e-9, 0.1, 2.0] {
             let mut search = Steps::new(problem.clone(), BestFirst::default());
-            let progress = search.advance(&mut Exhaustive, until);
+            let progress = search.advance(&mut ExhaustiveOracle, until);
             assert!(
                 matches!(
                     progress,
@@ -150,7 +150,7 @@ fn a_body_inside_the_other_is_no_body_apart() {
 }
 
 /// Creates a solid cube of twelve triangles.
-fn room(half: f64) -> Body {
+fn solid_cube(half: f64) -> Body {
     let corner = |k: u32| {
         let sign = |bit: u32| if k >> bit & 1 == 1 { half } else { -half };
         DVec3::new(sign(0), sign(1), sign(2))

@@ -5,13 +5,13 @@
 
 use super::{Shares, far_body, motion, shares_of_comparison};
 use crate::math::order::greater;
-use crate::motion::relative::View;
+use crate::motion::relative::RelativePath;
 use crate::problem::Problem;
 use crate::settings::{Instructions, Settings};
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{RngExt, direction, magnitude};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use crate::{Body, Motion};
 use glam::DVec3;
 
@@ -24,7 +24,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(tape: &mut Tape) -> Self {
+    fn new(tape: &mut RandomCase) -> Self {
         let size = magnitude(tape, -6.0, 6.0);
         let far = match tape.random_range(0..3) {
             0 => 0.0,
@@ -56,7 +56,7 @@ impl Scene {
     }
 
     /// Adds accelerations that move the bodies about as far as their velocities do.
-    fn accelerating(self, tape: &mut Tape) -> Self {
+    fn accelerating(self, tape: &mut RandomCase) -> Self {
         let pull = |motion: Motion| {
             let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
             direction(tape) * (speed / self.duration)
@@ -76,18 +76,18 @@ impl Scene {
 }
 
 /// Draws a scene, and returns its errors as shares of the bound.
-fn shares_of_scene(tape: &mut Tape) -> Option<Shares> {
+fn shares_of_scene(tape: &mut RandomCase) -> Option<Shares> {
     let scene = Scene::new(tape);
     shares_of(tape, &scene)
 }
 
 /// Draws a scene without rotation, and returns its errors as shares of the bound.
-fn shares_without_rotation(tape: &mut Tape) -> Option<Shares> {
+fn shares_without_rotation(tape: &mut RandomCase) -> Option<Shares> {
     let scene = Scene::new(tape).without_rotation();
     shares_of(tape, &scene)
 }
 
-fn shares_of(tape: &mut Tape, scene: &Scene) -> Option<Shares> {
+fn shares_of(tape: &mut RandomCase, scene: &Scene) -> Option<Shares> {
     let problem = scene.problem()?;
     let s = tape.random_range(0.0..1.0);
     Some(shares_of_comparison(
@@ -157,7 +157,7 @@ fn worst_places_between_poses() {
             duration,
         };
         let problem = scene.problem()?;
-        let origin = Double3::from(ends[1].places[0]);
+        let origin = Double3::from(ends[1].positions[0]);
         let s = tape.random_range(0.0..1.0);
         let k = tape.pick(2);
         let frame = [&problem.a, &problem.b][k].path.frame(s);
@@ -203,13 +203,13 @@ fn worst_views() {
         let own = tape.pick(2);
         let sides = [&problem.a, &problem.b];
         let (from, to) = (sides[own], sides[1 - own]);
-        let view = View::new(&from.path, &to.path);
+        let view = RelativePath::new(&from.path, &to.path);
         let level = Instructions::Baseline.level();
         let [x, y] = [from, to].map(|side| side.body.pieces().points()[0]);
         let arm = y - to.path.centre;
         let found = crate::vectorize!(level, level => {
             let seen = view.at(level, s);
-            let arm = crate::math::simd::Packed::new(level, arm);
+            let arm = crate::math::simd::PackedVector::new(level, arm);
             (seen.rotation * arm + seen.offset).unpacked()
         });
         let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));

@@ -9,14 +9,14 @@ use crate::rounding::{
 };
 use crate::tests::double::{Double, Double3};
 use crate::tests::rational::{Exact3, error_of};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use glam::{DMat3, DVec3};
 
 /// The binary exponents of accepted coordinates, and of far smaller ones: 1e-100 to 1e12.
 const COORDINATES: std::ops::RangeInclusive<i32> = -332..=39;
 
 /// Draws points, which may be near each other compared to their distance from the origin.
-fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
+fn corners<const N: usize>(tape: &mut RandomCase) -> [DVec3; N] {
     let scale = tape.size(COORDINATES);
     let first = DVec3::from(tape.vector(-8..=0));
     let near = tape.size(-50..=0);
@@ -28,7 +28,7 @@ fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
 }
 
 /// Draws a direction and normalises it, up to rounding; `None` instead of zero.
-fn axis(tape: &mut Tape) -> Option<DVec3> {
+fn axis(tape: &mut RandomCase) -> Option<DVec3> {
     unit(tape.vector(-60..=0).into())
 }
 

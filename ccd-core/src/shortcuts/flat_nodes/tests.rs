@@ -8,13 +8,13 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
-use crate::tests::scene::{Pcg64, RngExt, body, distance, magnitude, rng, rotation, within};
+use crate::tests::scene::{Pcg64, RngExt, body, distance, magnitude, point_in_ball, rng, rotation};
 
 /// Draws triangles in one plane, up to the rounding of their coordinates.
 fn plate(rng: &mut Pcg64, frame: glam::DQuat) -> Vec<Triangle> {
     let count = rng.random_range(2..8);
     let mut corner = || {
-        let at = within(rng, 1.0);
+        let at = point_in_ball(rng, 1.0);
         frame * DVec3::new(at.x, at.y, 0.0)
     };
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
@@ -30,7 +30,7 @@ fn flat_nodes_stay_apart_for_their_free_time() {
         let height = magnitude(&mut rng, -9.0, 0.0);
         let tilt = [0.0, 1e-6][rng.random_range(0..2)];
         let tilt = glam::DQuat::from_rotation_x(tilt) * own[0].inverse();
-        let spin = [DVec3::ZERO, DVec3::Z, within(&mut rng, 1.0)][rng.random_range(0..3)];
+        let spin = [DVec3::ZERO, DVec3::Z, point_in_ball(&mut rng, 1.0)][rng.random_range(0..3)];
         let velocity =
             -height * rng.random_range(-1.0..4.0) * DVec3::Z + [0.0, 0.1][number % 2] * DVec3::X;
         let falling = Pose::new(height * DVec3::Z, tilt).unwrap();

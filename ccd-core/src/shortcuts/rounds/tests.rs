@@ -10,19 +10,20 @@ use crate::query::Query;
 use crate::schedule::Schedule;
 use crate::schedule::{BestFirst, DepthFirst, FirstContact, Naive, Progress};
 use crate::settings::Settings;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
-    Pcg64, RngExt, SoupKind, body, direction, distance, magnitude, rng, rotation, soup, within,
+    Pcg64, RngExt, SoupKind, body, direction, distance, magnitude, point_in_ball, rng, rotation,
+    soup,
 };
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 fn solve(problem: &Problem<'_>) -> Answer {
-    BestFirst::default().solve(problem, &mut Exhaustive)
+    BestFirst::default().solve(problem, &mut ExhaustiveOracle)
 }
 
 /// Creates the motion of a ball of radius 1 that turns about a centre at a distance of 5, from an angle at time 0 on.
-fn crank(centre: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
+fn orbiting_ball_motion(centre: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
     let at = centre + 5.0 * DVec3::new(angle.cos(), angle.sin(), 0.0);
     let start = Pose::new(at, DQuat::from_rotation_z(angle)).unwrap();
     Motion::about(start, velocity, spin * DVec3::Z, -5.0 * DVec3::X).unwrap()
@@ -76,7 +77,7 @@ fn a_slow_drift_ends_in_a_late_turn() {
     };
     let still = Motion::still(Pose::at(7.0005 * DVec3::X).unwrap());
     for (drift, turn) in [(1e-6, Some(500.0)), (2e-6, Some(250.0)), (0.0, None)] {
-        let wheel = crank(DVec3::ZERO, drift * DVec3::X, TAU, 0.1);
+        let wheel = orbiting_ball_motion(DVec3::ZERO, drift * DVec3::X, TAU, 0.1);
         let found = checked([&wheel, &still], 600.0, &config);
         assert_eq!(found.map(f64::round), turn);
     }
@@ -92,9 +93,9 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
         (2.0, 1.5, None),
         (1.9999, 1.5, None),
     ] {
-        let a = crank(DVec3::ZERO, DVec3::ZERO, TAU, 0.0);
+        let a = orbiting_ball_motion(DVec3::ZERO, DVec3::ZERO, TAU, 0.0);
         let angle = angle + std::f64::consts::PI;
-        let b = crank(8.0 * DVec3::X, DVec3::ZERO, -ratio * TAU, angle);
+        let b = orbiting_ball_motion(8.0 * DVec3::X, DVec3::ZERO, -ratio * TAU, angle);
         let found = checked([&a, &b], 100.0, &config);
         assert_eq!(found.map(f64::floor), turn, "{ratio} {angle}");
     }
@@ -103,7 +104,7 @@ fn rates_that_are_nearly_a_fraction_jam_late() {
 /// Draws two soups of triangles near each other, of which one or both turn many times.
 fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let count = rng.random_range(1..4);
-    let bodies = [0; 2].map(|_| body(&soup(rng, SoupKind::Plump, count, 0.7)));
+    let bodies = [0; 2].map(|_| body(&soup(rng, SoupKind::WellShaped, count, 0.7)));
     let turns = magnitude(rng, 0.5, 2.0);
     let ratio = [0.0, 1.0, -0.5, 2.0 / 3.0, 0.61803, 0.5002][number % 6];
     let axis = direction(rng);
@@ -115,7 +116,7 @@ fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let apart = y * (arm + rng.random_range(0.3..1.3));
     let toward = [-y, direction(rng)][rng.random_range(0..2)];
     let drift = toward * [0.0, magnitude(rng, -4.0, 0.0)][rng.random_range(0..2)];
-    let velocity = within(rng, 1.0) * [0.0, 1.0][rng.random_range(0..2)];
+    let velocity = point_in_ball(rng, 1.0) * [0.0, 1.0][rng.random_range(0..2)];
     let motion = |rng: &mut Pcg64, centre: DVec3, arm: DVec3, velocity: DVec3, spin: DVec3| {
         let turned = rotation(rng);
         let start = Pose::new(centre + arm, turned).unwrap();
@@ -145,7 +146,7 @@ fn answers_of_many_turns_hold_at_sampled_times() {
         }
         repeated += usize::from(Rounds::for_problem(&problem).is_some());
         let outcome = solve(&problem).outcome;
-        let any = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
+        let any = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
         let within = config.margin + config.tolerance + 1e-9;
         if let Outcome::Contact { time, .. } = any.outcome {
             assert!(distance(&problem, time) <= within, "{number}: {time}");
@@ -191,7 +192,9 @@ fn the_naive_schedule_agrees() {
     for number in 0..150 {
         let ([a, b], motions, config) = scene(&mut rng, number);
         let problem = Problem::about((&a, motions[0]), (&b, motions[1]), 1.0, &config).unwrap();
-        let twin = Naive::default().solve(&problem, &mut Exhaustive).outcome;
+        let twin = Naive::default()
+            .solve(&problem, &mut ExhaustiveOracle)
+            .outcome;
         let near = |time: f64| distance(&problem, time) - config.margin;
         match (solve(&problem).outcome, twin) {
             (Outcome::Contact { time, .. }, Outcome::Contact { time: other, .. }) => {
@@ -227,13 +230,13 @@ fn steps_lead_to_the_same_answer() {
         let ([a, b], motions, config) = scene(&mut rng, number);
         let query = Query::new((&a, motions[0]), (&b, motions[1]), 3.0, &config).unwrap();
         let whole = BestFirst::default()
-            .first_contact(&query, &mut Exhaustive)
+            .first_contact(&query, &mut ExhaustiveOracle)
             .unwrap();
         let mut search = FirstContact::new(query, BestFirst::default());
         let mut until = 0.0;
         let answer = loop {
             until += rng.random_range(0.0..1.0) * [1e-3, 0.5][rng.random_range(0..2)];
-            match search.advance(&mut Exhaustive, until).unwrap() {
+            match search.advance(&mut ExhaustiveOracle, until).unwrap() {
                 Progress::ApartUntil(time) => {
                     assert!(time >= until, "{number}: {time} {until}");
                     steps += 1;
@@ -293,7 +296,7 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
         };
         let [few, many] = [20.0, 1_000.0].map(|turns| {
             let problem = problem(turns);
-            DepthFirst::default().closest_approach_of(&problem, &mut Exhaustive)
+            DepthFirst::default().closest_approach_of(&problem, &mut ExhaustiveOracle)
         });
         let whole = problem(1_000.0);
         sampled += usize::from(Sample::for_problem(&whole.for_distances()).is_some());

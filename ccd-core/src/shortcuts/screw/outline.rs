@@ -19,7 +19,7 @@ pub(crate) struct Outline {
     /// The corners, with lower bounds of these distances that are linear over the triangle.
     inner: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
-    twist: f64,
+    zeta_nonlinearity: f64,
     /// The factors by which the rounding of `r` and of `ζ` is multiplied.
     scale: [f64; 2],
     tilt: f64,
@@ -60,7 +60,7 @@ impl Outline {
         Some(Outline {
             outer: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
             inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
-            twist: linear.twist,
+            zeta_nonlinearity: linear.twist,
             scale: linear.scale,
             tilt: linear.tilt,
         })
@@ -73,8 +73,8 @@ impl Outline {
         } else {
             (&self.inner, &self.outer)
         };
-        let slack =
-            n.y.abs() * self.twist + profile_rounding(n.abs().to_array(), self.scale, self.tilt);
+        let slack = n.y.abs() * self.zeta_nonlinearity
+            + profile_rounding(n.abs().to_array(), self.scale, self.tilt);
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
         let high = most
             .iter()

@@ -9,27 +9,29 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
 use crate::tests::nearest::{Triangle, nearest};
-use crate::tests::scene::{Pcg64, RngExt, body, direction, magnitude, rng, rotation, within};
+use crate::tests::scene::{
+    Pcg64, RngExt, body, direction, magnitude, point_in_ball, rng, rotation,
+};
 use glam::{DQuat, DVec3};
 
 /// Draws a few triangles that are all near one point.
 fn patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     let count = rng.random_range(1..6);
-    let mut corner = || at + within(rng, size);
+    let mut corner = || at + point_in_ball(rng, size);
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
 }
 
 /// Two bodies, one of which moves along a screw past the other. Some of them make thousands of turns before. The moving
 /// body passes the other after a share of the turn.
-struct Passage {
+struct ScrewPassage {
     bodies: [Body; 2],
-    screwing: Motion,
+    screw_motion: Motion,
     still: Motion,
     /// The time at which the bodies are near each other.
     near: f64,
 }
 
-fn passage(rng: &mut Pcg64) -> Passage {
+fn passage(rng: &mut Pcg64) -> ScrewPassage {
     let (size, distance) = (magnitude(rng, -2.0, -0.5), rng.random_range(0.8..1.5));
     let axis = direction(rng);
     let out = axis.any_orthonormal_vector();
@@ -42,17 +44,17 @@ fn passage(rng: &mut Pcg64) -> Passage {
     let near = rng.random_range(0.0..1.0);
     let at = distance * out;
     let there = DQuat::from_axis_angle(axis, near * turn) * at + near * turn * advance * axis;
-    let beside = there + within(rng, 2.0 * size);
-    let (place, own) = (within(rng, 3.0), rotation(rng));
+    let beside = there + point_in_ball(rng, 2.0 * size);
+    let (place, own) = (point_in_ball(rng, 3.0), rotation(rng));
     let moving = patch(rng, at, size);
     // The body's own frame is turned about its origin, which is on the axis.
     let moving = moving.map_all(|x| own.inverse() * x);
     let still = patch(rng, beside + place, size);
     let drift = [0.0, 1e-5][rng.random_range(0..2)] * out;
     let velocity = turn * advance * axis + drift;
-    Passage {
+    ScrewPassage {
         bodies: [body(&moving), body(&still)],
-        screwing: Motion::new(Pose::new(place, own).unwrap(), velocity, turn * axis).unwrap(),
+        screw_motion: Motion::new(Pose::new(place, own).unwrap(), velocity, turn * axis).unwrap(),
         still: Motion::still(Pose::IDENTITY),
         near,
     }
@@ -70,7 +72,7 @@ impl MapAll for Vec<Triangle> {
 
 /// Returns the pairs of the roots and of all triangles, for bodies whose only node is the root.
 fn all_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
-    let ids = |side: &Side<'_>| 0..=side.body.pieces().len() as NodeId;
+    let ids = |side: &BodyWithPath<'_>| 0..=side.body.pieces().len() as NodeId;
     let of_a = ids(&problem.a);
     of_a.flat_map(|a| ids(&problem.b).map(move |b| [a, b]))
         .collect()
@@ -78,7 +80,7 @@ fn all_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
 
 /// Returns the least distance of two nodes at sampled times from `s` on, most of them near the time `near`.
 fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64) -> f64 {
-    let triangles = |side: &Side<'_>, id: NodeId, s: f64| -> Vec<Triangle> {
+    let triangles = |side: &BodyWithPath<'_>, id: NodeId, s: f64| -> Vec<Triangle> {
         let (frame, pieces) = (side.path.frame(s), side.body.pieces());
         let all = 0..pieces.len();
         let below = all.filter(|&k| id == 0 || k + 1 == id as usize);
@@ -116,7 +118,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
             tolerance: magnitude(&mut rng, -6.0, -2.0),
             ..Settings::DEFAULT
         };
-        let (mut first, mut second) = ((a, passage.screwing), (b, passage.still));
+        let (mut first, mut second) = ((a, passage.screw_motion), (b, passage.still));
         if number % 2 == 1 {
             std::mem::swap(&mut first, &mut second);
         }

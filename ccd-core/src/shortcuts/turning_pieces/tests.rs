@@ -15,44 +15,49 @@ use crate::problem::Problem;
 use crate::query::Moving;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
-use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng, scene, within};
+use crate::tests::scene::{
+    Kind, Pcg64, RngExt, Scene, direction, magnitude, point_in_ball, rng, scene,
+};
 
 const SAMPLES: u32 = 48;
 
 /// Counters of the sampled cases.
 #[derive(Debug, Default)]
-struct Seen {
-    some: usize,
-    forever: usize,
+struct CaseCounts {
+    bounded_times: usize,
+    unbounded_times: usize,
     /// The number of free times at whose end most of the slack was used up.
-    used: usize,
+    exhausted_slacks: usize,
     /// The number of samples in which both bodies turn.
     both: usize,
-    fast: usize,
-    many: usize,
+    fast_bodies: usize,
+    many_point_pieces: usize,
 }
 
 #[test]
 fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     let mut rng = rng(1);
-    let mut seen = Seen::default();
+    let mut seen = CaseCounts::default();
     for number in 0..12_000 {
         let kind = [Kind::Any, Kind::Rim][number % 2];
-        let scene = crowded(&mut rng, kind).at_times_accelerating(&mut rng);
+        let scene = scene_of_large_pieces(&mut rng, kind).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
         for holder in [0, 1] {
             check(&mut rng, &problem, clock, holder, &mut seen);
         }
     }
-    assert!(seen.some > 10_000 && seen.forever > 1_000, "{seen:?}");
-    assert!(seen.both > 3_000 && seen.fast > 1_000, "{seen:?}");
-    assert!(seen.many > 3_000, "{seen:?}");
-    assert!(4 * seen.used > seen.some, "{seen:?}");
+    assert!(
+        seen.bounded_times > 10_000 && seen.unbounded_times > 1_000,
+        "{seen:?}"
+    );
+    assert!(seen.both > 3_000 && seen.fast_bodies > 1_000, "{seen:?}");
+    assert!(seen.many_point_pieces > 3_000, "{seen:?}");
+    assert!(4 * seen.exhausted_slacks > seen.bounded_times, "{seen:?}");
 }
 
 /// Draws a scene with pieces of 1 to 300 points, some of them rounded, with rotations of up to a thousand radians.
-fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
+fn scene_of_large_pieces(rng: &mut Pcg64, kind: Kind) -> Scene {
     let mut scene = scene(rng, kind, 2);
     for (body, motion) in scene.bodies.iter_mut().zip(&mut scene.motions) {
         let [a, b, c] = body.pieces().triangle(0);
@@ -63,7 +68,7 @@ fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
             let more = magnitude(rng, 0.0, 2.5) as usize;
             points.extend((0..more).map(|_| {
                 let at = a.lerp(b, rng.random_range(0.0..1.0));
-                at.lerp(c, rng.random_range(0.0..1.0)) + within(rng, spread)
+                at.lerp(c, rng.random_range(0.0..1.0)) + point_in_ball(rng, spread)
             }));
         }
         *body = Body::polytope(Polytope {
@@ -81,11 +86,11 @@ fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
     scene
 }
 
-fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen: &mut Seen) {
+fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen: &mut CaseCounts) {
     let snapshot = Snapshot::new(problem, 0, 0, clock);
     let members = snapshot.moving_pieces();
     let (own, other) = (&members[holder], &members[1 - holder]);
-    if !own.side.path.turns() {
+    if !own.side.path.is_turning() {
         return;
     }
     // The axis is constant in its body's frame.
@@ -121,16 +126,16 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     }
     let turns = own.side.path.rate + other.side.path.rate;
     match free {
-        None => seen.forever += 1,
+        None => seen.unbounded_times += 1,
         Some(free) if free > 0.0 => {
-            seen.some += 1;
-            seen.used += usize::from(gap_at(until) < gap - 0.5 * slack);
+            seen.bounded_times += 1;
+            seen.exhausted_slacks += usize::from(gap_at(until) < gap - 0.5 * slack);
         }
         Some(_) => {}
     }
-    seen.both += usize::from(other.side.path.turns());
-    seen.fast += usize::from(turns > 50.0);
-    seen.many += usize::from(other.piece.points.len() > 3);
+    seen.both += usize::from(other.side.path.is_turning());
+    seen.fast_bodies += usize::from(turns > 50.0);
+    seen.many_point_pieces += usize::from(other.piece.points.len() > 3);
 }
 
 #[test]
@@ -138,7 +143,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     let mut rng = rng(2);
     let (mut height, mut rate) = (0.0f64, 0.0f64);
     for number in 0..3_000 {
-        let scene = crowded(&mut rng, [Kind::Any, Kind::Rim][number % 2]);
+        let scene = scene_of_large_pieces(&mut rng, [Kind::Any, Kind::Rim][number % 2]);
         let problem = scene.problem();
         // Sums of these numbers are exact.
         let grain = f64::from(1 << 20);
@@ -148,7 +153,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         let members = snapshot.moving_pieces();
         for holder in [0, 1] {
             let (own, other) = (&members[holder], &members[1 - holder]);
-            if !own.side.path.turns() {
+            if !own.side.path.is_turning() {
                 continue;
             }
             let normal = direction(&mut rng);
@@ -249,7 +254,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
 fn no_slack_is_no_time() {
     let mut rng = rng(3);
     for _ in 0..500 {
-        let scene = crowded(&mut rng, Kind::Rim);
+        let scene = scene_of_large_pieces(&mut rng, Kind::Rim);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         let [a, b] = snapshot.moving_pieces();

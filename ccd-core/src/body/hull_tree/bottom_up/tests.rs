@@ -27,10 +27,10 @@ fn results_do_not_depend_on_the_number_of_parts() {
             HierarchyNode::Inner(..) => [&left[..], right].concat(),
         })
     };
-    let one = bottom_up_in(1, &hierarchy, make).unwrap();
+    let one = bottom_up_in_parts(1, &hierarchy, make).unwrap();
     assert_eq!(one[0], (0..5000).collect::<Vec<u32>>());
     for parts in [2, 3, 8, 64] {
-        assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap(), one);
+        assert_eq!(bottom_up_in_parts(parts, &hierarchy, make).unwrap(), one);
     }
 }
 
@@ -58,7 +58,10 @@ fn chains_take_no_more_stack_than_other_trees() {
             })
         };
         for parts in [1, 8, 64] {
-            assert_eq!(bottom_up_in(parts, &hierarchy, count).unwrap()[0], PIECES);
+            assert_eq!(
+                bottom_up_in_parts(parts, &hierarchy, count).unwrap()[0],
+                PIECES
+            );
         }
         assert_eq!(bottom_up(&hierarchy, count).unwrap()[0], PIECES);
     }
@@ -72,8 +75,11 @@ fn the_first_error_is_the_same() {
         999 => Err(fault(at)),
         _ => Ok(0),
     };
-    let one = bottom_up_in(1, &hierarchy, make).unwrap_err();
+    let one = bottom_up_in_parts(1, &hierarchy, make).unwrap_err();
     for parts in [2, 3, 8, 64] {
-        assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap_err(), one);
+        assert_eq!(
+            bottom_up_in_parts(parts, &hierarchy, make).unwrap_err(),
+            one
+        );
     }
 }

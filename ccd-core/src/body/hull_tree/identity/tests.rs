@@ -3,7 +3,7 @@ use crate::body::hull_tree::Loops;
 use std::collections::HashMap;
 
 /// Numbers the points by a table, point after point, as a reference.
-fn twin(hull: &[DVec3], children: [&[DVec3]; 2]) -> (Vec<u32>, Vec<DVec3>) {
+fn reference_numbering(hull: &[DVec3], children: [&[DVec3]; 2]) -> (Vec<u32>, Vec<DVec3>) {
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let mut numbers: HashMap<[u64; 3], u32> = hull.iter().map(place).zip(0..).collect();
     let mut positions = hull.to_vec();
@@ -39,8 +39,8 @@ fn points_get_the_numbers_that_a_table_gives() {
             points: [&left.points[..4], &right.points[3..5]].concat(),
             facets: Loops::default(),
         };
-        let found = Identity::new(&hull, [&left, &right]).unwrap();
-        let (numbers, positions) = twin(&hull.points, [&left.points, &right.points]);
+        let found = PointNumbering::new(&hull, [&left, &right]).unwrap();
+        let (numbers, positions) = reference_numbering(&hull.points, [&left.points, &right.points]);
         assert_eq!([found.of_left, found.of_right].concat(), numbers);
         assert_eq!(found.positions, positions);
     }

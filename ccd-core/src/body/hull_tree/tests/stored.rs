@@ -15,7 +15,7 @@ fn bytes<T: Serialize>(value: &T) -> Vec<u8> {
 
 fn sample() -> (Pieces, HullTree) {
     let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
-    let tree = tree(&pieces, hull_of(0.0, 3.0)).unwrap();
+    let tree = tree(&pieces, box_hull(0.0, 3.0)).unwrap();
     (Pieces::polytopes(&pieces).unwrap(), tree)
 }
 
@@ -67,7 +67,7 @@ fn trees_are_checked_when_read() {
     let mut nodes = tree.to_nodes();
     let polytopes = vec![block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_some());
-    nodes[0] = HullNode::Inner([1, 2], hull_of(0.0, 1.0));
+    nodes[0] = HullNode::Inner([1, 2], box_hull(0.0, 1.0));
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
 }
 

@@ -3,7 +3,7 @@
 use super::directions_with_ties;
 use crate::body::support::{Support, SupportTree};
 use crate::rounding::HEIGHT_F64;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
 use glam::DVec3;
 
 /// Returns random points: on a sphere, in a ball, a plane, a line, a single place, a grid, or a needle.
@@ -12,12 +12,12 @@ fn cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
     let whole = |rng: &mut Pcg64| f64::from(rng.random_range(-3..=3));
     let place = |rng: &mut Pcg64| match kind {
         0 => direction(rng),
-        1 => within(rng, 1.0),
+        1 => point_in_ball(rng, 1.0),
         2 => u * rng.random_range(-1.0..1.0) + v * rng.random_range(-1.0..1.0),
         3 => u * rng.random_range(-1.0..1.0),
         4 => DVec3::ZERO,
         5 => DVec3::from_array([(); 3].map(|()| whole(rng))),
-        _ => u * rng.random_range(-1.0..1.0) + within(rng, 1e-7),
+        _ => u * rng.random_range(-1.0..1.0) + point_in_ball(rng, 1e-7),
     };
     (0..count).map(|_| place(rng)).collect()
 }

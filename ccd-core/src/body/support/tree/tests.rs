@@ -5,12 +5,12 @@ use crate::math::order::greater;
 use crate::rounding::{DISC_F32, DISC_TILT_F32, HEIGHT_F64};
 use crate::tests::rational::Exact3;
 use crate::tests::scene::direction;
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use glam::{DVec3, Vec3};
 
 /// Draws points in a ball of radius 1, and a direction along which a point at the rim of their disc, or next to it, is
 /// farthest.
-fn points(tape: &mut Tape) -> (Vec<DVec3>, DVec3) {
+fn points(tape: &mut RandomCase) -> (Vec<DVec3>, DVec3) {
     let half = direction(tape) * tape.size(-10..=-1);
     let middle = direction(tape) * (tape.fraction() * (1.0 - half.length()));
     let aside = direction(tape) * half.length() * tape.size(-40..=-2);
@@ -47,7 +47,7 @@ fn worst_tilt() {
         let aside = direction(tape) * tape.size(-30..=0);
         // The direction is near the normal: the component across it is a difference of equal squares.
         let toward = (exact.normalize() + aside).normalize();
-        let Disc { normal: m, .. } = Disc::about(&[toward, DVec3::ZERO]);
+        let Disc { normal: m, .. } = Disc::enclosing(&[toward, DVec3::ZERO]);
         let m = if tape.pick(2) == 0 {
             toward.as_vec3()
         } else {

@@ -9,34 +9,34 @@ use glam::{DMat3, DVec3, Vec3};
 /// The number of values that are computed at once.
 const LANES: usize = 8;
 
-const POINTS: usize = 3 * SAMPLED_TRIANGLES;
+const MAX_POINTS: usize = 3 * SAMPLED_TRIANGLES;
 
 /// Points of a node, moved and scaled to unit size. The memory is reused by one sample after the other.
 #[derive(Clone, Debug)]
 pub(crate) struct Sample {
-    list: [DVec3; POINTS],
+    buffer: [DVec3; MAX_POINTS],
     count: usize,
     /// The points, coordinate by coordinate; the last block repeats the last point.
-    blocks: [[[f32; LANES]; 3]; POINTS / LANES],
+    blocks: [[[f32; LANES]; 3]; MAX_POINTS / LANES],
 }
 
 impl Sample {
     /// A sample without points.
     pub(crate) const EMPTY: Sample = Sample {
-        list: [DVec3::ZERO; POINTS],
+        buffer: [DVec3::ZERO; MAX_POINTS],
         count: 0,
-        blocks: [[[0.0; LANES]; 3]; POINTS / LANES],
+        blocks: [[[0.0; LANES]; 3]; MAX_POINTS / LANES],
     };
 
     /// Fills the sample with the points, at even steps if there are too many. Triangles are taken whole.
-    pub(in super::super) fn take(&mut self, node_points: &NodePoints<'_>) {
+    pub(in super::super) fn fill_from(&mut self, node_points: &NodePoints<'_>) {
         self.count = 0;
         let size = if node_points.triangles { 3 } else { 1 };
         let groups = node_points.points.len() / size;
-        let step = groups.div_ceil(POINTS / size).max(1);
+        let step = groups.div_ceil(MAX_POINTS / size).max(1);
         for group in (0..groups).step_by(step) {
             let points = &node_points.points[size * group..size * (group + 1)];
-            self.list[self.count..][..size].copy_from_slice(points);
+            self.buffer[self.count..][..size].copy_from_slice(points);
             self.count += size;
         }
         self.fill_unit();
@@ -44,7 +44,7 @@ impl Sample {
 
     /// Returns the points, moved and scaled.
     pub(super) fn points(&self) -> &[DVec3] {
-        &self.list[..self.count]
+        &self.buffer[..self.count]
     }
 
     /// Returns half the surface area of the bounding box along the columns of a frame.
@@ -73,7 +73,7 @@ impl Sample {
         let middle = 0.5 * (low + high);
         // If the length is too short, it has no reciprocal.
         let scale = Some((high - low).max_element().recip()).filter(|s| s.is_finite());
-        for point in &mut self.list[..self.count] {
+        for point in &mut self.buffer[..self.count] {
             *point = (*point - middle) * scale.unwrap_or(1.0);
         }
         let Some(&last) = self.points().last() else {
@@ -85,7 +85,11 @@ impl Sample {
         {
             for lane in 0..LANES {
                 let at = k * LANES + lane;
-                let point = if at < self.count { self.list[at] } else { last };
+                let point = if at < self.count {
+                    self.buffer[at]
+                } else {
+                    last
+                };
                 for (row, x) in block.iter_mut().zip(point.as_vec3().to_array()) {
                     row[lane] = x;
                 }

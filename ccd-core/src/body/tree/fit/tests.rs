@@ -87,7 +87,7 @@ fn boxes_are_as_small_as_the_best_of_all_frames() {
     for k in 0..60 {
         let shape = [[1.0, 0.0], [2.0, 0.5]][k % 2];
         let points = rectangle(&mut rng, SAMPLED_TRIANGLES, shape);
-        sample.take(&triangles(&points));
+        sample.fill_from(&triangles(&points));
         let found = surface(best_frame(&sample, true), &points);
         let least = least_surface(&points, true);
         assert!(found <= (1.0 + 1e-4) * least, "{found} for {least}");
@@ -112,7 +112,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                     radius: 0.0,
                     triangles,
                 };
-                let node = fit(&node_points, Below::Piece(0), &mut sample);
+                let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
@@ -149,7 +149,7 @@ fn degenerate_points_have_a_box() {
                 radius: 0.0,
                 triangles,
             };
-            let node = fit(&node_points, Below::Piece(0), &mut sample);
+            let node = fit(&node_points, NodeChildren::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {
                 let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
                 assert!(way.abs() <= f64::from(node.half[k]));
@@ -184,12 +184,12 @@ fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut sample = Sample::EMPTY;
     for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
         let points = sheet(&mut rng, count, size);
-        sample.take(&triangles(&points));
+        sample.fill_from(&triangles(&points));
         let (low, high) = crate::body::hierarchy::bounding_box(sample.points().iter().copied());
         assert!((low + high).length() < 1e-9, "{low} {high}");
         assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
         let mut fresh = Sample::EMPTY;
-        fresh.take(&triangles(&points));
+        fresh.fill_from(&triangles(&points));
         let turned = DMat3::from_quat(DQuat::from_axis_angle(direction(&mut rng), 1.0));
         assert_eq!(sample.surface(&turned), fresh.surface(&turned));
     }

@@ -1,7 +1,7 @@
 //! Compares the points beside edges with densely sampled edges. Coordinates are whole numbers, so that edges run along
 //! sides, and end on them, exactly.
 
-use super::beside_edges;
+use super::points_beside_edges;
 use crate::body::Body;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::rounding::BESIDE_EDGE;
@@ -33,7 +33,7 @@ impl Placement {
     }
 
     /// Maps a point back to the plate's plane, and returns its height above the plane.
-    fn unplace(&self, p: DVec3) -> (DVec2, f64) {
+    fn to_plate_plane(&self, p: DVec3) -> (DVec2, f64) {
         let p = (p - self.shift).to_array();
         let [x, y, z] = [0, 1, 2].map(|k| p[(k + 3 - self.axes) % 3]);
         (DVec2::new(x, y), z)
@@ -143,7 +143,7 @@ fn depth(outline: &[DVec2], p: DVec2) -> f64 {
 }
 
 /// Computes the expected points from samples, and how much each may be off; `None` if samples cannot decide.
-fn sampled(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
+fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
     let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES as f64);
     let held: Vec<usize> = (0..=SAMPLES)
         .filter(|&k| depth(outline, at(k)) >= -1e-12)
@@ -190,16 +190,16 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
         let other = with_edge(&mut rng, edge, &elsewhere);
         let back = placement.shift - elsewhere.shift;
         let (a, b) = (plate.pieces().get(0), other.pieces().get(0));
-        let found: Vec<DVec3> = beside_edges(&a, &b, |p| p + back, REACH).collect();
+        let found: Vec<DVec3> = points_beside_edges(&a, &b, |p| p + back, REACH).collect();
         let expected = if height > 0.0 {
             Some(Vec::new())
         } else {
-            sampled(&outline, ends)
+            expected_points(&outline, ends)
         };
         let Some(expected) = expected else { continue };
         assert_eq!(found.len(), expected.len(), "{outline:?} {ends:?}");
         for p in found {
-            let (p, height) = placement.unplace(p);
+            let (p, height) = placement.to_plate_plane(p);
             let near = |q: &DVec2| q.distance(p) <= 2.0 * accuracy(ends);
             assert!(
                 height == 0.0 && expected.iter().any(near),
@@ -220,7 +220,7 @@ fn pieces_in_one_plane_have_no_points() {
         polytope(corners.to_vec(), &[&[0, 1, 2], &[2, 1, 0]])
     });
     let (a, b) = (a.pieces().get(0), b.pieces().get(0));
-    assert_eq!(beside_edges(&a, &b, |p| p, REACH).count(), 0);
+    assert_eq!(points_beside_edges(&a, &b, |p| p, REACH).count(), 0);
     let tilted = |p: DVec3| p.with_z(1.0 - p.y);
-    assert_eq!(beside_edges(&a, &b, tilted, REACH).count(), 2);
+    assert_eq!(points_beside_edges(&a, &b, tilted, REACH).count(), 2);
 }

@@ -42,7 +42,7 @@ fn plates_that_fall_flat_meet_at_little_cost() {
 
 /// Returns the triangles of a right-handed thread about z with a pitch of 1. The arguments are the distances of root
 /// and crest from the axis.
-fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
+fn screw_thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
     const SEGMENTS: usize = 24;
     let profile = [
         (root, 0.0),
@@ -69,7 +69,10 @@ fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
 /// Tests a bolt that turns in a nut and keeps its distance all the time.
 #[test]
 fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
-    let (bolt, nut) = (body(&thread(2.0, 2.4, 5)), body(&thread(2.15, 2.55, 3)));
+    let (bolt, nut) = (
+        body(&screw_thread(2.0, 2.4, 5)),
+        body(&screw_thread(2.15, 2.55, 3)),
+    );
     let config = Settings {
         tolerance: 1e-4,
         ..Settings::DEFAULT

@@ -37,7 +37,7 @@ impl Solid {
     }
 
     /// Returns the greatest present rate at which a point rises along `n` by rotation.
-    fn fastest(&self, n: DVec3) -> f64 {
+    fn max_rotational_rate(&self, n: DVec3) -> f64 {
         let m = n.cross(self.spin);
         let rates = self.points.iter().map(|&x| m.dot(x - self.centre));
         rates.fold(f64::NEG_INFINITY, greater)
@@ -49,7 +49,7 @@ impl Solid {
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
 
-    fn far(&self) -> f64 {
+    fn size_bound(&self) -> f64 {
         let reach = self.points.iter().map(|x| x.length()).fold(0.0, greater);
         (reach + 2.0 * self.centre.length()) * (1.0 + self.spin.length())
     }
@@ -61,7 +61,7 @@ struct Sample<C, P> {
     other: P,
     motion: RelativeMotionF32,
     /// The gap to keep, which is the slack minus the rounding of a gap.
-    kept: f64,
+    kept_gap: f64,
     /// The error of a gap for which the slack allows.
     allowed: f32,
     children: Vec<Solid>,
@@ -73,43 +73,43 @@ struct Sample<C, P> {
 
 /// The largest errors among the samples, as shares of their allowances.
 #[derive(Debug, Default)]
-struct Worst {
+struct WorstShares {
     support: f64,
     rate: f64,
     across: f64,
     clock: f64,
     /// The smallest excess of a gap over the gap to keep at the end of a free time, relative to that at the start.
-    tightest: f64,
+    min_relative_excess: f64,
     /// The number of free times that fixed planes gave.
     still: usize,
-    attached: usize,
+    attached_count: usize,
     /// The number of free times of bodies that accelerate.
     accelerating: usize,
-    for_good: usize,
+    unbounded_count: usize,
 }
 
 #[test]
 fn planes_hold_and_allowances_suffice_for_boxes() {
     let mut rng = rng(1);
-    let mut worst = Worst::new();
+    let mut worst = WorstShares::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng);
         let sample = Setting::new(&mut rng, &other).boxes(&mut rng, &other);
-        sample.audit(&mut rng, &mut worst);
+        sample.check_random_axes(&mut rng, &mut worst);
     }
-    worst.assert();
+    worst.assert_within_allowances();
 }
 
 #[test]
 fn planes_hold_and_allowances_suffice_for_triangles() {
     let mut rng = rng(2);
-    let mut worst = Worst::new();
+    let mut worst = WorstShares::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng).triangle();
         let sample = Setting::new(&mut rng, &other).triangles(&mut rng, &other);
-        sample.audit(&mut rng, &mut worst);
+        sample.check_random_axes(&mut rng, &mut worst);
     }
-    worst.assert();
+    worst.assert_within_allowances();
 }
 
 /// The values that the bounds compute along one axis, before they become eight free times: one number for each child.
@@ -144,23 +144,29 @@ impl AxisValues {
     }
 }
 
-impl Worst {
+impl WorstShares {
     fn new() -> Self {
-        Worst {
-            tightest: f64::INFINITY,
-            ..Worst::default()
+        WorstShares {
+            min_relative_excess: f64::INFINITY,
+            ..WorstShares::default()
         }
     }
 
-    fn assert(&self) {
+    fn assert_within_allowances(&self) {
         assert!(self.support < 1.0, "{self:?}");
         assert!(self.rate < 1.0, "{self:?}");
         assert!(self.across < 1.0, "{self:?}");
         assert!(self.clock < 1.0, "{self:?}");
         // Samples that come nowhere near the bounds would prove nothing.
-        assert!(self.tightest < 0.01, "{self:?}");
-        assert!(self.still > 20_000 && self.attached > 2_000, "{self:?}");
-        assert!(self.accelerating > 5_000 && self.for_good > 500, "{self:?}");
+        assert!(self.min_relative_excess < 0.01, "{self:?}");
+        assert!(
+            self.still > 20_000 && self.attached_count > 2_000,
+            "{self:?}"
+        );
+        assert!(
+            self.accelerating > 5_000 && self.unbounded_count > 500,
+            "{self:?}"
+        );
     }
 }
 
@@ -175,8 +181,8 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     let pairs = sample.pairs(level);
     let some = axis::oriented_towards(Vec3x8::splat(level, some), pairs.offset);
     let axes = [
-        widest(&pairs),
-        passing(&pairs),
+        widest_axis(&pairs),
+        closest_approach_axis(&pairs),
         axis::axis_along(pairs.children, pairs.other, pairs.offset, some),
     ];
     axes.map(|axis| along(&pairs, axis))
@@ -185,12 +191,14 @@ fn find<L: Simd, C: Children, P: OtherNode>(
 type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
-fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
+fn widest_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
     axis::widest_axis(pairs.children, pairs.other, pairs.offset)
 }
 
 #[inline(never)]
-fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
+fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+) -> Axis<L> {
     let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
     axis::closest_approach_axis(pairs.children, pairs.other, pairs.offset, travel)
 }
@@ -202,8 +210,8 @@ fn along<L: Simd, C: Children, P: OtherNode>(
 ) -> AxisValues {
     let motion = pairs.motion;
     let (m, o) = (
-        motion.split.cross_spin(axis.n),
-        motion.other.cross_spin(axis.n),
+        motion.split.cross_angular_velocity(axis.n),
+        motion.other.cross_angular_velocity(axis.n),
     );
     let rate =
         axis.n.dot(pairs.velocity) + pairs.children.extent_along(m) + pairs.other.extent_along(o);
@@ -245,7 +253,7 @@ fn free_with_other<L: Simd, C: Children, P: OtherNode>(
 }
 
 /// Returns the [free times](clock::free_time) of eight pairs with these gaps, rates and second derivatives.
-fn clocks(
+fn free_times(
     level: Level,
     aparts: &[f32; LANES],
     rates: &[f32; LANES],
@@ -264,7 +272,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         EightPairs::new(level, &self.group, &self.other, &self.motion)
     }
 
-    fn audit(&self, rng: &mut Pcg64, worst: &mut Worst) {
+    fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstShares) {
         // Axes may have any length.
         let some = direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
         let found = self.found_on_all_levels(some);
@@ -274,11 +282,11 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let reach = reach.into_iter().fold(0.0, greater);
         for found in &found {
             self.sample_allowances(found, worst);
-            self.check_still(found, worst);
+            self.check_fixed_plane(found, worst);
             if reach > MUCH_LARGER_RATIO * self.other.radius() {
-                self.check_attached(found, Larger::Split, worst);
+                self.check_turning_plane(found, LargerBody::Split, worst);
             } else if self.other.radius() > MUCH_LARGER_RATIO * reach {
-                self.check_attached(found, Larger::Other, worst);
+                self.check_turning_plane(found, LargerBody::Other, worst);
             }
         }
     }
@@ -294,7 +302,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Compares each rounded value with the same in f64, and records the error.
-    fn sample_allowances(&self, found: &AxisValues, worst: &mut Worst) {
+    fn sample_allowances(&self, found: &AxisValues, worst: &mut WorstShares) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
             let of = self.shares(found, &frees, lane);
@@ -305,17 +313,17 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    fn travel(&self, tau: f64) -> DVec3 {
+    fn displacement(&self, tau: f64) -> DVec3 {
         (self.velocity + self.acceleration * (0.5 * tau)) * tau
     }
 
     /// Checks that a fixed plane keeps the pair apart for its whole free time.
-    fn check_still(&self, found: &AxisValues, worst: &mut Worst) {
+    fn check_fixed_plane(&self, found: &AxisValues, worst: &mut WorstShares) {
         let [free, ..] = found.free;
         for (lane, free) in free.into_iter().enumerate() {
             let n = found.normal(lane);
             let gap = |tau: f64| {
-                let child = self.children[lane].highest(n, tau) + n.dot(self.travel(tau));
+                let child = self.children[lane].highest(n, tau) + n.dot(self.displacement(tau));
                 (-self.far.highest(-n, tau) - child) / n.length()
             };
             worst.still += usize::from(self.check(lane, free, gap, worst));
@@ -323,36 +331,42 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Checks that a plane that turns with a body keeps the pair apart for its whole free time.
-    fn check_attached(&self, found: &AxisValues, with: Larger, worst: &mut Worst) {
+    fn check_turning_plane(&self, found: &AxisValues, with: LargerBody, worst: &mut WorstShares) {
         let [_, with_split, with_other] = found.free;
         let free = match with {
-            Larger::Split => with_split,
-            Larger::Other => with_other,
+            LargerBody::Split => with_split,
+            LargerBody::Other => with_other,
         };
         for (lane, child) in self.children.iter().enumerate() {
             assert!(free[lane] <= MAX_TURNING_PLANE_TIME);
             let spin = match with {
-                Larger::Split => child.spin,
-                Larger::Other => self.far.spin,
+                LargerBody::Split => child.spin,
+                LargerBody::Other => self.far.spin,
             };
             let gap = |tau: f64| {
                 let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
-                let top = child.highest(n, tau) + n.dot(self.travel(tau));
+                let top = child.highest(n, tau) + n.dot(self.displacement(tau));
                 (-self.far.highest(-n, tau) - top) / n.length()
             };
-            worst.attached += usize::from(self.check(lane, free[lane], gap, worst));
+            worst.attached_count += usize::from(self.check(lane, free[lane], gap, worst));
         }
     }
 
     /// Checks one free time against samples of a gap, and returns whether there was a free time.
-    fn check(&self, lane: usize, free: f32, gap: impl Fn(f64) -> f64, worst: &mut Worst) -> bool {
+    fn check(
+        &self,
+        lane: usize,
+        free: f32,
+        gap: impl Fn(f64) -> f64,
+        worst: &mut WorstShares,
+    ) -> bool {
         assert!(free >= 0.0, "{:?}", self.motion);
         if free == 0.0 {
             return false;
         }
-        let kept = self.kept;
+        let kept = self.kept_gap;
         let travel = self.velocity.length() + self.acceleration.length();
-        let size = self.children[lane].far() + self.far.far() + travel;
+        let size = self.children[lane].size_bound() + self.far.size_bound() + travel;
         let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
             let tau = until * f64::from(k) / 16.0;
@@ -364,9 +378,9 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             );
         }
         worst.accelerating += usize::from(self.motion.acceleration.is_some());
-        worst.for_good += usize::from(free == f32::INFINITY);
+        worst.unbounded_count += usize::from(free == f32::INFINITY);
         let rest = (gap(until) - kept) / (gap(0.0) - kept);
-        worst.tightest = lesser(worst.tightest, rest);
+        worst.min_relative_excess = lesser(worst.min_relative_excess, rest);
         true
     }
 }

@@ -15,14 +15,14 @@ const SAMPLES: usize = 17;
 struct Tally {
     /// The number of lanes with a free time, all of which are checked.
     free: usize,
-    none: usize,
+    no_free_time: usize,
     /// The number of free times that only planes turning with a body give.
     attached: usize,
     /// The number of lanes whose pieces are not apart at the clock.
     overlapping: usize,
     /// The number of samples proven apart by one axis.
-    by_axis: usize,
-    by_pieces: usize,
+    proven_by_axis: usize,
+    proven_by_pieces: usize,
     /// The number of splits by the kind of the split node, and by that of the other node.
     by_role: [usize; 2],
     boxes: usize,
@@ -53,13 +53,13 @@ fn free_times_hold_near_the_rim_of_a_turning_body() {
 #[test]
 fn overlapping_pairs_get_no_free_time_though_they_recede() {
     let tally = audit(Kind::Receding, 4, 20_000);
-    assert!(4 * tally.none > tally.free, "{tally:?}");
+    assert!(4 * tally.no_free_time > tally.free, "{tally:?}");
     assert!(tally.overlapping > 200, "{tally:?}");
 }
 
 fn shares_are_substantial(tally: &Tally) {
-    assert!(20 * tally.none > tally.free, "{tally:?}");
-    assert!(8 * tally.free > tally.none, "{tally:?}");
+    assert!(20 * tally.no_free_time > tally.free, "{tally:?}");
+    assert!(8 * tally.free > tally.no_free_time, "{tally:?}");
     assert!(
         tally.by_role.iter().all(|&n| 4 * n > tally.free),
         "{tally:?}"
@@ -77,7 +77,7 @@ fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
         if tally.free >= lanes {
             break;
         }
-        let scene = scene(&mut rng, kind, 200).at_times_accelerating(&mut rng);
+        let scene = scene(&mut rng, kind, 200).with_random_accelerations(&mut rng);
         let audit = Audit {
             problem: &scene.problem(),
             scene: &scene,
@@ -99,7 +99,7 @@ struct Audit<'a> {
 /// A lane of an expansion: the child, the other node, and the interval of its free time.
 #[derive(Debug)]
 struct Lane {
-    split: Which,
+    split: WhichBody,
     child: NodeId,
     other: NodeId,
     from: f64,
@@ -115,14 +115,14 @@ impl Audit<'_> {
             let open = [a.piece(ids[0]).is_none(), b.piece(ids[1]).is_none()];
             let split = match open {
                 [false, false] => return,
-                [true, false] => Which::A,
-                [false, true] => Which::B,
-                _ if rng.random_bool(0.5) => Which::A,
-                _ => Which::B,
+                [true, false] => WhichBody::A,
+                [false, true] => WhichBody::B,
+                _ if rng.random_bool(0.5) => WhichBody::A,
+                _ => WhichBody::B,
             };
             let (node, other) = match split {
-                Which::A => (ids[0], ids[1]),
-                Which::B => (ids[1], ids[0]),
+                WhichBody::A => (ids[0], ids[1]),
+                WhichBody::B => (ids[1], ids[0]),
             };
             let s = self.clock(rng);
             let expansion = expand(
@@ -139,7 +139,7 @@ impl Audit<'_> {
 
     /// Returns a clock at which the bodies are near each other, or a random one.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
-        let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
+        let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.passage_time;
         match rng.random_range(0..8) {
             0 => 0.0,
             1 | 2 => rng.random_range(0.0..1.0),
@@ -150,7 +150,7 @@ impl Audit<'_> {
 
     /// Chooses the child with which to continue, mostly the one of least free time.
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
-        let free = |k: &u32| expansion.bounds.free.time_of_lane(*k as usize);
+        let free = |k: &u32| expansion.bounds.free_times.time_of_lane(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
         if rng.random_bool(0.8) {
             least.unwrap_or(0)
@@ -160,13 +160,13 @@ impl Audit<'_> {
     }
 
     /// Returns the number of a node's children, and whether they are triangles.
-    fn below(&self, split: Which, node: NodeId) -> (u32, bool) {
+    fn below(&self, split: WhichBody, node: NodeId) -> (u32, bool) {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
             NodeOrTriangle::Node(node) => match node.below {
-                Below::Boxes(group) => (tree.box_group(group).members.count, false),
-                Below::Triangles(group) => (tree.triangle_members(group).count, true),
-                Below::Piece(_) => (0, false),
+                NodeChildren::Boxes(group) => (tree.box_group(group).members.count, false),
+                NodeChildren::Triangles(group) => (tree.triangle_members(group).count, true),
+                NodeChildren::Piece(_) => (0, false),
             },
             NodeOrTriangle::Triangle(_) => (0, false),
         }
@@ -175,16 +175,16 @@ impl Audit<'_> {
     fn check(
         &self,
         expansion: &Expansion,
-        split: Which,
+        split: WhichBody,
         node: NodeId,
         other: NodeId,
         s: f64,
         tally: &mut Tally,
     ) {
-        let still = planes_that_stand_still(self.problem, split, node, other, s);
+        let still = expand_with_fixed_planes(self.problem, split, node, other, s);
         let (count, triangles) = self.below(split, node);
         for lane in 0..count {
-            let free = expansion.bounds.free.time_of_lane(lane as usize);
+            let free = expansion.bounds.free_times.time_of_lane(lane as usize);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = Lane {
                 split,
@@ -197,7 +197,8 @@ impl Audit<'_> {
                 self.verify(&pair, tally);
                 tally.free += 1;
                 tally.by_role[split as usize] += 1;
-                tally.attached += usize::from(free > 1.5 * still.free.time_of_lane(lane as usize));
+                tally.attached +=
+                    usize::from(free > 1.5 * still.free_times.time_of_lane(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
                 tally.against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
@@ -206,7 +207,7 @@ impl Audit<'_> {
                     tally.boxes += 1;
                 }
             } else {
-                tally.none += 1;
+                tally.no_free_time += 1;
                 tally.overlapping += usize::from(self.overlap(&pair));
             }
         }
@@ -223,13 +224,13 @@ impl Audit<'_> {
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
-        let mut prover = Prover::default();
+        let mut prover = AxisSearch::default();
         for k in 0..SAMPLES {
             let share = k as f64 / (SAMPLES - 1) as f64;
             let s = lane.from + share * (lane.until - lane.from);
             let (near, far) = self.at(lane, s);
             if prover.separates(&near, &far, kept) {
-                tally.by_axis += 1;
+                tally.proven_by_axis += 1;
             } else {
                 let least = self.least_distance(&near, &far, kept);
                 assert!(
@@ -237,7 +238,7 @@ impl Audit<'_> {
                     "{:?}: {least:e} apart at {s}, {kept:e} promised: {lane:?}",
                     self.name,
                 );
-                tally.by_pieces += 1;
+                tally.proven_by_pieces += 1;
             }
         }
     }
@@ -246,7 +247,7 @@ impl Audit<'_> {
         let mut least = f64::INFINITY;
         for a in near {
             for b in far {
-                let mut prover = Prover::default();
+                let mut prover = AxisSearch::default();
                 if !(enough > 0.0 && prover.separates(&[*a], &[*b], enough)) {
                     least = lesser(least, nearest(a, b).distance);
                 }
@@ -257,7 +258,7 @@ impl Audit<'_> {
 
     /// Returns the triangles below both nodes, at the poses at a clock.
     fn at(&self, lane: &Lane, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
-        let placed = |which: Which, id: NodeId| {
+        let placed = |which: WhichBody, id: NodeId| {
             let side = which.of(self.problem);
             let frame = side.path.frame(s);
             let mut out = Vec::new();
@@ -279,14 +280,14 @@ impl Audit<'_> {
 }
 
 /// Calls `visit` with all pieces below a node.
-fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
+fn below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     let tree = side.body.tree();
     let members = match tree.get(id) {
         NodeOrTriangle::Triangle(piece) => return visit(piece),
         NodeOrTriangle::Node(node) => match node.below {
-            Below::Piece(piece) => return visit(piece),
-            Below::Boxes(group) => tree.box_group(group).members,
-            Below::Triangles(group) => *tree.triangle_members(group),
+            NodeChildren::Piece(piece) => return visit(piece),
+            NodeChildren::Boxes(group) => tree.box_group(group).members,
+            NodeChildren::Triangles(group) => *tree.triangle_members(group),
         },
     };
     for k in 0..members.count {
@@ -296,11 +297,11 @@ fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
 
 /// Searches for an axis that separates two sets of triangles, starting with the axis that did last time.
 #[derive(Default)]
-struct Prover {
+struct AxisSearch {
     axis: Option<DVec3>,
 }
 
-impl Prover {
+impl AxisSearch {
     fn separates(&mut self, a: &[Triangle], b: &[Triangle], kept: f64) -> bool {
         let mut axis = self.axis.unwrap_or_else(|| b[0][0] - a[0][0]);
         // The nearest point found so far of the difference of the hulls.
@@ -309,7 +310,7 @@ impl Prover {
             let Some(n) = axis.try_normalize() else {
                 return false;
             };
-            let support = lowest(b, n) - lowest(a, -n);
+            let support = lowest_point(b, n) - lowest_point(a, -n);
             if n.dot(support) > kept {
                 self.axis = Some(n);
                 return true;
@@ -329,7 +330,7 @@ impl Prover {
     }
 }
 
-fn lowest(triangles: &[Triangle], n: DVec3) -> DVec3 {
+fn lowest_point(triangles: &[Triangle], n: DVec3) -> DVec3 {
     let points = triangles.iter().flatten().copied();
     points
         .map(|p| (n.dot(p), p))
@@ -340,9 +341,9 @@ fn lowest(triangles: &[Triangle], n: DVec3) -> DVec3 {
 }
 
 /// Like [`expand`], with fixed planes only.
-fn planes_that_stand_still(
+fn expand_with_fixed_planes(
     problem: &Problem<'_>,
-    split: Which,
+    split: WhichBody,
     node: NodeId,
     other: NodeId,
     s: f64,
@@ -356,16 +357,16 @@ fn planes_that_stand_still(
     vectorize!(problem.level, level => {
         let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::OfMotion);
         match below.below {
-            Below::Boxes(group) => {
+            NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
                 still(&motion, group, &group.members)
             }
-            Below::Triangles(group) => {
+            NodeChildren::Triangles(group) => {
                 let pieces = split.of(problem).body.pieces();
                 let group = &tree.triangle_group(group, pieces);
                 still(&motion, group, &group.members)
             }
-            Below::Piece(_) => panic!("a node to split"),
+            NodeChildren::Piece(_) => panic!("a node to split"),
         }
     })
 }
@@ -376,7 +377,7 @@ fn planes_that_stand_still(
 fn still<L: Simd, C: Children>(
     motion: &RelativeMotion<'_, L>,
     group: &C,
-    members: &Members,
+    members: &GroupHeader,
 ) -> Bounds {
     let far = motion.other_side;
     let radius = match far.body.tree().get(motion.split.other) {
@@ -391,7 +392,7 @@ fn still<L: Simd, C: Children>(
         }
     };
     let much = 0.99 * MUCH_LARGER_RATIO;
-    let members = Members {
+    let members = GroupHeader {
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };

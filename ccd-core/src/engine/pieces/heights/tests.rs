@@ -9,7 +9,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::settings::Settings;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use glam::DQuat;
 
 /// Draws 4 to 5,000 points in space, on a sphere, in a plane, or on a line.
@@ -18,7 +18,7 @@ fn points(rng: &mut Pcg64, kind: usize, size: f64) -> Vec<DVec3> {
     let [u, v] = [direction(rng), direction(rng)];
     let offset = direction(rng) * magnitude(rng, -3.0, 3.0);
     let place = |rng: &mut Pcg64| match kind {
-        0 => within(rng, 1.0),
+        0 => point_in_ball(rng, 1.0),
         1 => direction(rng),
         2 => u * rng.random_range(-1.0..1.0) + v * rng.random_range(-1.0..1.0),
         _ => u * rng.random_range(-1.0..1.0),
@@ -40,7 +40,8 @@ fn many_points_are_bounded_like_all_of_them() {
         let spin = direction(&mut rng) * [0.0, magnitude(&mut rng, -6.0, 3.0)][number % 2];
         let velocity = direction(&mut rng) * magnitude(&mut rng, -3.0, 2.0) * size;
         let start = Pose::new(size * direction(&mut rng), rotation(&mut rng)).unwrap();
-        let motion = Motion::about(start, velocity, spin, size * within(&mut rng, 2.0)).unwrap();
+        let motion =
+            Motion::about(start, velocity, spin, size * point_in_ball(&mut rng, 2.0)).unwrap();
         let ball = Body::sphere(0.1).unwrap();
         let (moving, still) = ((&body, motion), (&ball, Motion::STILL));
         let linear_acceleration =
@@ -75,7 +76,7 @@ fn many_points_are_bounded_like_all_of_them() {
         assert!((heights.least_height() - twin.least_height()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
             let (bound, all) = (heights.bound_all(tau), twin.bound_all(tau));
-            if piece.points.len() <= MAX_FEW {
+            if piece.points.len() <= MAX_TRACKED_POINTS {
                 continue;
             }
             assert!(
@@ -114,16 +115,16 @@ fn points_rise_and_sink_as_their_body_turns() {
     for number in 0..400 {
         let count = [1, 2, 3, 4, 400][number % 5];
         let cloud = Polytope {
-            points: (0..count).map(|_| within(&mut rng, 1.0)).collect(),
+            points: (0..count).map(|_| point_in_ball(&mut rng, 1.0)).collect(),
             ..Polytope::default()
         };
         let body = Body::polytope(cloud).unwrap();
         let spin = direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 1.0)][number / 5 % 2];
-        let start = Pose::new(within(&mut rng, 1.0), rotation(&mut rng)).unwrap();
-        let (velocity, centre) = (within(&mut rng, 1.0), within(&mut rng, 1.0));
+        let start = Pose::new(point_in_ball(&mut rng, 1.0), rotation(&mut rng)).unwrap();
+        let (velocity, centre) = (point_in_ball(&mut rng, 1.0), point_in_ball(&mut rng, 1.0));
         let motion = Motion::about(start, velocity, spin, centre).unwrap();
         let moving = (&body, motion);
-        let acceleration = within(&mut rng, [0.0, 1.0][number / 10 % 2]);
+        let acceleration = point_in_ball(&mut rng, [0.0, 1.0][number / 10 % 2]);
         let (bodies, pulls) = (
             [moving, (&ball, Motion::STILL)],
             [acceleration, DVec3::ZERO],
@@ -198,7 +199,10 @@ impl ReferenceHeights {
         assert!(is(heights.least_height(), self.least_of(0.0, |p| p.height)));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
-        assert_eq!(heights.few_tracks().is_some(), self.arms.len() <= MAX_FEW);
+        assert_eq!(
+            heights.few_tracks().is_some(),
+            self.arms.len() <= MAX_TRACKED_POINTS
+        );
         for tau in [0.0, 0.1, 0.5, 1.0] {
             let bound = heights.bound_all(tau);
             assert!(is(bound.height, self.least_of(tau, |p| p.height)));
@@ -207,7 +211,7 @@ impl ReferenceHeights {
                 -bound.second_derivative <= self.least_of(tau, |p| -p.second_derivative) + 1e-12
             );
             let both = |p: &Point| p.height + p.rate;
-            let least = heights.least_of(tau, both);
+            let least = heights.least_value_after(tau, both);
             assert!(least <= self.least_of(tau, both) + 1e-11 * (1.0 + rate * rate));
             let Some(few) = heights.few_tracks() else {
                 continue;

@@ -8,7 +8,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::query::Moving;
 use crate::settings::Settings;
-use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 
 /// Creates a ball of radius 1 at `x` that moves along −x by `speed`, and a resting ball at the origin.
 fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
@@ -27,7 +27,7 @@ fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
     for _ in 0..128 {
-        match pair.advance(problem, &mut Exhaustive, &mut Meter::new(problem), s) {
+        match pair.advance(problem, &mut ExhaustiveOracle, &mut Meter::new(problem), s) {
             Step::FreeUntil(clock) if clock < 1.0 => {
                 assert!(clock > s);
                 s = clock;
@@ -90,14 +90,14 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     // The contact is never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
     // A second touch after parting is a contact at the query's own tolerance.
-    let (s, step) = returning(&config, run);
+    let (s, step) = with_returning_bar(&config, run);
     assert!(matches!(step, Step::Contact(_)));
     let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
     assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
 }
 
 /// Creates a bar that turns about z away from the one it touches, and back to it from the other side.
-fn returning<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+fn with_returning_bar<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let bar = Body::capsule(0.1, 1.0).unwrap();
     let ball = Body::sphere(0.1).unwrap();
     let turn = std::f64::consts::TAU;
@@ -112,7 +112,7 @@ fn returning<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
 #[test]
 fn an_oracle_that_gives_up_is_counted() {
     let (step, stats) = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
-        let mut oracle = Always(Err(GiveUp::StepCap));
+        let mut oracle = ConstantOracle(Err(GiveUp::StepCap));
         let mut meter = Meter::new(problem);
         let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
         (step, meter.stats)
@@ -140,7 +140,7 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
         let step = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
             Pair::new(0, 0).advance(
                 problem,
-                &mut Always(Ok(claim)),
+                &mut ConstantOracle(Ok(claim)),
                 &mut Meter::new(problem),
                 0.0,
             )

@@ -6,7 +6,7 @@ mod resting;
 
 use super::*;
 use crate::tests::nearest::nearest;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, RngExt, direction, magnitude, rng, scene};
 
 const SAMPLES: u32 = 32;
@@ -70,7 +70,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
         let checked = snapshot
-            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         assert_eq!(meter.stats.oracle_calls, 1);
         let kept = problem.gap();

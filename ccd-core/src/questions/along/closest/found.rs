@@ -4,10 +4,10 @@ use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
-use crate::questions::along::motions::{Motions, Span};
+use crate::questions::along::motions::{Span, StretchMotions};
 use crate::questions::along::stretches::Stretches;
-use crate::questions::closest::ladder::{Ladder, Rung};
-use crate::settings::Terms;
+use crate::questions::closest::ladder::{LowerBoundLadder, MarginQuery};
+use crate::settings::QuerySettings;
 use crate::shortcuts::bounding_volumes::least_distance;
 use crate::tuning::MIN_CUT_SHARE;
 
@@ -15,7 +15,7 @@ impl Query<'_> {
     /// Returns the query for measuring distances, with a margin of 0.
     pub(in crate::questions::along) fn for_distances(&self) -> Self {
         Query {
-            terms: Terms {
+            terms: QuerySettings {
                 margin: 0.0,
                 clearance: None,
                 ..self.terms
@@ -26,14 +26,14 @@ impl Query<'_> {
     }
 
     /// Returns the query for contacts with the margin, tolerance and budget of a rung.
-    pub(super) fn asking(&self, rung: Rung) -> Self {
-        let Rung {
+    pub(super) fn contact_query(&self, rung: MarginQuery) -> Self {
+        let MarginQuery {
             margin,
             tolerance,
             budget,
         } = rung;
         let mut asking = self.for_distances();
-        asking.terms = Terms {
+        asking.terms = QuerySettings {
             margin,
             tolerance,
             budget,
@@ -49,7 +49,7 @@ pub(super) struct StretchResult {
     pub(super) upper: f64,
     /// The most by which the bodies' distance differs from that of the approximate motions: the sum of both bodies'
     /// deviations.
-    pub(super) blur: f64,
+    pub(super) total_deviation: f64,
     /// The time in the stretch at which the motions are nearest.
     pub(super) time: f64,
     /// The rate at which the motions approach each other at that time.
@@ -63,7 +63,7 @@ impl StretchResult {
         StretchResult {
             lower,
             upper: lower,
-            blur: 0.0,
+            total_deviation: 0.0,
             time: 0.0,
             approach: 0.0,
         }
@@ -73,12 +73,12 @@ impl StretchResult {
     /// help then.
     pub(super) fn is_limited_by_rounding(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
-        width > tolerance && self.blur <= width
+        width > tolerance && self.total_deviation <= width
     }
 
     /// Returns the first or last time of the stretch if the motions are nearest there and approach so fast beyond it
     /// that, over another such length, the distance would fall by more than the deviations; `None` otherwise.
-    pub(super) fn end_with_decrease_beyond(&self, motions: &Motions) -> Option<f64> {
+    pub(super) fn end_with_decrease_beyond(&self, motions: &StretchMotions) -> Option<f64> {
         let Span { from, to, .. } = motions.span;
         let (near, falls) = (
             MIN_CUT_SHARE * motions.span.length(),
@@ -101,12 +101,12 @@ pub(super) struct BestSoFar {
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
     /// The lower bound that is proven for all times.
-    pub(super) ladder: Ladder,
+    pub(super) ladder: LowerBoundLadder,
 }
 
 impl BestSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
-        let ladder = Ladder::new(0.0, query.terms.budget);
+        let ladder = LowerBoundLadder::new(0.0, query.terms.budget);
         let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
         BestSoFar {
             lower: f64::INFINITY,
@@ -130,13 +130,13 @@ impl BestSoFar {
     /// The limit that was reached.
     pub(super) fn record(
         &mut self,
-        motions: &Motions,
+        motions: &StretchMotions,
         outcome: &Outcome,
     ) -> Result<StretchResult, Limit> {
         let mut seen = StretchResult {
             lower: 0.0,
             upper: 0.0,
-            blur: motions.stray,
+            total_deviation: motions.stray,
             time: 0.0,
             approach: 0.0,
         };
@@ -198,7 +198,7 @@ impl BestSoFar {
         reason: Limit,
     ) -> Answer {
         let apart = |&span: &Span| {
-            let motions = Motions::new(query, span)?;
+            let motions = StretchMotions::new(query, span)?;
             let problem = motions.problem(query, &query.terms)?;
             Ok(motions.lower_bound_for_bodies(least_distance(&problem)))
         };

@@ -15,7 +15,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
     let mut rng = rng(6);
     let mut ended = 0;
     for number in 0..60 {
-        let mut swings = Swings::draw(&mut rng);
+        let mut swings = SwingingBodies::draw(&mut rng);
         let until = match swings.first() {
             Outcome::Contact { time, .. } => time,
             Outcome::Free { .. } => 1.0,
@@ -43,7 +43,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
 /// A trajectory that passes beside the origin back and forth along x, with a corner at each turn.
 struct Shuttle {
     laps: u32,
-    beside: f64,
+    lateral_offset: f64,
 }
 
 impl Shuttle {
@@ -55,7 +55,7 @@ impl Shuttle {
         } else {
             lap + 1.0 - way
         };
-        DVec3::new(2.0 * x - 1.0, self.beside, 0.0)
+        DVec3::new(2.0 * x - 1.0, self.lateral_offset, 0.0)
     }
 }
 
@@ -89,7 +89,7 @@ impl Trajectory for Shuttle {
 #[test]
 fn each_part_between_two_corners_has_a_budget() {
     let mut rng = rng(9);
-    let soup = soup(&mut rng, SoupKind::Plump, 40, 1.0);
+    let soup = soup(&mut rng, SoupKind::WellShaped, 40, 1.0);
     let (body, ball) = (body(&soup), Body::sphere(0.5).unwrap());
     let ask = |laps: u32, beside: f64, budget: u64| {
         let config = Settings {
@@ -97,13 +97,16 @@ fn each_part_between_two_corners_has_a_budget() {
             budget,
             ..Settings::DEFAULT
         };
-        let shuttle = Shuttle { laps, beside };
+        let shuttle = Shuttle {
+            laps,
+            lateral_offset: beside,
+        };
         let query = Query::new((&ball, &shuttle), (&body, &Motion::STILL), 1.0, &config);
         let query = query.unwrap();
-        let first = BestFirst::default().first_contact(&query, &mut Exhaustive);
-        let any = DepthFirst::default().any_contact(&query, &mut Exhaustive);
-        let closest = DepthFirst::default().closest_approach(&query, &mut Exhaustive);
-        let interval = BestFirst::default().contact_interval(&query, &mut Exhaustive);
+        let first = BestFirst::default().first_contact(&query, &mut ExhaustiveOracle);
+        let any = DepthFirst::default().any_contact(&query, &mut ExhaustiveOracle);
+        let closest = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
+        let interval = BestFirst::default().contact_interval(&query, &mut ExhaustiveOracle);
         (
             first.unwrap(),
             any.unwrap(),
@@ -204,7 +207,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
             ..Settings::DEFAULT
         };
         let query = Query::new((&ball, &hostile), (&ball, &far), 1.0, &config).unwrap();
-        BestFirst::default().first_contact(&query, &mut Exhaustive)
+        BestFirst::default().first_contact(&query, &mut ExhaustiveOracle)
     };
     let unresolved = Outcome::unresolved(0.0, Limit::Budget);
     assert_eq!(ask(f64::INFINITY, 0.0, 1e-9).unwrap().outcome, unresolved);

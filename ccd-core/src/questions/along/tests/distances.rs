@@ -6,7 +6,7 @@ use crate::answer::Limit;
 use crate::answer::Unresolved;
 
 /// Returns the least distance at equal time steps, so short that distances in between hardly differ.
-fn sampled(swings: &Swings) -> f64 {
+fn sampled(swings: &SwingingBodies) -> f64 {
     let distances = (0..=200).map(|k| swings.distance(f64::from(k) / 200.0));
     distances.fold(f64::INFINITY, lesser)
 }
@@ -16,12 +16,12 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     let mut rng = rng(21);
     let (mut kept, mut violated, mut between) = (0, 0, 0);
     for number in 0..200 {
-        let mut swings = Swings::draw(&mut rng);
+        let mut swings = SwingingBodies::draw(&mut rng);
         let tolerance = swings.config.tolerance;
         let least = sampled(&swings);
-        let ask = |swings: &Swings| {
+        let ask = |swings: &SwingingBodies| {
             let query = swings.query();
-            let answer = DepthFirst::default().closest_approach(&query, &mut Exhaustive);
+            let answer = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
             answer.unwrap().outcome
         };
         let known = ask(&swings);
@@ -76,15 +76,15 @@ fn budgets_end_a_search_with_bounds_that_hold() {
     let mut rng = rng(22);
     let (mut ended, mut proven) = (0, 0);
     for number in 0..100 {
-        let mut swings = Swings::draw(&mut rng);
+        let mut swings = SwingingBodies::draw(&mut rng);
         let least = sampled(&swings);
         let query = swings.query();
-        let whole = DepthFirst::default().closest_approach(&query, &mut Exhaustive);
+        let whole = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
         let work = whole.unwrap().stats.work();
         for share in [0.1, 0.5, 0.9] {
             swings.config.budget = (share * work as f64) as u64 + 1;
             let query = swings.query();
-            let answer = DepthFirst::default().closest_approach(&query, &mut Exhaustive);
+            let answer = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
             let outcome = answer.unwrap().outcome;
             assert!(
                 outcome.lower() <= least + ROUNDING,

@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// Returns the triangles of a surface of revolution about z, with a ring of corners at each radius and height.
-fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
+fn surface_of_revolution(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
     let at = |[r, z]: [f64; 2], k: u32| {
         let (sin, cos) = (TAU * f64::from(k % count) / f64::from(count)).sin_cos();
         DVec3::new(r * cos, r * sin, z)
@@ -29,12 +29,12 @@ fn revolved(outline: &[[f64; 2]], count: u32) -> Vec<Triangle> {
 /// Tests that the closest approach of a wheel on its axle takes at most twenty times the work of the first contact.
 #[test]
 fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
-    let wheel = body(&revolved(&[[5.2, 0.0], [5.2, 8.0]], 192));
-    let axle = body(&revolved(&[[5.0, -4.0], [5.0, 12.0]], 192));
+    let wheel = body(&surface_of_revolution(&[[5.2, 0.0], [5.2, 8.0]], 192));
+    let axle = body(&surface_of_revolution(&[[5.0, -4.0], [5.0, 12.0]], 192));
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, TAU * DVec3::Z).unwrap();
     let config = Settings::DEFAULT;
     let problem = Problem::about((&wheel, turns), (&axle, Motion::STILL), 1.0, &config).unwrap();
-    let first = BestFirst::default().solve(&problem, &mut Exhaustive);
+    let first = BestFirst::default().solve(&problem, &mut ExhaustiveOracle);
     assert!(matches!(first.outcome, Outcome::Free { .. }));
     let closest = approach(&problem);
     assert!(

@@ -4,7 +4,7 @@ use super::*;
 use crate::tests::scene::Scene;
 
 /// Returns the scene with an excess of half of `excess` on each body.
-fn exceeding(mut scene: Scene, excess: f64) -> Scene {
+fn scene_with_excess(mut scene: Scene, excess: f64) -> Scene {
     scene.bodies = scene
         .bodies
         .map(|body| body.with_excess(0.5 * excess).unwrap());
@@ -20,7 +20,7 @@ fn upper_bounds_have_the_excess_added_once() {
         let known = approach(&scene.problem());
         let size = scene.bodies[0].span() + scene.bodies[1].span();
         let excess = size * magnitude(&mut rng, -6.0, -1.0);
-        let scene = exceeding(scene, excess);
+        let scene = scene_with_excess(scene, excess);
         let found = approach(&scene.problem());
         let (outcome, upper) = (found.outcome, known.outcome.upper() + excess);
         assert_eq!(outcome.lower(), known.outcome.lower());
@@ -59,7 +59,7 @@ fn a_clearance_is_violated_by_more_than_the_excess_only() {
         let tolerance = scene.problem().tolerance;
         let size = scene.bodies[0].span() + scene.bodies[1].span();
         let excess = greater(8.0 * tolerance, size * magnitude(&mut rng, -6.0, -1.0));
-        scene = exceeding(scene, excess);
+        scene = scene_with_excess(scene, excess);
         for required in [
             lower - 2.0 * tolerance,
             upper + 0.3 * excess,

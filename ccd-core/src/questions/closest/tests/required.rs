@@ -85,7 +85,7 @@ fn a_required_distance_costs_little_more_than_a_margin() {
             required += approach(&scene.problem()).stats.work();
             scene.config.margin = distance;
             let problem = scene.problem();
-            let any = DepthFirst::default().any_contact_of(&problem, &mut Exhaustive);
+            let any = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
             margins += any.stats.work();
             measured += known.stats.work();
             scene.config.margin = 0.0;

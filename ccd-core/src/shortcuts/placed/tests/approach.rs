@@ -3,17 +3,17 @@
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Problem, Side};
+use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RATE_F64;
 use crate::settings::Settings;
 use crate::shortcuts::placed::{Approach, Placed};
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use glam::DVec3;
 
 /// Draws a motion of any speed and rotation, about a centre near the body or far from it.
-fn motion(tape: &mut Tape) -> Option<Motion> {
+fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let start = Pose::new(tape.vector(-20..=4), rotation(tape)).ok()?;
     let [velocity, spin, centre] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
     Motion::about(start, velocity, spin, centre).ok()
@@ -26,7 +26,7 @@ struct Sums {
     second_derivative: Double,
     speed: f64,
     size: f64,
-    plain_bend: f64,
+    plain_second_derivative: f64,
 }
 
 impl Sums {
@@ -37,11 +37,11 @@ impl Sums {
             second_derivative: zero,
             speed: 0.0,
             size: 0.0,
-            plain_bend: 0.0,
+            plain_second_derivative: 0.0,
         }
     }
 
-    fn add(&mut self, side: &Side<'_>, motion: &Motion, node: &Placed, n: DVec3, s: f64) {
+    fn add(&mut self, side: &BodyWithPath<'_>, motion: &Motion, node: &Placed, n: DVec3, s: f64) {
         let path = &side.path;
         let frame = path.frame(s);
         let centre = Double3::from(path.centre_at(s));
@@ -71,13 +71,13 @@ impl Sums {
         self.speed += path.speed() + path.rate * (length(arm) + node.radius);
         self.size += path.rate * node.radius;
         let from_axis = length(path.axis.cross(arm)) + node.radius;
-        self.plain_bend += length(n.cross(path.spin)) * path.rate * from_axis;
-        self.plain_bend += n.dot(path.acceleration);
+        self.plain_second_derivative += length(n.cross(path.spin)) * path.rate * from_axis;
+        self.plain_second_derivative += n.dot(path.acceleration);
     }
 }
 
 /// Returns the errors of the rate and the second derivative of two triangles, as shares of their allowances.
-fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
+fn shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));
     let motions = [motion(tape)?, motion(tape)?];
@@ -100,9 +100,9 @@ fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
     let allowed = RATE_F64 * (2.0 * sums.speed + sums.size);
     let rate = Double::from(found.rate) - Double::from(allowed);
     let rate = share((sums.rate - rate).get(), allowed);
-    let allowed = found.second_derivative - sums.plain_bend;
+    let allowed = found.second_derivative - sums.plain_second_derivative;
     let second_derivative = share(
-        (sums.second_derivative - Double::from(sums.plain_bend)).get(),
+        (sums.second_derivative - Double::from(sums.plain_second_derivative)).get(),
         allowed,
     );
     Some([rate, second_derivative])

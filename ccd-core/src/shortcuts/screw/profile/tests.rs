@@ -11,7 +11,7 @@ use crate::settings::Settings;
 use crate::shortcuts::placed::Placed;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::body;
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use glam::DVec3;
 
 /// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
@@ -74,7 +74,7 @@ fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     Some(worst)
 }
 
-fn axis(tape: &mut Tape, advance: f64) -> Option<ScrewAxis> {
+fn axis(tape: &mut RandomCase, advance: f64) -> Option<ScrewAxis> {
     let direction = unit(tape.vector(-40..=0).into())?;
     let origin = DVec3::from(tape.vector(-20..=4));
     Some(ScrewAxis::new(origin, direction, advance))

@@ -17,7 +17,7 @@ fn worst_advance() {
         let velocity = spin * advance + DVec3::from(tape.vector(-70..=-5));
         let motion = Motion::new(Pose::IDENTITY, velocity, spin).ok()?;
         let path = Path::new(&motion, DVec3::ZERO, 1.0);
-        if !path.turns() {
+        if !path.is_turning() {
             return None;
         }
         // The advance is along the axis, and the rest of the velocity is drift, as in a screw.

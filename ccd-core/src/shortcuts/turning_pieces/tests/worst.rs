@@ -3,7 +3,7 @@
 //! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
 //! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
 
-use super::super::{Turned, TurningPiece};
+use super::super::{HeightTerms, TurningPiece};
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::vector::unit;
 use crate::motion::Motion;
@@ -13,12 +13,12 @@ use crate::rounding::attached_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
 
 /// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
-fn motion(tape: &mut Tape) -> Option<Motion> {
+fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
     let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
     Motion::about(Pose::new(at, rotation(tape)).ok()?, velocity, spin, centre).ok()
@@ -35,7 +35,7 @@ struct Setting<'s> {
 impl Setting<'_> {
     /// Returns the computed height of the point, and its rate.
     fn found(&self, tau: f64) -> [Double; 2] {
-        let Turned {
+        let HeightTerms {
             height,
             axis,
             rate,
@@ -96,7 +96,7 @@ impl Setting<'_> {
 }
 
 /// Returns the errors of a height change, a rate and a second derivative, as shares of their allowances.
-fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
+fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let triangles = [(); 2].map(|()| [(); 3].map(|()| DVec3::from(tape.vector(-20..=4))));
     let bodies = triangles.map(|triangle| body(&[triangle]));
     let motions = [motion(tape)?, motion(tape)?];
@@ -105,7 +105,7 @@ fn shares(tape: &mut Tape) -> Option<[f64; 3]> {
     let snapshot = Snapshot::new(&problem, 0, 0, tape.fraction());
     let [own, other] = snapshot.moving_pieces();
     let normal = unit(tape.vector(-40..=0).into())?;
-    if !own.side.path.turns() {
+    if !own.side.path.is_turning() {
         return None;
     }
     let sweep = TurningPiece::new(&own, &other, normal, problem.rounding);

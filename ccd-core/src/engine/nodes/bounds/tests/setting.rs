@@ -2,14 +2,15 @@
 
 use super::{Sample, Solid};
 use crate::body::tree::{
-    Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, round_up_to_f32, unit_normal,
+    BoxGroup, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup, round_up_to_f32,
+    unit_normal,
 };
 use crate::engine::nodes::eight_pairs::BodyRotation;
 use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::math::order::greater;
 use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
-use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};
+use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rotation};
 use glam::{DMat3, DVec3, Vec3};
 
 fn spin(rng: &mut impl RngExt) -> DVec3 {
@@ -26,7 +27,7 @@ fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
     if rng.random_bool(0.3) {
         at
     } else {
-        at + within(rng, reach)
+        at + point_in_ball(rng, reach)
     }
 }
 
@@ -71,7 +72,7 @@ impl Shape {
             half: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
             rounding: 0.0,
             radius: farthest(&DVec3::length),
-            below: Below::Boxes(0),
+            below: NodeChildren::Boxes(0),
         };
         Shape { points, node }
     }
@@ -97,7 +98,7 @@ pub(super) struct Setting {
     origin: DVec3,
     velocity: DVec3,
     acceleration: Option<DVec3>,
-    spins: [DVec3; 2],
+    angular_velocities: [DVec3; 2],
     centres: [DVec3; 2],
 }
 
@@ -118,7 +119,7 @@ impl Setting {
             turn: DMat3::from_quat(rotation(rng)),
             place,
             size,
-            origin: within(rng, offset),
+            origin: point_in_ball(rng, offset),
             velocity: if rng.random_bool(0.8) {
                 direction(rng) * fast
             } else {
@@ -127,7 +128,7 @@ impl Setting {
             acceleration: rng
                 .random_bool(0.4)
                 .then(|| direction(rng) * far * magnitude(rng, -3.0, 2.0)),
-            spins: [spin(rng), spin(rng)],
+            angular_velocities: [spin(rng), spin(rng)],
             centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
         }
     }
@@ -150,7 +151,7 @@ impl Setting {
     pub(super) fn turning_in_place(self, spin: DVec3, arm: DVec3) -> Self {
         Setting {
             velocity: DVec3::ZERO,
-            spins: [DVec3::ZERO, spin],
+            angular_velocities: [DVec3::ZERO, spin],
             centres: [DVec3::ZERO, self.place + arm],
             ..self
         }
@@ -160,7 +161,7 @@ impl Setting {
         Solid {
             points: points.iter().map(|&p| p - self.origin).collect(),
             centre: self.centres[0],
-            spin: self.spins[0],
+            spin: self.angular_velocities[0],
         }
     }
 
@@ -172,13 +173,13 @@ impl Setting {
                 .map(|&p| self.turn * p + self.place)
                 .collect(),
             centre: self.centres[1],
-            spin: self.spins[1],
+            spin: self.angular_velocities[1],
         }
     }
 
     fn child_shape(&self, rng: &mut impl RngExt) -> Shape {
         let size = self.size * magnitude(rng, -2.0, 0.0);
-        let centre = self.origin + within(rng, self.size);
+        let centre = self.origin + point_in_ball(rng, self.size);
         Shape::of_size(rng, size, centre)
     }
 
@@ -211,7 +212,7 @@ impl Setting {
             .iter()
             .map(|s| [s.points[0], s.points[1], s.points[6]])
             .collect();
-        let row = TriangleRow::new(&corners, 0, self.origin);
+        let row = StoredTriangleGroup::new(&corners, 0, self.origin);
         let group = TriangleGroup::new(&row, &corners);
         let children = corners.iter().map(|t| self.child(t)).collect();
         let far = self.far(other);
@@ -240,8 +241,8 @@ impl Setting {
     ) -> Sample<C, P> {
         let turning = |k: usize| BodyRotation {
             is_turning: true,
-            spin: self.spins[k].as_vec3(),
-            rate: round_up_to_f32(self.spins[k].length()),
+            spin: self.angular_velocities[k].as_vec3(),
+            rate: round_up_to_f32(self.angular_velocities[k].length()),
             centre: self.centres[k].as_vec3(),
         };
         let (split, turning_far) = (turning(0), turning(1));
@@ -270,7 +271,7 @@ impl Setting {
             },
             group,
             other,
-            kept: f64::from(kept),
+            kept_gap: f64::from(kept),
             allowed,
             children,
             far,

@@ -1,6 +1,6 @@
 //! The errors of bounds, as shares of their allowances.
 
-use super::{AxisValues, Sample, clocks};
+use super::{AxisValues, Sample, free_times};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -9,7 +9,7 @@ use crate::settings::Instructions;
 use crate::tests::worst::share;
 
 /// The gaps, second derivatives and free times of eight pairs along an axis.
-pub(super) struct Clocks {
+pub(super) struct AxisFreeTimes {
     pub(super) apart: [f32; LANES],
     pub(super) second_derivative: [f32; LANES],
     pub(super) free: [f32; LANES],
@@ -39,7 +39,7 @@ pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
     /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
-    pub(super) fn clocks(&self, found: &AxisValues) -> Clocks {
+    pub(super) fn clocks(&self, found: &AxisValues) -> AxisFreeTimes {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
@@ -48,18 +48,19 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         });
         let closed = self.motion.closed;
         let level = Instructions::Best.level();
-        Clocks {
-            free: clocks(level, &apart, &found.rate, &second_derivative, closed),
+        AxisFreeTimes {
+            free: free_times(level, &apart, &found.rate, &second_derivative, closed),
             apart,
             second_derivative,
         }
     }
 
     /// Returns the errors of a lane as shares of their allowances.
-    pub(super) fn shares(&self, found: &AxisValues, clocks: &Clocks, lane: usize) -> Shares {
+    pub(super) fn shares(&self, found: &AxisValues, clocks: &AxisFreeTimes, lane: usize) -> Shares {
         let (motion, child) = (&self.motion, &self.children[lane]);
         let (n, rate) = (found.normal(lane), found.rate[lane]);
-        let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
+        let exact =
+            n.dot(self.velocity) + child.max_rotational_rate(n) + self.far.max_rotational_rate(-n);
         let below = exact - f64::from(rate);
         let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;

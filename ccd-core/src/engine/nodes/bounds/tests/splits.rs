@@ -1,10 +1,10 @@
 //! Compares the choices of the pairs that wait, and of the nodes to split, with choices in f64.
 
 use super::setting::{Setting, Shape};
-use super::{Sample, find, widest};
+use super::{Sample, find, widest_axis};
 use crate::body::tree::LANES;
 use crate::engine::nodes::bounds::{Bounds, bound};
-use crate::engine::nodes::eight_pairs::Larger;
+use crate::engine::nodes::eight_pairs::LargerBody;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::settings::Instructions;
@@ -15,7 +15,7 @@ use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
 /// The values of eight pairs from which the bounds choose.
-struct Rows {
+struct PairValues {
     radius: [f32; LANES],
     /// The distances of the small nodes from the other body's centre of rotation.
     arms: [f32; LANES],
@@ -34,16 +34,16 @@ fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -
 }
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
-    fn rows(&self) -> Rows {
+    fn rows(&self) -> PairValues {
         let level = Instructions::Best.level();
         let [along, passing, _] = vectorize!(level, level => find(level, self, Vec3::X));
         vectorize!(level, level => {
-            let axis = widest(&self.pairs(level));
-            Rows {
+            let axis = widest_axis(&self.pairs(level));
+            PairValues {
                 radius: *self.group.radius(level),
                 arms: *self.motion.other.distances_from_centre(self.group.centre(level)),
-                split_reach: *axis.split_reach,
-                other_reach: *axis.other_reach,
+                split_reach: *axis.split_extent,
+                other_reach: *axis.other_extent,
                 gap: along.gap,
                 free: [along.free[0], passing.free[0], along.free[1], along.free[2]],
                 pieces: self.group.pieces(level).to_bitmask() as u8,
@@ -53,7 +53,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Records which side is much larger, if one is.
-    fn beside_a_larger_one(mut self) -> Self {
+    fn with_larger_side(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
         let reach = radii.into_iter().fold(0.0, greater);
@@ -62,8 +62,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             reach > MUCH_LARGER_RATIO * other,
             other > MUCH_LARGER_RATIO * reach,
         ) {
-            (true, _) => Some(Larger::Split),
-            (_, true) => Some(Larger::Other),
+            (true, _) => Some(LargerBody::Split),
+            (_, true) => Some(LargerBody::Other),
             _ => None,
         };
         self
@@ -88,8 +88,8 @@ impl Decisions {
     fn check<C: Children, P: OtherNode>(&mut self, sample: &Sample<C, P>) {
         let rows = sample.rows();
         for lane in 0..LANES {
-            let revisit = rows.found.revisit >> lane & 1 == 1;
-            let split_child = rows.found.split_child >> lane & 1 == 1;
+            let revisit = rows.found.revisit_mask >> lane & 1 == 1;
+            let split_child = rows.found.split_child_mask >> lane & 1 == 1;
             if let Some(expected) = rows.revisit(lane, sample) {
                 assert_eq!(revisit, expected, "{:?} of {:?}", rows.found, sample.motion);
                 match sample.motion.larger {
@@ -105,7 +105,7 @@ impl Decisions {
     }
 }
 
-impl Rows {
+impl PairValues {
     fn revisit<C, P: OtherNode>(&self, lane: usize, sample: &Sample<C, P>) -> Option<bool> {
         let motion = &sample.motion;
         let (radius, other) = (
@@ -125,7 +125,7 @@ impl Rows {
         };
         let (swept, past) = match motion.larger {
             None => (Some(false), Some(false)),
-            Some(Larger::Split) => {
+            Some(LargerBody::Split) => {
                 let arm = motion.split.distance_from_centre(sample.other.centre());
                 let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
@@ -137,7 +137,7 @@ impl Rows {
                     },
                 )
             }
-            Some(Larger::Other) => {
+            Some(LargerBody::Other) => {
                 let (rate, other_is_piece) = (motion.other.rate, sample.other.is_piece());
                 (
                     swept(greater(fixed, free(3)), rate, self.arms[lane], other),
@@ -178,11 +178,11 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
         let mut boxes = Setting::new(rng, &other).boxes(rng, &other);
         boxes.other.piece = rng.random_bool(0.3);
         decisions.check(&boxes);
-        decisions.check(&boxes.beside_a_larger_one());
+        decisions.check(&boxes.with_larger_side());
         let other = Shape::new(rng).triangle();
         let triangles = Setting::new(rng, &other).triangles(rng, &other);
         decisions.check(&triangles);
-        decisions.check(&triangles.beside_a_larger_one());
+        decisions.check(&triangles.with_larger_side());
     };
     for _ in 0..1_000 {
         check(&mut rng);

@@ -4,7 +4,7 @@
 
 use super::setting::{Setting, Shape};
 use super::shares::{Shares, share_of_clock};
-use super::{AxisValues, Sample, clocks};
+use super::{AxisValues, Sample, free_times};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -14,7 +14,7 @@ use crate::rounding::{
 };
 use crate::settings::Instructions;
 use crate::tests::scene::{RngExt, direction, magnitude};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 
@@ -22,7 +22,7 @@ use glam::{DVec3, Vec3};
 #[derive(Clone, Copy)]
 struct Search {
     name: [&'static str; 2],
-    setting: fn(&mut Tape, &Shape) -> Setting,
+    setting: fn(&mut RandomCase, &Shape) -> Setting,
     share: fn(&Shares) -> f64,
     looseness: f64,
 }
@@ -33,19 +33,23 @@ impl Search {
         let boxes = Worst::of(self.name[0], 3_000).search(|tape| {
             let other = Shape::new(tape);
             let sample = (self.setting)(tape, &other).boxes(tape, &other);
-            Some(self.share_of(tape, &sample))
+            Some(self.max_error_share(tape, &sample))
         });
         boxes.is_within(self.looseness);
         let triangles = Worst::of(self.name[1], 3_000).search(|tape| {
             let other = Shape::new(tape).triangle();
             let sample = (self.setting)(tape, &other).triangles(tape, &other);
-            Some(self.share_of(tape, &sample))
+            Some(self.max_error_share(tape, &sample))
         });
         triangles.is_within(self.looseness);
     }
 
     /// Returns the largest share of the allowance among eight pairs and three axes.
-    fn share_of<C: Children, P: OtherNode>(self, tape: &mut Tape, sample: &Sample<C, P>) -> f64 {
+    fn max_error_share<C: Children, P: OtherNode>(
+        self,
+        tape: &mut RandomCase,
+        sample: &Sample<C, P>,
+    ) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &AxisValues, lane: usize| {
             (self.share)(&sample.shares(found, &sample.clocks(found), lane))
@@ -118,7 +122,9 @@ fn places() {
 }
 
 /// Computes eight numbers with every set of vector instructions, and checks that all are equal.
-fn on_all_levels<T: PartialEq + std::fmt::Debug>(of: impl Fn(fearless_simd::Level) -> T) -> T {
+fn on_all_instruction_sets<T: PartialEq + std::fmt::Debug>(
+    of: impl Fn(fearless_simd::Level) -> T,
+) -> T {
     let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(|set| of(set.level()));
     assert_eq!(best, baseline);
     best
@@ -127,7 +133,7 @@ fn on_all_levels<T: PartialEq + std::fmt::Debug>(of: impl Fn(fearless_simd::Leve
 /// Returns the lengths of the cross products of `n` and `spin`.
 fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
     let rows = [0, 1, 2].map(|k| n.map(|n| n[k]));
-    on_all_levels(|level| {
+    on_all_instruction_sets(|level| {
         vectorize!(level, level => {
             *Vec3x8::load(level, &rows).cross(Vec3x8::splat(level, spin)).length()
         })
@@ -135,7 +141,7 @@ fn across(n: [Vec3; LANES], spin: Vec3) -> [f32; LANES] {
 }
 
 /// Draws eight axes, rounded to f32, and an angular velocity.
-fn turned(tape: &mut Tape) -> Option<([DVec3; LANES], DVec3)> {
+fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
     let spin = DVec3::from(tape.vector(-20..=5));
     let aside = tape.size(-30..=0);
     let axes = [(); LANES].map(|()| match tape.pick(2) {
@@ -182,12 +188,15 @@ fn bend_f32() {
 #[test]
 fn clock_f32() {
     let found = Worst::of("CLOCK_F32", 40_000).search(|tape| {
-        let row = |tape: &mut Tape, of: fn(&mut Tape) -> f64| [(); LANES].map(|()| of(tape) as f32);
+        let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
+            [(); LANES].map(|()| of(tape) as f32)
+        };
         let apart = row(tape, |tape| tape.size(-30..=30));
         let rate = row(tape, |tape| tape.any(-30..=30));
         let second_derivative = row(tape, |tape| tape.size(-30..=30));
-        let free =
-            on_all_levels(|level| clocks(level, &apart, &rate, &second_derivative, LEAST_GAP_F32));
+        let free = on_all_instruction_sets(|level| {
+            free_times(level, &apart, &rate, &second_derivative, LEAST_GAP_F32)
+        });
         let shares =
             (0..LANES).map(|k| share_of_clock([free[k], apart[k], rate[k], second_derivative[k]]));
         Some(shares.fold(f64::NEG_INFINITY, greater))
@@ -200,7 +209,9 @@ fn clock_f32() {
 #[test]
 fn least_gap_f32() {
     let found = Worst::of("LEAST_GAP_F32", 40_000).search(|tape| {
-        let row = |tape: &mut Tape, of: fn(&mut Tape) -> f64| [(); LANES].map(|()| of(tape) as f32);
+        let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
+            [(); LANES].map(|()| of(tape) as f32)
+        };
         let apart = row(tape, |tape| {
             f64::from(LEAST_GAP_F32.next_up()) * tape.size(0..=40) + tape.size(-120..=-90)
         });
@@ -208,8 +219,9 @@ fn least_gap_f32() {
         let second_derivative = row(tape, |tape| {
             tape.size(-120..=-30) + f64::from(LEAST_BEND_F32)
         });
-        let free =
-            on_all_levels(|level| clocks(level, &apart, &rate, &second_derivative, LEAST_GAP_F32));
+        let free = on_all_instruction_sets(|level| {
+            free_times(level, &apart, &rate, &second_derivative, LEAST_GAP_F32)
+        });
         let share = |k: usize| {
             let until = if free[k] < 1.0 { free[k] } else { 1.0 };
             let [until, apart, rate, second_derivative] =
@@ -232,7 +244,7 @@ fn least_axis_f32() {
     let found = Worst::of("LEAST_AXIS_F32", 40_000).search(|tape| {
         let v = [(); LANES].map(|()| DVec3::from(tape.vector(-79..=-58)).as_vec3());
         let rows = [0, 1, 2].map(|k| v.map(|v| v[k]));
-        let inverse = on_all_levels(
+        let inverse = on_all_instruction_sets(
             |level| vectorize!(level, level => *Vec3x8::load(level, &rows).reciprocal_length()),
         );
         let share = |k: usize| {

@@ -16,7 +16,7 @@ use crate::rounding::{RATE_F64, TURNED_SUPPORT};
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::worst::{RandomCase, Worst, share};
 use glam::DVec3;
 
 /// The exact rotation of a body from a given frame.
@@ -38,7 +38,7 @@ impl Turning {
 }
 
 /// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
-fn motion(tape: &mut Tape) -> Option<Motion> {
+fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let [velocity, spin, centre] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
     let start = Pose::new(DVec3::ZERO, rotation(tape)).ok()?;
     Motion::about(start, velocity, spin, centre)
@@ -47,7 +47,7 @@ fn motion(tape: &mut Tape) -> Option<Motion> {
 }
 
 /// Returns the largest error of the rates of a triangle's corners, as a share of its allowance.
-fn share_of_rates(tape: &mut Tape) -> Option<f64> {
+fn share_of_rates(tape: &mut RandomCase) -> Option<f64> {
     let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
     let (motion, ball) = (motion(tape)?, Body::sphere(0.1).ok()?);
     let still = Motion::still(Pose::IDENTITY);
@@ -97,7 +97,7 @@ fn worst_farthest() {
 
 /// Returns the errors of the lowest height and of the least rate of many points, as shares of [`TURNED_SUPPORT`]. The
 /// points are equally low up to rounding, and far from each other.
-fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
+fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (motion, tau) = (motion(tape)?, tape.fraction());
     let ball = Body::sphere(0.1).ok()?;
     let still = Motion::still(Pose::IDENTITY);

@@ -1,7 +1,7 @@
 //! Compares free times from a bound of each body's velocity with the sum of both bounds.
 
 use super::super::*;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, RngExt, rng, scene};
 
 /// Returns the rate at which two pieces approach along a normal from A to B, by a bound.
@@ -24,8 +24,8 @@ fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2])
                 .unwrap()
         };
         sum += match bound {
-            Bound::Sound => sound(&motion, n, reaches[k]),
-            Bound::Published => published(&motion, n, farthest),
+            Bound::Sound => sound_bound(&motion, n, reaches[k]),
+            Bound::Published => published_bound(&motion, n, farthest),
         };
     }
     sum
@@ -52,7 +52,7 @@ fn a_directed_time_is_the_gap_over_both_advances() {
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
         let mut meter = Meter::new(&problem);
         let checked = snapshot
-            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         let kept = problem.gap();
         if checked.lower <= 2.0 * kept {

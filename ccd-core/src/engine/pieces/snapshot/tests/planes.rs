@@ -8,9 +8,9 @@ use crate::distance::oracle::{Claim, Effort, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{
-    Kind, Pcg64, RngExt, body, direction, magnitude, rng, rotation, scene, within,
+    Kind, Pcg64, RngExt, body, direction, magnitude, point_in_ball, rng, rotation, scene,
 };
 use glam::DQuat;
 
@@ -24,7 +24,7 @@ impl DistanceOracle for CountingOracle {
 
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut ()) -> Result<Claim, GiveUp> {
         self.steps += 5;
-        Exhaustive.separation(pair, cache)
+        ExhaustiveOracle.separation(pair, cache)
     }
 
     fn effort(&self) -> Effort {
@@ -54,7 +54,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     let mut meter = Meter::new(&problem);
     assert!(
         snapshot
-            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .is_some()
     );
     assert_eq!(
@@ -89,13 +89,13 @@ fn the_plane_of_the_longest_time_counts() {
     let (mut turning, mut passes, mut at_once) = (0, 0, [0; 2]);
     for number in 0..6_000 {
         let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
-        let scene = scene(&mut rng, kind, 2).at_times_accelerating(&mut rng);
+        let scene = scene(&mut rng, kind, 2).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
         let checked = snapshot
-            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         let kept = problem.gap();
         if checked.lower <= kept {
@@ -142,13 +142,13 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
     for _ in 0..500 {
         let place = 2.0 * direction(&mut rng);
         let pose = Pose::new(place, rotation(&mut rng)).unwrap();
-        let motion = Motion::new(pose, within(&mut rng, 2.0) - place, DVec3::ZERO).unwrap();
+        let motion = Motion::new(pose, point_in_ball(&mut rng, 2.0) - place, DVec3::ZERO).unwrap();
         let sides = ((&bar, motion), (&ball, Motion::STILL));
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let mut meter = Meter::new(&problem);
         let checked = snapshot
-            .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+            .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         let kept = problem.gap();
         let plane = snapshot.plane_of_closest_approach(&checked, kept);
@@ -165,7 +165,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     let mut rng = rng(12);
     for _ in 0..500 {
         let away = direction(&mut rng);
-        let velocity = 0.1 * within(&mut rng, 1.0) - 0.3 * away;
+        let velocity = 0.1 * point_in_ball(&mut rng, 1.0) - 0.3 * away;
         let moving = |place: DVec3, velocity: DVec3| {
             let pose = Pose::new(place, DQuat::IDENTITY).unwrap();
             Motion::new(pose, velocity, DVec3::ZERO).unwrap()
@@ -270,7 +270,12 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
 }
 
 /// Checks the plane between the nearest points at their time of closest approach on straight paths.
-fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
+fn check_passing(
+    snapshot: &Snapshot<'_>,
+    checked: &CheckedClaim,
+    kept: f64,
+    plane: Option<&Plane>,
+) {
     let Problem { a, b, .. } = snapshot.problem;
     let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));
     let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, snapshot.clock));
@@ -336,7 +341,7 @@ fn depth_is_measured_between_the_middles_of_many_points() {
     let mut inside = 0;
     for _ in 0..200 {
         let mut cloud = |radius: f64| {
-            let points: Vec<DVec3> = (0..80).map(|_| within(&mut rng, radius)).collect();
+            let points: Vec<DVec3> = (0..80).map(|_| point_in_ball(&mut rng, radius)).collect();
             let polytope = Polytope {
                 points,
                 radius: 0.05 * radius,
@@ -345,7 +350,8 @@ fn depth_is_measured_between_the_middles_of_many_points() {
             Body::polytope(polytope).unwrap()
         };
         let (a, b) = (cloud(1.0), cloud(0.5));
-        let motion = Motion::still(Pose::new(within(&mut rng, 2.5), rotation(&mut rng)).unwrap());
+        let motion =
+            Motion::still(Pose::new(point_in_ball(&mut rng, 2.5), rotation(&mut rng)).unwrap());
         let sides = ((&a, motion), (&b, Motion::STILL));
         let problem = Problem::about(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);

@@ -2,13 +2,13 @@
 
 use super::super::*;
 use crate::body::{Body, Volume};
-use crate::distance::separation::sharp::sharpen;
+use crate::distance::separation::sharp::improve_axis;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
-use crate::tests::meshes::{cube, moved};
+use crate::tests::meshes::{cube, translated_triangles};
 use crate::tests::nearest::Triangle;
-use crate::tests::oracle::Exhaustive;
+use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{RngExt, pieces, rng, rotation};
 use glam::DQuat;
 
@@ -35,7 +35,10 @@ impl Resting {
 
     /// Creates a solid above the plane if `side` is positive, and below it otherwise.
     fn solid(side: f64) -> Self {
-        Resting::new(&moved(&cube(0.5, 1), 0.5 * side * DVec3::Z), Volume::Solid)
+        Resting::new(
+            &translated_triangles(&cube(0.5, 1), 0.5 * side * DVec3::Z),
+            Volume::Solid,
+        )
     }
 
     /// Creates a cube that stands on an edge along an axis, on this side of the plane.
@@ -57,7 +60,7 @@ impl Resting {
 
     /// Creates a shell with a figure of eight as cross section: the solid is above one half of a face, and below the
     /// other.
-    fn unclear() -> Self {
+    fn figure_eight_shell() -> Self {
         let eight = [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, -1.0)];
         let at = |k: usize, y: f64| DVec3::new(eight[k % 4].0, y, eight[k % 4].1);
         let mut shell = Vec::new();
@@ -87,9 +90,9 @@ fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> 
     let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
     let mut meter = Meter::new(&problem);
     let checked = snapshot
-        .query_oracle(&mut Exhaustive, &mut (), &mut meter)
+        .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
         .unwrap();
-    let checked = sharpen(&snapshot.pieces, &checked, problem.rounding);
+    let checked = improve_axis(&snapshot.pieces, &checked, problem.rounding);
     let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
     free.map(|free| free * speed.abs() / problem.rounding)
@@ -193,7 +196,7 @@ fn surfaces_in_one_plane_are_kept_apart_by_it_on_either_side() {
 
 #[test]
 fn a_piece_of_unknown_side_is_not_let_go() {
-    let (unclear, sheet) = (Resting::unclear(), Resting::sheet());
+    let (unclear, sheet) = (Resting::figure_eight_shell(), Resting::sheet());
     assert_eq!(unclear.body.facing(unclear.piece), Facing::Unclear);
     for pair in [[&unclear, &sheet], [&sheet, &unclear]] {
         for speed in [-0.5, 0.5] {
