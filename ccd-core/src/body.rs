@@ -66,8 +66,7 @@ pub struct Body {
     excess: f64,
 }
 
-/// The surface of a convex body as triangles, which replace the body in queries against a body of many triangles. They
-/// replace the body in queries against a body of many triangles.
+/// The surface of a convex body as triangles, which replace the body in queries against a body of many triangles.
 #[derive(Clone, Debug)]
 struct Surface {
     triangles: Body,

@@ -12,12 +12,12 @@ use std::alloc::System;
 #[global_allocator]
 static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-const QUERIES: u64 = 3_000;
+const QUERY_COUNT: u64 = 3_000;
 
 /// Answers all queries, and returns the number of queries whose bodies are in contact at the start.
 fn answer_all<O: DistanceOracle>(mixed: &Mixed, solver: &mut Solver<O>) -> u64 {
     let mut at_start = 0;
-    for number in 0..QUERIES {
+    for number in 0..QUERY_COUNT {
         let query = mixed.query(number);
         let [a, b] = [0, 1].map(|k| mixed.moving_body(&query, k));
         solver.set_settings(query.config);
@@ -43,7 +43,7 @@ fn assert_no_allocations_when_warm<O: DistanceOracle>(mixed: &Mixed, oracle: O) 
     let at_start = answer_all(mixed, &mut solver);
     // The check can fail: the first round allocates.
     assert!(cold.change().allocations > 0);
-    assert!(at_start > QUERIES / 100, "{at_start}");
+    assert!(at_start > QUERY_COUNT / 100, "{at_start}");
     let warm = Region::new(HEAP);
     answer_all(mixed, &mut solver);
     let change = warm.change();

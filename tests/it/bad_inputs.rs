@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{Body, InputError, Motion, Moving, Pieces, Pose, Settings};
 
-const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+const NON_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 /// Invalid times and lengths, each with its text in messages.
 const OUT_OF_RANGE: [(f64, &str); 5] = [
@@ -113,7 +113,7 @@ fn shapes_name_the_bad_length() {
     ];
     let negative = [-1.0, -f64::MIN_POSITIVE, -5e-324, 2.0 * MAX_COORDINATE];
     for (name, shape) in shapes {
-        for bad in negative.into_iter().chain(BAD) {
+        for bad in negative.into_iter().chain(NON_FINITE) {
             match shape(bad).map(drop) {
                 Err(InputError::OutOfRange { what, value, .. }) => {
                     assert_eq!((what, value.to_bits()), (name, bad.to_bits()));

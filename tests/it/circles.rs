@@ -35,7 +35,7 @@ fn no_files_import_each_other_in_a_circle() {
         let root = workspace.join(name).join("src/lib.rs");
         let texts = parsed_modules(&root);
         files += texts.len();
-        let circles = circles(&imports(&texts));
+        let circles = import_cycles(&imports(&texts));
         assert!(circles.is_empty(), "{name}: {circles:#?}");
     }
     assert!(files > 500, "{files}");
@@ -52,7 +52,7 @@ fn a_circle_is_found() {
             let file = syn::parse_file(text).expect("valid Rust");
             (names.map(str::to_owned).collect(), file)
         });
-        circles(&imports(&BTreeMap::from(texts))).len()
+        import_cycles(&imports(&BTreeMap::from(texts))).len()
     };
     for end in [
         "use crate::a::{self, Thing};",
@@ -194,7 +194,7 @@ impl<'f> Visit<'f> for Paths {
 
 /// Returns the modules in circles, and the modules that use these. Removes modules that use no other one until none
 /// is left.
-fn circles(imports: &Imports) -> Imports {
+fn import_cycles(imports: &Imports) -> Imports {
     let mut left = imports.clone();
     loop {
         let before = left.len();

@@ -4,8 +4,8 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Outcome, Pose, Separation, Settings};
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::models::{Mesh, Shape, cuboid, dented_cube, l_prism};
-use ccd_tests::query::{Actor, Query};
-use ccd_tests::referee::point_triangle;
+use ccd_tests::query::{MovingShape, Query};
+use ccd_tests::referee::nearest_on_triangle;
 use ccd_tests::strategies::{random_direction, runner};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -36,7 +36,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
             assert!(!pairs.is_empty(), "{round} {:?}", bodies.kinds);
             for pair in &pairs {
                 if let Some(way) = touch.check(&pair.separation) {
-                    checked[touch.size_of_support] += 1;
+                    checked[touch.feature_dimension] += 1;
                     blurred += usize::from(way < NORMAL_DISTANCE);
                 }
             }
@@ -66,7 +66,7 @@ struct FeatureContact {
     query: Query,
     gap: f64,
     /// The dimension of the larger feature: 0 for vertices, 1 for edges, 2 for faces.
-    size_of_support: usize,
+    feature_dimension: usize,
 }
 
 impl FeatureContact {
@@ -91,14 +91,14 @@ impl FeatureContact {
         let turn = (DQuat::from_axis_angle(b.normal, twist) * facing).normalize();
         let place = b.point + gap * b.normal - turn * a.point;
         let start = pose_in_frame(&frame, turn, place);
-        let still = |shape, pose| Actor {
+        let still = |shape, pose| MovingShape {
             shape,
             motion: Motion::still(pose),
         };
         FeatureContact {
             query: Query::new(still(shape_a, start), still(shape_b, frame)),
             gap,
-            size_of_support: a.size.max(b.size),
+            feature_dimension: a.size.max(b.size),
         }
     }
 
@@ -155,7 +155,7 @@ impl FeatureContact {
 
 /// Returns the sine of the angle between a direction and the normal cone of a surface at a point. It is at most 0
 /// within the cone.
-fn angle_from_normal_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
+fn angle_from_normal_cone(actor: &MovingShape, at: DVec3, n: DVec3) -> f64 {
     let mesh = &actor.shape.mesh;
     let pose = actor.motion.start();
     let placed = |p: DVec3| pose.transform_point(p);
@@ -174,7 +174,8 @@ fn angle_from_normal_cone(actor: &Actor, at: DVec3, n: DVec3) -> f64 {
         return largest(&mut mesh.vertices.iter().map(|&p| placed(p)));
     }
     let triangles = (0..mesh.faces.len()).map(|face| mesh.triangle(face).map(placed));
-    let around = triangles.filter(|&triangle| point_triangle(at, triangle).distance(at) < 1e-9);
+    let around =
+        triangles.filter(|&triangle| nearest_on_triangle(at, triangle).distance(at) < 1e-9);
     // The solid is below the middle of each face.
     let ends = around.flat_map(|[a, b, c]| {
         let inward = -(b - a).cross(c - a).normalize();

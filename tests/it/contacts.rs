@@ -9,7 +9,7 @@ use ccd_tests::case::Case;
 use ccd_tests::checks::CheckResult;
 use ccd_tests::distances::distance_to_mesh_feature;
 use ccd_tests::models::Kind;
-use ccd_tests::query::{Actor, Bodies, Query};
+use ccd_tests::query::{Bodies, MovingShape, Query};
 use ccd_tests::strategies::{cases, check_cases, remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -220,7 +220,7 @@ fn check_pairs(
 
 /// Returns the distance from a point to a feature of the mesh at a time. It is infinite if the mesh does not have the
 /// feature.
-fn distance_from_feature(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
+fn distance_from_feature(actor: &MovingShape, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let to_world = |p| pose.transform_point(p);
     distance_to_mesh_feature(point, feature, mesh, to_world).unwrap_or(f64::INFINITY)

@@ -3,16 +3,18 @@
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_tests::exact::{Blend, Effort, Location, Solid, samples, side_of, triangle_holds};
+use ccd_tests::exact::{
+    ConvexCombination, Effort, Location, Solid, samples, side_of, triangle_contains_point,
+};
 use ccd_tests::models::{Mesh, convex_solids, cuboid, hollow, l_prism, solids};
-use ccd_tests::referee::{contains, point_triangle};
+use ccd_tests::referee::{contains, nearest_on_triangle};
 use ccd_tests::strategies::{direction, runner};
 use proptest::prelude::*;
 use std::cell::Cell;
 use std::cmp::Ordering;
 
-fn exact_point(p: DVec3) -> Blend {
-    Blend::mean([p])
+fn exact_point(p: DVec3) -> ConvexCombination {
+    ConvexCombination::mean([p])
 }
 
 /// Returns the mesh's vertices as one polytope. Its hull extends far beyond a non-convex mesh.
@@ -32,10 +34,10 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
             let [a, b, c] = mesh.triangle(k);
             let some = [
                 exact_point(a),
-                Blend::mean([a, b]),
-                Blend::mean([a, b, c]),
-                Blend::new([(1, a), (63, b)]),
-                Blend::new([(7, a), (20, b), (37, c)]),
+                ConvexCombination::mean([a, b]),
+                ConvexCombination::mean([a, b, c]),
+                ConvexCombination::new([(1, a), (63, b)]),
+                ConvexCombination::new([(7, a), (20, b), (37, c)]),
             ];
             for p in some {
                 assert_eq!(solid.locate(&p), Location::Surface, "{}: {p:?}", model.name);
@@ -64,21 +66,24 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
 #[test]
 fn thirds_are_exact() {
     let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
-    let mean = Blend::mean([a, b, c]);
+    let mean = ConvexCombination::mean([a, b, c]);
     assert_eq!(side_of([a, b, c], &mean), Ordering::Equal);
-    assert!(triangle_holds([a, b, c], &mean));
+    assert!(triangle_contains_point([a, b, c], &mean));
     let lifted = [a, b, c.with_z(c.z.next_up())];
     assert_eq!(side_of(lifted, &mean), Ordering::Less);
-    assert!(!triangle_holds(lifted, &mean));
+    assert!(!triangle_contains_point(lifted, &mean));
 }
 
 #[test]
 fn triangles_without_an_area_hold_their_segment() {
     let [a, b] = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)];
     let flat = [a, b, 0.5 * b];
-    assert!(triangle_holds(flat, &Blend::new([(1, a), (2, b)])));
-    assert!(!triangle_holds(flat, &exact_point(1.25 * b)));
-    assert!(!triangle_holds(
+    assert!(triangle_contains_point(
+        flat,
+        &ConvexCombination::new([(1, a), (2, b)])
+    ));
+    assert!(!triangle_contains_point(flat, &exact_point(1.25 * b)));
+    assert!(!triangle_contains_point(
         flat,
         &exact_point((0.25 * b).with_x(0.25_f64.next_up()))
     ));
@@ -148,7 +153,7 @@ fn solid_angles_give_the_same_locations() {
         let effort = Effort {
             per_facet: 0,
             chords: 300,
-            blends: 300,
+            inner_points: 300,
         };
         for p in samples(&hull(mesh), effort, 1) {
             let near = p.rounded();
@@ -178,7 +183,7 @@ fn solid_angles_give_the_same_locations() {
 
 /// Returns true if a point is so near to a triangle that rounding might move it to the other side.
 fn is_within_rounding(p: DVec3, triangle: [DVec3; 3]) -> bool {
-    point_triangle(p, triangle).distance(p) <= 1e-9
+    nearest_on_triangle(p, triangle).distance(p) <= 1e-9
 }
 
 /// Tests that rounded points of a slanted face are off the face, some inside and some outside.
@@ -196,7 +201,7 @@ fn rounded_points_of_a_face_are_located_by_its_plane() {
                 vertices: vec![a, b, c, -normal],
                 faces: vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]],
             };
-            let on = Blend::new([(u, a), (v, b), (32, c)]);
+            let on = ConvexCombination::new([(u, a), (v, b), (32, c)]);
             let rounded = exact_point(on.rounded());
             let (expected, count) = match side_of([a, b, c], &rounded) {
                 Ordering::Greater => (Location::Outside, &outside),

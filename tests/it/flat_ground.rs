@@ -6,7 +6,7 @@ use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::{Body, Limit, Motion, Outcome, Pose, Settings, StartPolicy};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::models::{Kind, Mesh, Shape, cuboid, dented_cube, icosphere, l_block};
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::strategies::seeds;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -147,8 +147,8 @@ fn bodies_that_slide_on_cut_ground_are_free() {
             0.0,
         );
         let query = Query::new(
-            Actor::moving(random_solid(rng), at, velocity, turning),
-            Actor::still(ground, DVec3::ZERO),
+            MovingShape::moving(random_solid(rng), at, velocity, turning),
+            MovingShape::still(ground, DVec3::ZERO),
         );
         let query = query.seen_from(&random_frame(rng));
         for query in [query.swapped(), query] {
@@ -178,8 +178,8 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
         };
         let speed = rng.random_range(5.0..9.0);
         let query = Query {
-            a: Actor::straight(mover, at + 0.5 * DVec3::Z, speed * DVec3::X),
-            b: Actor::still(ground, DVec3::ZERO),
+            a: MovingShape::straight(mover, at + 0.5 * DVec3::Z, speed * DVec3::X),
+            b: MovingShape::still(ground, DVec3::ZERO),
             duration: 2.0,
         };
         let truth = (2.5 - 0.3 - at.x) / speed;
@@ -288,8 +288,8 @@ fn sheets_within_one_plane_meet() {
         })
     };
     let query = Query {
-        a: Actor::straight(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X),
-        b: Actor::still(
+        a: MovingShape::straight(sheet(0.0, 1.0), DVec3::ZERO, DVec3::X),
+        b: MovingShape::still(
             Shape::union([sheet(-1.0, 0.0), sheet(3.0, 4.0)]),
             DVec3::ZERO,
         ),

@@ -14,7 +14,7 @@ use std::hint::black_box;
 fn no_element_is_lost() {
     macro_rules! at_lengths {
         ($($n:literal)*) => {
-            [$(lost_positions::<$n>(lost_in_a_row::<$n>), lost_positions::<$n>(lost_among_edges::<$n>)),*].concat()
+            [$(lost_positions::<$n>(loses_number::<$n>), lost_positions::<$n>(loses_edge::<$n>)),*].concat()
         };
     }
     let lost = at_lengths![1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16];
@@ -26,21 +26,21 @@ fn lost_positions<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, u
     (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
 }
 
-fn lost_in_a_row<const N: usize>(at: usize) -> bool {
+fn loses_number<const N: usize>(at: usize) -> bool {
     let (mut low, mut high) = ([2.0; N], [1.0; N]);
     (low[at], high[at]) = (1.0, 2.0);
-    let least = fold_in_a_row(&black_box(low), f64::INFINITY, lesser);
-    let most = fold_in_a_row(&black_box(high), f64::NEG_INFINITY, greater);
+    let least = fold_numbers(&black_box(low), f64::INFINITY, lesser);
+    let most = fold_numbers(&black_box(high), f64::NEG_INFINITY, greater);
     least != long_computation(1.0) || most != long_computation(2.0)
 }
 
-fn lost_among_edges<const N: usize>(at: usize) -> bool {
+fn loses_edge<const N: usize>(at: usize) -> bool {
     let edge = |height: f64| [DVec3::new(-1.0, height, 0.0), DVec3::new(1.0, height, 0.0)];
     let (mut low, mut high) = ([edge(2.0); N], [edge(1.0); N]);
     (low[at], high[at]) = (edge(1.0), edge(2.0));
     let points = [DVec3::ZERO; 2];
-    let least = fold_among_edges(black_box(points), &black_box(low), f64::INFINITY, lesser);
-    let most = fold_among_edges(
+    let least = fold_edge_distances(black_box(points), &black_box(low), f64::INFINITY, lesser);
+    let most = fold_edge_distances(
         black_box(points),
         &black_box(high),
         f64::NEG_INFINITY,
@@ -50,7 +50,7 @@ fn lost_among_edges<const N: usize>(at: usize) -> bool {
 }
 
 #[inline(never)]
-fn fold_in_a_row<const N: usize>(
+fn fold_numbers<const N: usize>(
     numbers: &[f64; N],
     start: f64,
     better: impl Fn(f64, f64) -> f64,
@@ -68,7 +68,7 @@ fn long_computation(x: f64) -> f64 {
 }
 
 #[inline(never)]
-fn fold_among_edges<const N: usize>(
+fn fold_edge_distances<const N: usize>(
     points: [DVec3; 2],
     edges: &[[DVec3; 2]; N],
     start: f64,

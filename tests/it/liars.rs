@@ -6,9 +6,9 @@ use ccd_core::{Answer, Limit, Outcome, Settings};
 use ccd_tests::backends::{Backend, Oracle, Order};
 use ccd_tests::case::Case;
 use ccd_tests::checks::{CheckResult, Judge};
-use ccd_tests::liars::{Liar, Lie};
+use ccd_tests::liars::{ContractBreach, FaultyOracle};
 use ccd_tests::models::cuboid;
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::strategies::{cases, check_cases, crowded_cases};
 use proptest::strategy::Strategy;
 use std::cell::Cell;
@@ -18,19 +18,19 @@ const BUDGET: u64 = 20_000;
 
 #[test]
 fn lies_about_moving_bodies_never_make_an_answer_late() {
-    check_cases_with_every_lie(cases());
+    check_cases_with_every_breach(cases());
 }
 
 #[test]
 fn lies_about_overlapping_bodies_never_set_them_free() {
-    check_cases_with_every_lie(crowded_cases());
+    check_cases_with_every_breach(crowded_cases());
 }
 
 /// Tests cases with every kind of lie: some queries are answered in spite of it, and others are not.
-fn check_cases_with_every_lie(cases: impl Strategy<Value = Case>) {
+fn check_cases_with_every_breach(cases: impl Strategy<Value = Case>) {
     let (answered, unresolved) = (Cell::new(0), Cell::new(0));
     check_cases(100, cases, |case| {
-        check_every_lie(case, |answer| {
+        check_every_breach(case, |answer| {
             let count = match answer.outcome {
                 Outcome::Unresolved(_) => &unresolved,
                 _ => &answered,
@@ -44,7 +44,7 @@ fn check_cases_with_every_lie(cases: impl Strategy<Value = Case>) {
     );
 }
 
-fn check_every_lie(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
+fn check_every_breach(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
     let query = case.query();
     let config = Settings {
         budget: BUDGET,
@@ -53,8 +53,8 @@ fn check_every_lie(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
     let judge = Judge::new(&query, &config);
     for bodies in query.all_bodies() {
         let problem = query.problem(&bodies, &config);
-        for lie in Lie::ALL {
-            let answer = best_first().solve_with(&problem, &mut Liar::new(lie));
+        for lie in ContractBreach::ALL {
+            let answer = best_first().solve_with(&problem, &mut FaultyOracle::new(lie));
             count(&answer);
             let law = match answer.outcome {
                 Outcome::Unresolved(_) => judge.check_time(&answer, 0.0),
@@ -70,12 +70,13 @@ fn check_every_lie(case: &Case, count: impl Fn(&Answer)) -> CheckResult {
 fn a_missing_oracle_is_reported() {
     let cube = || cuboid(DVec3::splat(0.5));
     let query = Query::new(
-        Actor::still(cube(), DVec3::ZERO),
-        Actor::moving(cube(), 3.0 * DVec3::X, -4.0 * DVec3::X, DVec3::Z),
+        MovingShape::still(cube(), DVec3::ZERO),
+        MovingShape::moving(cube(), 3.0 * DVec3::X, -4.0 * DVec3::X, DVec3::Z),
     );
     for bodies in query.all_bodies() {
         let problem = query.problem(&bodies, &Settings::DEFAULT);
-        let answer = best_first().solve_with(&problem, &mut Liar::new(Lie::GivesUp));
+        let answer =
+            best_first().solve_with(&problem, &mut FaultyOracle::new(ContractBreach::GivesUp));
         match answer.outcome {
             Outcome::Unresolved(Unresolved {
                 safe_until,

@@ -77,12 +77,12 @@ fn the_certified_time_grows_with_the_budget() {
 }
 
 /// An oracle that answers some calls, then stops the query, and answers further calls.
-struct Stopping {
+struct StoppingOracle {
     calls: u32,
     stop: Arc<AtomicBool>,
 }
 
-impl DistanceOracle for Stopping {
+impl DistanceOracle for StoppingOracle {
     type Cache = <Gjk as DistanceOracle>::Cache;
 
     fn separation(
@@ -107,7 +107,7 @@ fn a_stopped_query_keeps_what_it_has_proven() {
         let judge = Judge::new(&query, &case.config());
         for calls in [0, 3, 30] {
             let stop = Arc::new(AtomicBool::new(false));
-            let mut oracle = Stopping {
+            let mut oracle = StoppingOracle {
                 calls,
                 stop: Arc::clone(&stop),
             };

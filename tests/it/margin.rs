@@ -5,7 +5,7 @@ use ccd_core::{Outcome, Settings};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;
 use ccd_tests::models::cuboid;
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 
@@ -37,8 +37,8 @@ fn random_cases_keep_any_margin() {
 #[test]
 fn a_falling_cube_stops_at_the_margin() {
     let query = Query::new(
-        Actor::straight(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z),
-        Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
+        MovingShape::straight(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z),
+        MovingShape::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
     );
     for margin in [0.0, 1e-3, 0.25, 1.5] {
         let config = Settings {

@@ -5,15 +5,15 @@ use ccd_core::{Answer, Outcome, Settings};
 use ccd_tests::analytic::{Expect, combs, screw_in_nut};
 use ccd_tests::backends::{Backend, Oracle, Order};
 use ccd_tests::models::{PITCH, parallel_plate};
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 
 /// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another plate. They touch at half of
 /// the duration.
 fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
     let query = Query::new(
-        Actor::straight(parallel_plate(cells), high, -DVec3::Z),
-        Actor::still(parallel_plate(cells), DVec3::ZERO),
+        MovingShape::straight(parallel_plate(cells), high, -DVec3::Z),
+        MovingShape::still(parallel_plate(cells), DVec3::ZERO),
     );
     let config = Settings {
         tolerance,

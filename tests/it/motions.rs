@@ -5,7 +5,7 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_tests::models::cuboid;
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::referee::Placement;
 use ccd_tests::strategies::{direction, rotation, runner};
 use proptest::prelude::*;
@@ -54,7 +54,7 @@ fn the_referee_moves_bodies_as_the_engine_does() {
     let cube = || cuboid(DVec3::splat(0.5));
     runner(1_000)
         .run(&inputs, |(start_a, start_b, axis, centre, turn, t)| {
-            let moving = |start, sign: f64| Actor {
+            let moving = |start, sign: f64| MovingShape {
                 shape: cube(),
                 motion: Motion::about(start, sign * centre, sign * turn * axis, centre)
                     .expect("finite"),

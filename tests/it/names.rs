@@ -4,8 +4,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Outcome, Settings};
 use ccd_tests::backends::Backend;
 use ccd_tests::models::Kind;
-use ccd_tests::query::Actor;
-use ccd_tests::referee::{point_segment, point_triangle};
+use ccd_tests::query::MovingShape;
+use ccd_tests::referee::{nearest_on_segment, nearest_on_triangle};
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::collections::BTreeSet;
@@ -76,13 +76,13 @@ fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NameKi
 }
 
 /// Returns all features of the mesh that contain a point at a time; vertices come first, then edges.
-fn features_at(actor: &Actor, time: f64, point: DVec3, rounding: f64) -> BTreeSet<Feature> {
+fn features_at(actor: &MovingShape, time: f64, point: DVec3, rounding: f64) -> BTreeSet<Feature> {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);
     let is_on = |nearest: DVec3| nearest.distance(point) <= rounding;
     let mut out = BTreeSet::new();
     for (face, &corners) in (0..).zip(&mesh.faces) {
-        if !is_on(point_triangle(point, corners.map(at))) {
+        if !is_on(nearest_on_triangle(point, corners.map(at))) {
             continue;
         }
         out.insert(Feature::Face(face));
@@ -91,7 +91,7 @@ fn features_at(actor: &Actor, time: f64, point: DVec3, rounding: f64) -> BTreeSe
             if is_on(at(v)) {
                 out.insert(Feature::Vertex(v));
             }
-            if is_on(point_segment(point, [at(v), at(w)])) {
+            if is_on(nearest_on_segment(point, [at(v), at(w)])) {
                 out.insert(Feature::edge(v, w));
             }
         }

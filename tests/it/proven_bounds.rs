@@ -56,8 +56,10 @@ impl Scene {
 
     /// Samples the distance at even times, at and next to all knots, and more finely around the least distance.
     fn samples(&self) -> Samples {
-        const EVEN: u32 = 48;
-        let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
+        const EVEN_SAMPLES: u32 = 48;
+        let mut times: Vec<f64> = (0..=EVEN_SAMPLES)
+            .map(|k| f64::from(k) / f64::from(EVEN_SAMPLES))
+            .collect();
         let mut corners = Vec::new();
         for way in &self.ways {
             corners_of(way.as_ref(), [0.0, 1.0], &mut corners);
@@ -215,7 +217,12 @@ impl<'s> Case<'s> {
         Ok(())
     }
 
-    fn check_first(&self, outcome: &Outcome, tolerance: f64, tally: &mut Tally) -> CheckResult {
+    fn check_first_contact(
+        &self,
+        outcome: &Outcome,
+        tolerance: f64,
+        tally: &mut Tally,
+    ) -> CheckResult {
         match *outcome {
             Outcome::Contact { time, contact } => {
                 tally.contact += 1;
@@ -242,7 +249,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    fn check_any(
+    fn check_any_contact(
         &self,
         any: &Outcome,
         tolerance: f64,
@@ -263,7 +270,12 @@ impl<'s> Case<'s> {
         }
     }
 
-    fn check_interval(&self, interval: &Outcome, tolerance: f64, first: &Outcome) -> CheckResult {
+    fn check_contact_interval(
+        &self,
+        interval: &Outcome,
+        tolerance: f64,
+        first: &Outcome,
+    ) -> CheckResult {
         match *interval {
             Outcome::Free { proven_gap } => {
                 let agrees =
@@ -303,7 +315,7 @@ impl<'s> Case<'s> {
         }
     }
 
-    fn check_closest(&self, closest: &Outcome, tally: &mut Tally) -> CheckResult {
+    fn check_closest_approach(&self, closest: &Outcome, tally: &mut Tally) -> CheckResult {
         self.samples
             .check_lower_bound(closest.lower(), |_| true, "closest")?;
         if let Outcome::Measured { time, contact, .. } = closest {
@@ -322,13 +334,13 @@ impl<'s> Case<'s> {
         solver.set_settings(self.config.clone());
         let [a, b] = self.scene.moving();
         let first = solver.first_contact(a, b, 1.0).expect("in range");
-        self.check_first(&first.outcome, first.tolerance, tally)?;
+        self.check_first_contact(&first.outcome, first.tolerance, tally)?;
         let any = solver.any_contact(a, b, 1.0).expect("in range");
-        self.check_any(&any.outcome, any.tolerance, &first.outcome, tally)?;
+        self.check_any_contact(&any.outcome, any.tolerance, &first.outcome, tally)?;
         let interval = solver.contact_interval(a, b, 1.0).expect("in range");
-        self.check_interval(&interval.outcome, interval.tolerance, &first.outcome)?;
+        self.check_contact_interval(&interval.outcome, interval.tolerance, &first.outcome)?;
         let closest = solver.closest_approach(a, b, 1.0).expect("in range");
-        self.check_closest(&closest.outcome, tally)?;
+        self.check_closest_approach(&closest.outcome, tally)?;
         if self
             .scene
             .kinds
@@ -349,11 +361,11 @@ impl<'s> Case<'s> {
         };
         let [a, b] = [0, 1].map(|k| (&self.scene.bodies[k], motion(k)));
         let first = solver.first_contact(a, b, 1.0).expect("in range");
-        self.check_first(&first.outcome, first.tolerance, tally)?;
+        self.check_first_contact(&first.outcome, first.tolerance, tally)?;
         let any = solver.any_contact(a, b, 1.0).expect("in range");
-        self.check_any(&any.outcome, any.tolerance, &first.outcome, tally)?;
+        self.check_any_contact(&any.outcome, any.tolerance, &first.outcome, tally)?;
         let closest = solver.closest_approach(a, b, 1.0).expect("in range");
-        self.check_closest(&closest.outcome, tally)
+        self.check_closest_approach(&closest.outcome, tally)
     }
 }
 

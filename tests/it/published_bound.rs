@@ -8,7 +8,7 @@ use ccd_core::{Answer, Motion, Outcome, Pose, Schedule, Settings};
 use ccd_distance_gjk::Gjk;
 use ccd_tests::analytic::{Expect, scenes_named};
 use ccd_tests::models::{Kind, cuboid};
-use ccd_tests::query::{Actor, Bodies, Query};
+use ccd_tests::query::{Bodies, MovingShape, Query};
 use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
 use rand_pcg::Pcg64;
@@ -32,7 +32,7 @@ fn delay_after_contact(answer: &Answer, contact: f64) -> f64 {
 }
 
 fn bodies(query: &Query) -> Bodies {
-    let kind = |actor: &Actor| {
+    let kind = |actor: &MovingShape| {
         let kinds: Vec<Kind> = actor.shape.kinds().collect();
         *[Kind::Patches, Kind::Parts]
             .iter()
@@ -65,7 +65,7 @@ fn random_rods(rng: &mut Pcg64) -> Query {
         let mut coordinate = || rng.random_range(-size..size);
         DVec3::new(coordinate(), coordinate(), coordinate())
     };
-    let mut rod = |position: DVec3, velocity: DVec3, turns: f64| Actor {
+    let mut rod = |position: DVec3, velocity: DVec3, turns: f64| MovingShape {
         shape: cuboid(DVec3::new(1.0, 0.05, 0.05)),
         motion: Motion::new(
             Pose::new(position, DQuat::from_scaled_axis(vector(3.0))).expect("a pose"),

@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use ccd_tests::analytic::scenes;
 use ccd_tests::models::{Mesh, cuboid};
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::referee::{Finding, Referee, contains};
 
 #[test]
@@ -20,8 +20,8 @@ fn the_cuboids_in_the_distance_collide() {
 fn distances_of_boxes() {
     let gap = |offset: DVec3| {
         let query = Query::new(
-            Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
-            Actor::still(cuboid(DVec3::splat(0.5)), offset),
+            MovingShape::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
+            MovingShape::still(cuboid(DVec3::splat(0.5)), offset),
         );
         Referee::new(&query).gap(0.0)
     };

@@ -6,9 +6,9 @@ use ccd_tests::analytic::{Expect, Scene, scenes_named};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{CheckResult, Judge, check_contact};
 use ccd_tests::query::Bodies;
-use ccd_tests::questions::{AnswersAlong, for_each_answers_along};
+use ccd_tests::questions::{TrajectoryAnswers, for_each_trajectory_answers};
 use ccd_tests::referee::Finding;
-use ccd_tests::tolerance::CLOSED_FORM;
+use ccd_tests::tolerance::CLOSED_FORM_LATENESS;
 use std::fmt::Debug;
 
 /// Defines one test for each group of scenes. A group is the scenes whose names have a common beginning.
@@ -64,7 +64,7 @@ fn check_group(prefix: &str) {
         for tolerance in [1e-3, 1e-9] {
             judge = judge.with_tolerance(tolerance * tolerance_scale(scene));
             check_setups(&judge, scene, &scene.expect);
-            check_all_along(&judge, scene, &scene.expect);
+            check_all_trajectories(&judge, scene, &scene.expect);
         }
         let swapped = Scene {
             name: format!("{}, swapped", scene.name),
@@ -129,9 +129,9 @@ fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
     });
 }
 
-fn check_all_along(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
-    for_each_answers_along(&scene.query, &judge.config(), |bodies, asked, answers| {
-        if let Err(why) = check_along(judge, scene, expect, (bodies, &answers)) {
+fn check_all_trajectories(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
+    for_each_trajectory_answers(&scene.query, &judge.config(), |bodies, asked, answers| {
+        if let Err(why) = check_trajectory_answers(judge, scene, expect, (bodies, &answers)) {
             fail(scene, &asked, &answers, &why);
         }
     });
@@ -158,10 +158,10 @@ fn check_answer(
     let (duration, rounding) = (scene.query.duration, scene.query.rounding());
     match (expect, &answer.outcome) {
         (Expect::Hit { earliest, latest }, Outcome::Contact { time, .. }) => {
-            if *time > latest + CLOSED_FORM * duration {
+            if *time > latest + CLOSED_FORM_LATENESS * duration {
                 return Err(format!("late: {time} > {latest}"));
             }
-            let earliest = earliest(answer.tolerance + rounding) - CLOSED_FORM * duration;
+            let earliest = earliest(answer.tolerance + rounding) - CLOSED_FORM_LATENESS * duration;
             if *time < earliest {
                 return Err(format!("loose: {time} < {earliest}"));
             }
@@ -185,14 +185,14 @@ fn check_answer(
 }
 
 /// Checks the answers about a scene whose motions are given as user-defined trajectories.
-fn check_along(
+fn check_trajectory_answers(
     judge: &Judge<'_>,
     scene: &Scene,
     expect: &Expect,
-    (bodies, answers): (&Bodies, &AnswersAlong),
+    (bodies, answers): (&Bodies, &TrajectoryAnswers),
 ) -> CheckResult {
     check_answer(judge, scene, expect, (bodies, &answers.first))?;
-    let AnswersAlong {
+    let TrajectoryAnswers {
         any,
         closest,
         interval,

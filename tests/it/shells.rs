@@ -5,7 +5,7 @@ use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Body, Motion, Moving, Outcome, Pose, Settings, StartPolicy};
 use ccd_decomp::{Detail, Order, prepare};
 use ccd_distance_gjk::Direct;
-use ccd_tests::exact::{Blend, Location, Solid};
+use ccd_tests::exact::{ConvexCombination, Location, Solid};
 use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
 use ccd_tests::strategies::random_direction;
 use rand::{RngExt, SeedableRng};
@@ -96,7 +96,9 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
                 let (near, _) = &shells[rng.random_range(0..shells.len())];
                 let at = near.vertices[0].lerp(near.vertices[1], rng.random())
                     + random_direction(&mut rng) * 0.1;
-                let locations = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
+                let locations = solids
+                    .iter()
+                    .map(|solid| solid.locate(&ConvexCombination::mean([at])));
                 let around = locations.filter(|location| matches!(location, Location::Inside(_)));
                 let inside = around.count() % 2 == 1;
                 let speck = body(

@@ -12,7 +12,7 @@ use ccd_tests::analytic::sliding;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;
 use ccd_tests::models::{Mesh, Shape, cuboid};
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -126,8 +126,8 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     for side in [DVec3::X, DVec3::Y, DVec3::Z] {
         let dive = |velocity: DVec3| {
             Query::new(
-                Actor::still(cube(), DVec3::ZERO),
-                Actor::straight(cube(), side, velocity),
+                MovingShape::still(cube(), DVec3::ZERO),
+                MovingShape::straight(cube(), side, velocity),
             )
         };
         for velocity in [-side, -side + 0.5 * DVec3::new(side.y, side.z, side.x)] {
@@ -174,8 +174,8 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
             let gap = share * margin;
             let at = |velocity: DVec3| {
                 Query::new(
-                    Actor::still(floor.clone(), DVec3::ZERO),
-                    Actor::straight(
+                    MovingShape::still(floor.clone(), DVec3::ZERO),
+                    MovingShape::straight(
                         cuboid(half),
                         DVec3::new(0.25, -0.97, half.z + gap),
                         velocity,
@@ -221,8 +221,8 @@ fn a_liar_cannot_release_a_pair() {
         faces: vec![[0, 1, 2]],
     });
     let query = Query::new(
-        Actor::still(floor, DVec3::ZERO),
-        Actor::straight(spike, DVec3::ZERO, -DVec3::Z),
+        MovingShape::still(floor, DVec3::ZERO),
+        MovingShape::straight(spike, DVec3::ZERO, -DVec3::Z),
     );
     let bodies = query.triangles();
     let settings = leave_settings(1e-3);
@@ -260,8 +260,8 @@ fn a_released_contact_may_come_back() {
     let post = cuboid(DVec3::new(0.1, 1.0, 1.0)).moved(DVec3::new(-1.6, 0.0, 0.5));
     let slab = cuboid(DVec3::new(3.0, 3.0, 0.5)).moved(-0.5 * DVec3::Z);
     let query = Query::new(
-        Actor::straight(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
-        Actor::still(Shape::union([slab, post]), DVec3::ZERO),
+        MovingShape::straight(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X),
+        MovingShape::still(Shape::union([slab, post]), DVec3::ZERO),
     );
     check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
         Outcome::Contact { time, .. } => (0.4995..=0.5).contains(&time),

@@ -4,13 +4,13 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Outcome, Overlap, Settings};
 use ccd_tests::backends::{default_answer, for_each_setup};
 use ccd_tests::models::{Kind, Mesh, Shape, both, boulder, cuboid, hollow, icosphere, torus};
-use ccd_tests::query::{Actor, Query};
+use ccd_tests::query::{MovingShape, Query};
 use std::cell::Cell;
 
 fn query(a: Shape, b: Shape, at: DVec3) -> Query {
     Query::new(
-        Actor::still(a, DVec3::ZERO),
-        Actor::moving(b, at, 0.1 * DVec3::X, DVec3::Z),
+        MovingShape::still(a, DVec3::ZERO),
+        MovingShape::moving(b, at, 0.1 * DVec3::X, DVec3::Z),
     )
 }
 
@@ -163,11 +163,11 @@ fn bodies_far_smaller_than_the_tolerance_are_answered() {
     for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
         let away = DVec3::new(0.9, 0.01, 0.02) * tolerance;
         let near = Query::new(
-            Actor::still(octahedron(size), DVec3::ZERO),
-            Actor::still(octahedron(size), away),
+            MovingShape::still(octahedron(size), DVec3::ZERO),
+            MovingShape::still(octahedron(size), away),
         );
         let head_on = Query {
-            b: Actor::moving(octahedron(size), 3.0 * away, -4.0 * away, DVec3::Z),
+            b: MovingShape::moving(octahedron(size), 3.0 * away, -4.0 * away, DVec3::Z),
             ..near.clone()
         };
         let config = Settings {
@@ -278,8 +278,8 @@ fn a_cavity_is_outside() {
 fn nothing_moves() {
     let at = |x: f64| {
         Query::new(
-            Actor::still(cube(0.5), DVec3::ZERO),
-            Actor::still(
+            MovingShape::still(cube(0.5), DVec3::ZERO),
+            MovingShape::still(
                 cube(0.5).placed(DQuat::from_rotation_z(0.3), DVec3::ZERO),
                 x * DVec3::X,
             ),

@@ -8,7 +8,7 @@ mod twisted;
 pub use linear::{combs, sliding};
 pub use twisted::screw_in_nut;
 
-use crate::query::{Actor, Query};
+use crate::query::{MovingShape, Query};
 
 /// A query with its known outcome.
 pub struct Scene {
@@ -65,7 +65,7 @@ pub fn scenes_named(prefix: &str) -> Vec<Scene> {
 }
 
 impl Scene {
-    fn new(name: impl Into<String>, actors: [Actor; 2], expect: Expect) -> Self {
+    fn new(name: impl Into<String>, actors: [MovingShape; 2], expect: Expect) -> Self {
         let [a, b] = actors;
         Scene {
             name: name.into(),

@@ -33,7 +33,7 @@ pub enum Oracle {
 
 impl Oracle {
     /// Returns true if the oracle supports all pieces of both bodies.
-    pub fn suits(self, bodies: &Bodies) -> bool {
+    pub fn supports(self, bodies: &Bodies) -> bool {
         let small = |body: &Body| body.pieces().iter().all(|piece| piece.points.len() <= 3);
         self != Oracle::ClosedForm || small(bodies.a()) && small(bodies.b())
     }
@@ -58,7 +58,7 @@ pub struct Setup {
 }
 
 /// The largest number of pairs of pieces for which the naive schedule is tested.
-const NAIVE_PAIRS: usize = 400;
+const MAX_NAIVE_PAIRS: usize = 400;
 
 impl Backend {
     /// The backend that the engine uses by default.
@@ -83,9 +83,9 @@ impl Backend {
             Order::BestFirst => true,
             // Without trees, the answer would be that of another schedule.
             Order::Fast => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
-            Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
+            Order::Naive => bodies.pairs() <= MAX_NAIVE_PAIRS,
         };
-        fit && self.oracle.suits(bodies)
+        fit && self.oracle.supports(bodies)
     }
 
     /// Answers a query with a fresh schedule and a fresh oracle.

@@ -1,7 +1,7 @@
 //! Queries as plain data, for generators, the corpus and failure messages.
 
 use crate::models::{self, Mesh, Shape};
-use crate::query::{Actor, Query};
+use crate::query::{MovingShape, Query};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose, Settings, StartPolicy};
 use serde::{Deserialize, Serialize};
@@ -130,8 +130,8 @@ impl Case {
     /// Returns the query of the case, with shapes and motions.
     pub fn query(&self) -> Query {
         Query {
-            a: self.a.actor(),
-            b: self.b.actor(),
+            a: self.a.moving_shape(),
+            b: self.b.moving_shape(),
             duration: self.duration,
         }
     }
@@ -169,11 +169,11 @@ impl Part {
         }
     }
 
-    fn actor(&self) -> Actor {
+    fn moving_shape(&self) -> MovingShape {
         let turned = DQuat::from_scaled_axis(self.turned.into());
         let start = Pose::new(self.position, turned).expect("a pose");
         let motion = Motion::about(start, self.velocity, self.spin, self.centre);
-        Actor {
+        MovingShape {
             shape: self.shape.shape().scaled(self.scale),
             motion: motion.expect("finite velocities"),
         }

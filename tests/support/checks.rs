@@ -6,7 +6,7 @@ use crate::distances::{
     distance_to_mesh, distance_to_mesh_feature, distance_to_part_feature, distance_to_piece,
 };
 use crate::models::Kind;
-use crate::query::{Actor, Bodies, Query};
+use crate::query::{Bodies, MovingShape, Query};
 use crate::referee::{Finding, Placement, Referee};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -277,7 +277,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Che
 
 /// One of the two bodies of a contact.
 struct Side<'a> {
-    actor: &'a Actor,
+    actor: &'a MovingShape,
     body: &'a Body,
     kind: Kind,
     piece: u32,

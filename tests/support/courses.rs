@@ -28,7 +28,7 @@ pub const KINDS: [&str; 13] = [
 /// Returns a random trajectory of a kind, given by its index in [`KINDS`]. Its length is about `reach`, and it stays
 /// within about `reach` of the origin.
 pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
-    draw_kind(rng, KINDS[kind], reach).expect("finite numbers")
+    random_trajectory(rng, KINDS[kind], reach).expect("finite numbers")
 }
 
 /// Returns whether trajectories of a kind are a single motion.
@@ -36,7 +36,11 @@ pub fn is_motion(kind: usize) -> bool {
     ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
 }
 
-fn draw_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+fn random_trajectory(
+    rng: &mut Pcg64,
+    kind: &str,
+    reach: f64,
+) -> Result<Box<dyn Trajectory>, InputError> {
     Ok(match kind {
         "motion" => Box::new(motion(rng, reach)?),
         "still" => Box::new(Motion::still(pose(rng, reach)?)),

@@ -1,7 +1,7 @@
 //! Computes the distances from points to pieces, to meshes, and to their features.
 
 use crate::models::Mesh;
-use crate::referee::{point_segment, point_triangle};
+use crate::referee::{nearest_on_segment, nearest_on_triangle};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Origin, Piece, Polytope};
@@ -15,8 +15,8 @@ pub(crate) fn distance_to_piece(
     let points: Vec<DVec3> = piece.points.iter().map(|&q| to_world(q)).collect();
     let core = match points[..] {
         [a] => a.distance(p),
-        [a, b] => point_segment(p, [a, b]).distance(p),
-        [a, b, c] => point_triangle(p, [a, b, c]).distance(p),
+        [a, b] => nearest_on_segment(p, [a, b]).distance(p),
+        [a, b, c] => nearest_on_triangle(p, [a, b, c]).distance(p),
         _ => {
             let loops: Vec<Vec<DVec3>> = piece
                 .facets
@@ -46,7 +46,7 @@ pub(crate) fn distance_to_piece(
 pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, to_world: impl Fn(DVec3) -> DVec3) -> f64 {
     let off = |k| {
         let corners = mesh.triangle(k).map(&to_world);
-        point_triangle(p, corners).distance(p)
+        nearest_on_triangle(p, corners).distance(p)
     };
     (0..mesh.faces.len()).map(off).fold(f64::INFINITY, lesser)
 }
@@ -69,12 +69,12 @@ pub fn distance_to_mesh_feature(
             let side = |f: &[u32; 3]| f.contains(&v) && f.contains(&w);
             mesh.faces.iter().find(|f| side(f)).ok_or_else(bad)?;
             let ends = [vertex(v).ok_or_else(bad)?, vertex(w).ok_or_else(bad)?];
-            Ok(point_segment(p, ends).distance(p))
+            Ok(nearest_on_segment(p, ends).distance(p))
         }
         Feature::Face(f) => {
             mesh.faces.get(f as usize).ok_or_else(bad)?;
             let corners = mesh.triangle(f as usize).map(to_world);
-            Ok(point_triangle(p, corners).distance(p))
+            Ok(nearest_on_triangle(p, corners).distance(p))
         }
         Feature::Piece(_) => Err("a triangle's feature has a better name".into()),
     }
@@ -95,8 +95,8 @@ pub(crate) fn distance_to_part_feature(
             Feature::Vertex(v) => vertex(v).map(|q| q.distance(p)),
             Feature::Edge(v, w) => vertex(v)
                 .zip(vertex(w))
-                .map(|(v, w)| point_segment(p, [v, w]).distance(p)),
-            Feature::Face(f) => face_of(part, f).map(|corners| {
+                .map(|(v, w)| nearest_on_segment(p, [v, w]).distance(p)),
+            Feature::Face(f) => face_corners(part, f).map(|corners| {
                 let corners: Vec<DVec3> = corners.into_iter().map(&to_world).collect();
                 distance_to_polygon(p, &corners)
             }),
@@ -115,7 +115,7 @@ pub(crate) fn distance_to_part_feature(
 }
 
 /// Returns the corners of the face of a part with the number `face`.
-fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
+fn face_corners(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
     let mut facets = part.facets.iter();
     let whole = facets.find(|facet| facet.origin == Origin::Face(face));
     let corners = whole.map(|it| {
@@ -131,6 +131,6 @@ fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
 fn distance_to_polygon(p: DVec3, corners: &[DVec3]) -> f64 {
     let fan =
         (1..corners.len().saturating_sub(1)).map(|k| [corners[0], corners[k], corners[k + 1]]);
-    fan.map(|t| point_triangle(p, t).distance(p))
+    fan.map(|t| nearest_on_triangle(p, t).distance(p))
         .fold(f64::INFINITY, lesser)
 }

@@ -6,14 +6,14 @@ mod blend;
 mod predicates;
 mod samples;
 
-pub use blend::Blend;
+pub use blend::ConvexCombination;
 use ccd_core::order::{greater, lesser};
 pub use samples::{Effort, samples};
 
 use crate::models::Mesh;
 use blend::LazyPoint;
 use ccd_core::glam::{DVec2, DVec3};
-use predicates::{VIEWS, side, triangle_contains, turn};
+use predicates::{PROJECTION_AXES, side, triangle_contains, turn};
 use std::cmp::Ordering;
 
 /// The location of a point relative to a closed mesh.
@@ -35,28 +35,31 @@ pub struct Solid<'a> {
 
 /// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle that is
 /// counter-clockwise seen from above.
-pub fn side_of(triangle: [DVec3; 3], point: &Blend) -> Ordering {
+pub fn side_of(triangle: [DVec3; 3], point: &ConvexCombination) -> Ordering {
     side(triangle, &LazyPoint::new(point))
 }
 
 /// Returns, exactly, whether a closed triangle contains a point.
-pub fn triangle_holds(triangle: [DVec3; 3], point: &Blend) -> bool {
+pub fn triangle_contains_point(triangle: [DVec3; 3], point: &ConvexCombination) -> bool {
     triangle_contains(triangle, &LazyPoint::new(point))
 }
 
 /// Returns, exactly, whether a triangle has no area.
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
-    let point = Blend::mean([c]);
+    let point = ConvexCombination::mean([c]);
     let spot = LazyPoint::new(&point);
     let in_line = |&view: &[usize; 2]| turn(view, [a, b], &spot) == Ordering::Equal;
-    VIEWS.iter().all(in_line)
+    PROJECTION_AXES.iter().all(in_line)
 }
 
 /// Returns, exactly, whether a loop of coplanar points is a convex polygon of either orientation. Corners may be
 /// collinear.
 pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
-    let spots: Vec<Blend> = corners.iter().map(|&p| Blend::mean([p])).collect();
-    VIEWS.iter().any(|&view| {
+    let spots: Vec<ConvexCombination> = corners
+        .iter()
+        .map(|&p| ConvexCombination::mean([p]))
+        .collect();
+    PROJECTION_AXES.iter().any(|&view| {
         let mut turns = (0..corners.len()).flat_map(|k| {
             let edge = [corners[k], corners[(k + 1) % corners.len()]];
             spots
@@ -81,13 +84,13 @@ impl<'a> Solid<'a> {
     ///
     /// The ray is moved sideways by (ε, ε²), with ε smaller than any number. It therefore meets no
     /// edge and no upright face, and there are no special cases.
-    pub fn locate(&self, point: &Blend) -> Location {
+    pub fn locate(&self, point: &ConvexCombination) -> Location {
         let p = LazyPoint::new(point);
         let mut windings = 0;
-        for &face in self.columns.faces_over(&p) {
+        for &face in self.columns.candidate_faces(&p) {
             let triangle = self.mesh.triangle(face as usize);
             let top = greater(greater(triangle[0].z, triangle[1].z), triangle[2].z);
-            if top < p.near.z - p.rounding() || apart_from_above(triangle, &p) {
+            if top < p.near.z - p.rounding() || is_outside_projection(triangle, &p) {
                 continue;
             }
             if triangle_contains(triangle, &p) {
@@ -103,7 +106,7 @@ impl<'a> Solid<'a> {
 }
 
 /// Returns true if a point is certainly outside a triangle in the view from above.
-fn apart_from_above([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
+fn is_outside_projection([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
             lesser(lesser(a[axis], b[axis]), c[axis]),
@@ -117,7 +120,7 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> bool {
 /// The triangle must not contain the point.
 fn crossing(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> i32 {
     let [a, b, c] = triangle;
-    let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(VIEWS[0], edge, p) {
+    let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(PROJECTION_AXES[0], edge, p) {
         // The shift by (ε, ε²) changes (b − a) × (p − a) by ε (a − b).y + ε² (b − a).x.
         Ordering::Equal => {
             let [a, b] = edge;
@@ -186,7 +189,7 @@ impl Columns {
     }
 
     /// Returns a superset of the faces that a point could be over, under or on.
-    fn faces_over(&self, p: &LazyPoint<'_>) -> &[u32] {
+    fn candidate_faces(&self, p: &LazyPoint<'_>) -> &[u32] {
         let [x, y] = self.cell_of(p.near.truncate());
         &self.faces[x * self.count + y]
     }

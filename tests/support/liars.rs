@@ -5,7 +5,7 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
 /// A way in which an oracle breaks its contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lie {
+pub enum ContractBreach {
     /// Returns any axis and any points.
     Random,
     /// Returns an axis that is NaN.
@@ -13,39 +13,42 @@ pub enum Lie {
     /// Returns an axis of length zero, and no points.
     Nothing,
     /// Returns an infinite axis.
-    Infinite,
+    InfiniteAxis,
     /// Returns indices of points that the pieces do not have.
     OutOfRange,
     /// Returns the axis from B to A.
-    Backwards,
+    ReversedAxis,
     /// Always reports that it gives up.
     GivesUp,
 }
 
-impl Lie {
+impl ContractBreach {
     /// Every way to break the contract.
-    pub const ALL: [Lie; 7] = [
-        Lie::Random,
-        Lie::NanAxis,
-        Lie::Nothing,
-        Lie::Infinite,
-        Lie::OutOfRange,
-        Lie::Backwards,
-        Lie::GivesUp,
+    pub const ALL: [ContractBreach; 7] = [
+        ContractBreach::Random,
+        ContractBreach::NanAxis,
+        ContractBreach::Nothing,
+        ContractBreach::InfiniteAxis,
+        ContractBreach::OutOfRange,
+        ContractBreach::ReversedAxis,
+        ContractBreach::GivesUp,
     ];
 }
 
 /// An oracle that breaks its contract in one way, reproducibly.
 #[derive(Clone, Debug)]
-pub struct Liar {
-    lie: Lie,
+pub struct FaultyOracle {
+    breach: ContractBreach,
     state: u64,
 }
 
-impl Liar {
+impl FaultyOracle {
     /// Creates an oracle that breaks its contract in a given way.
-    pub fn new(lie: Lie) -> Self {
-        Liar { lie, state: 1 }
+    pub fn new(lie: ContractBreach) -> Self {
+        FaultyOracle {
+            breach: lie,
+            state: 1,
+        }
     }
 
     /// Returns a pseudo-random number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP
@@ -67,7 +70,7 @@ impl Liar {
     }
 }
 
-impl DistanceOracle for Liar {
+impl DistanceOracle for FaultyOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
@@ -77,22 +80,22 @@ impl DistanceOracle for Liar {
             a: Combination::point(self.index(count_a)),
             b: Combination::point(self.index(count_b)),
         };
-        match self.lie {
-            Lie::Random => {}
-            Lie::NanAxis => claim.axis.y = f64::NAN,
-            Lie::Nothing => {
+        match self.breach {
+            ContractBreach::Random => {}
+            ContractBreach::NanAxis => claim.axis.y = f64::NAN,
+            ContractBreach::Nothing => {
                 (claim.axis, claim.a, claim.b) =
                     (DVec3::ZERO, Combination::EMPTY, Combination::EMPTY);
             }
-            Lie::Infinite => claim.axis = DVec3::splat(f64::INFINITY),
-            Lie::OutOfRange => {
+            ContractBreach::InfiniteAxis => claim.axis = DVec3::splat(f64::INFINITY),
+            ContractBreach::OutOfRange => {
                 claim.a = Combination::point(count_a as u32 + 7);
                 claim.b = Combination::segment([u32::MAX, 0], 0.5);
             }
-            Lie::Backwards => {
+            ContractBreach::ReversedAxis => {
                 claim.axis = pair.a.points[0] - pair.b_to_a.point(pair.b.points[0]);
             }
-            Lie::GivesUp => return Err(GiveUp::Cycle),
+            ContractBreach::GivesUp => return Err(GiveUp::Cycle),
         }
         Ok(claim)
     }

@@ -3,8 +3,8 @@
 
 use crate::checks::CheckResult;
 use crate::exact::{
-    Blend, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
-    triangle_holds,
+    ConvexCombination, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
+    triangle_contains_point,
 };
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
@@ -86,7 +86,10 @@ fn check_points(mesh: &Mesh, polytope: &Polytope) -> CheckResult {
 /// Checks that facets are convex polygons with every point below them, and that together they are closed.
 fn check_hull(polytope: &Polytope) -> CheckResult {
     let points = &polytope.points;
-    let spots: Vec<Blend> = points.iter().map(|&p| Blend::mean([p])).collect();
+    let spots: Vec<ConvexCombination> = points
+        .iter()
+        .map(|&p| ConvexCombination::mean([p]))
+        .collect();
     let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
     for facet in &polytope.facets {
         let corners = &facet.corners;
@@ -101,7 +104,7 @@ fn check_hull(polytope: &Polytope) -> CheckResult {
             return Err(format!("{facet:?} has no area, or is not convex"));
         }
         for triangle in fan {
-            let front = |p: &&Blend| side_of(triangle, p) == Ordering::Greater;
+            let front = |p: &&ConvexCombination| side_of(triangle, p) == Ordering::Greater;
             if let Some(p) = spots.iter().find(front) {
                 return Err(format!("{p:?} is in front of {facet:?}"));
             }
@@ -178,11 +181,11 @@ fn check_merged(polytope: &Polytope) -> CheckResult {
         // Points between the middle and each edge, and nearer to each corner.
         let inner = (0..2 * corners.len()).map(|k| {
             let drawn = [k / 2, k.div_ceil(2)].map(|k| (5, corners[k % corners.len()]));
-            Blend::new(corners.iter().map(|&p| (1, p)).chain(drawn))
+            ConvexCombination::new(corners.iter().map(|&p| (1, p)).chain(drawn))
         });
-        let on_face = |p: &Blend| {
+        let on_face = |p: &ConvexCombination| {
             let mut faces = polytope.faces.iter();
-            faces.any(|face| triangle_holds(face.corners, p))
+            faces.any(|face| triangle_contains_point(face.corners, p))
         };
         if let Some(p) = inner.into_iter().find(|p| !on_face(p)) {
             return Err(format!("{p:?} is on no face of {facet:?}"));
@@ -209,6 +212,6 @@ fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
 
 /// Returns true if a convex polygon of the polytope contains a point.
 fn lies_on(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
-    let spot = Blend::mean([p]);
-    triangles(polytope, corners).any(|triangle| triangle_holds(triangle, &spot))
+    let spot = ConvexCombination::mean([p]);
+    triangles(polytope, corners).any(|triangle| triangle_contains_point(triangle, &spot))
 }

@@ -9,7 +9,7 @@ use std::rc::Rc;
 
 /// A shape and its motion.
 #[derive(Clone, Debug)]
-pub struct Actor {
+pub struct MovingShape {
     /// The shape in the body's frame.
     pub shape: Shape,
     /// The motion in the world.
@@ -20,9 +20,9 @@ pub struct Actor {
 #[derive(Clone, Debug)]
 pub struct Query {
     /// The shape and motion of body A.
-    pub a: Actor,
+    pub a: MovingShape,
     /// The shape and motion of body B.
-    pub b: Actor,
+    pub b: MovingShape,
     /// The end of the time interval, which begins at 0.
     pub duration: f64,
 }
@@ -37,7 +37,7 @@ pub struct Bodies {
 
 impl Query {
     /// Returns the query of two actors over a duration of 1.
-    pub fn new(a: Actor, b: Actor) -> Self {
+    pub fn new(a: MovingShape, b: MovingShape) -> Self {
         let duration = 1.0;
         Query { a, b, duration }
     }
@@ -134,20 +134,20 @@ impl Bodies {
     }
 }
 
-impl Actor {
+impl MovingShape {
     /// Returns a shape at rest at a position.
     pub fn still(shape: Shape, at: DVec3) -> Self {
-        Actor::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
+        MovingShape::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
     }
 
     /// Returns a shape that moves from a position without rotation.
     pub fn straight(shape: Shape, at: DVec3, velocity: DVec3) -> Self {
-        Actor::moving(shape, at, velocity, DVec3::ZERO)
+        MovingShape::moving(shape, at, velocity, DVec3::ZERO)
     }
 
     /// Returns a shape that rotates about its position.
     pub fn turning(shape: Shape, at: DVec3, spin: DVec3) -> Self {
-        Actor::moving(shape, at, DVec3::ZERO, spin)
+        MovingShape::moving(shape, at, DVec3::ZERO, spin)
     }
 
     /// Returns a shape that starts unrotated at a position, with a velocity and an angular velocity.
@@ -156,7 +156,7 @@ impl Actor {
     /// If a number is not finite.
     pub fn moving(shape: Shape, at: DVec3, velocity: DVec3, spin: DVec3) -> Self {
         let start = Pose::at(at).expect("a finite position");
-        Actor {
+        MovingShape {
             shape,
             motion: Motion::new(start, velocity, spin).expect("finite velocities"),
         }
@@ -188,12 +188,12 @@ impl Actor {
         self.shape.kinds().map(built).collect()
     }
 
-    fn seen_from(&self, frame: &Pose) -> Actor {
+    fn seen_from(&self, frame: &Pose) -> MovingShape {
         let motion = &self.motion;
         let (start, turn) = (motion.start(), frame.rotation());
         let position = frame.transform_point(start.translation());
         let start = Pose::new(position, turn * start.rotation()).expect("a pose");
-        Actor {
+        MovingShape {
             shape: self.shape.clone(),
             motion: Motion::about(
                 start,
@@ -205,10 +205,10 @@ impl Actor {
         }
     }
 
-    fn reversed(&self, duration: f64) -> Actor {
+    fn reversed(&self, duration: f64) -> MovingShape {
         let motion = &self.motion;
         let end = motion.pose(duration);
-        Actor {
+        MovingShape {
             shape: self.shape.clone(),
             motion: Motion::about(end, -motion.velocity(), -motion.spin(), motion.centre())
                 .expect("finite"),

@@ -43,12 +43,12 @@ pub struct Answers {
     /// The answer about the least distance.
     pub closest: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
-    pub cleared: (f64, Answer),
+    pub clearance_check: (f64, Answer),
 }
 
 /// The answers to every question about the same motions, given as user-defined trajectories.
 #[derive(Clone, Copy, Debug)]
-pub struct AnswersAlong {
+pub struct TrajectoryAnswers {
     /// The answer about the first contact.
     pub first: Answer,
     /// The answer to whether the bodies touch at all.
@@ -89,18 +89,18 @@ pub fn for_each_answers(
 }
 
 /// Calls `check` with the answers for user-defined trajectories, as [`for_each_answers`] does.
-pub fn for_each_answers_along(
+pub fn for_each_trajectory_answers(
     query: &Query,
     config: &Settings,
-    mut check: impl FnMut(&Bodies, OracleSetup, AnswersAlong),
+    mut check: impl FnMut(&Bodies, OracleSetup, TrajectoryAnswers),
 ) {
     for_each_oracle(query, |bodies, asked| {
         let answers = match asked.oracle {
-            Oracle::ClosedForm => answers_along_of(query, bodies, config, ClosedForm::default()),
-            Oracle::Gjk => answers_along_of(query, bodies, config, Gjk),
-            Oracle::Direct => answers_along_of(query, bodies, config, Direct::default()),
+            Oracle::ClosedForm => trajectory_answers(query, bodies, config, ClosedForm::default()),
+            Oracle::Gjk => trajectory_answers(query, bodies, config, Gjk),
+            Oracle::Direct => trajectory_answers(query, bodies, config, Direct::default()),
             Oracle::Vmarch => {
-                answers_along_of(query, bodies, config, Vmarch::default().or_else(Gjk))
+                trajectory_answers(query, bodies, config, Vmarch::default().or_else(Gjk))
             }
         };
         check(bodies, asked, answers);
@@ -111,7 +111,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
     for bodies in query.all_bodies() {
         for oracle in Oracle::ALL
             .into_iter()
-            .filter(|oracle| oracle.suits(&bodies))
+            .filter(|oracle| oracle.supports(&bodies))
         {
             let kinds = bodies.kinds;
             call(&bodies, OracleSetup { oracle, kinds });
@@ -120,7 +120,7 @@ fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, OracleSetup)) {
 }
 
 /// Returns a required distance below, at or above the least distance, and the settings that require it.
-fn required_near(closest: &Answer, config: &Settings) -> (f64, Settings) {
+fn required_distance_near(closest: &Answer, config: &Settings) -> (f64, Settings) {
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     // A pseudo-random choice.
     let required = match closest.stats.iterations % 4 {
@@ -149,14 +149,14 @@ fn answers_of<O: DistanceOracle>(
     let closest = schedule
         .closest_approach(&problem, &mut oracle)
         .expect(well_posed);
-    let (required, keeping) = required_near(&closest, config);
+    let (required, keeping) = required_distance_near(&closest, config);
     let problem = query.problem(bodies, &keeping);
     Answers {
         any: schedule
             .any_contact(&problem, &mut oracle)
             .expect(well_posed),
         closest,
-        cleared: (
+        clearance_check: (
             required,
             schedule
                 .closest_approach(&problem, &mut oracle)
@@ -165,12 +165,12 @@ fn answers_of<O: DistanceOracle>(
     }
 }
 
-fn answers_along_of<O: DistanceOracle>(
+fn trajectory_answers<O: DistanceOracle>(
     query: &Query,
     bodies: &Bodies,
     config: &Settings,
     mut oracle: O,
-) -> AnswersAlong {
+) -> TrajectoryAnswers {
     let (a, b) = (
         UserTrajectory(query.a.motion),
         UserTrajectory(query.b.motion),
@@ -181,10 +181,10 @@ fn answers_along_of<O: DistanceOracle>(
     let mut depth_first = DepthFirst::<O>::default();
     let well_posed = "motions within range";
     let closest = (depth_first.closest_approach(&along, &mut oracle)).expect(well_posed);
-    let (required, keeping) = required_near(&closest, config);
+    let (required, keeping) = required_distance_near(&closest, config);
     let keeping = ccd_core::Query::new(a, b, query.duration, &keeping).expect("a well-posed query");
     let cleared = (depth_first.closest_approach(&keeping, &mut oracle)).expect(well_posed);
-    AnswersAlong {
+    TrajectoryAnswers {
         first: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
         any: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
         closest,

@@ -10,10 +10,10 @@ mod triangles;
 use ccd_core::order::{greater, lesser};
 pub use placement::Placement;
 pub(crate) use triangles::{Face, distance_squared};
-pub use triangles::{contains, point_segment, point_triangle};
+pub use triangles::{contains, nearest_on_segment, nearest_on_triangle};
 
 use crate::query::Query;
-use crate::tolerance::{CLOSE, KEPT};
+use crate::tolerance::{STEP_SHARE, TOUCHING_SHARE};
 use ccd_core::glam::DVec3;
 use triangles::PosedMesh;
 
@@ -73,13 +73,13 @@ impl<'a> Referee<'a> {
 
     /// Returns the distance of the two surfaces at a time; 0 if they intersect.
     pub fn gap(&self, time: f64) -> f64 {
-        let [a, b] = self.posed(time);
+        let [a, b] = self.posed_meshes(time);
         a.distance(&b)
     }
 
     /// Returns true if one closed solid contains the first vertex of the other at a time.
     pub fn nested(&self, time: f64) -> bool {
-        let [a, b] = self.posed(time);
+        let [a, b] = self.posed_meshes(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
         let inside = |outer: &PosedMesh<'_>, inner: &PosedMesh<'_>| {
             inner
@@ -91,7 +91,7 @@ impl<'a> Referee<'a> {
 
     /// Returns true if a point in world coordinates lies inside body A (0) or B (1) at the start.
     pub fn holds(&self, body: usize, point: DVec3) -> bool {
-        let posed = &self.posed(0.0)[body];
+        let posed = &self.posed_meshes(0.0)[body];
         contains(
             posed.mesh(),
             posed.points(),
@@ -102,7 +102,7 @@ impl<'a> Referee<'a> {
     /// Searches for the first contact of the bodies.
     pub fn finding(&self) -> Finding {
         let speed = self.speed();
-        let close = CLOSE * self.size();
+        let close = TOUCHING_SHARE * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
         for _ in 0..MAX_STEPS {
             let gap = self.gap(time) - self.margin;
@@ -111,7 +111,7 @@ impl<'a> Referee<'a> {
                 return self.find_contact(time, close / speed);
             }
             // The distance falls no faster than `speed`.
-            time += KEPT * gap / speed;
+            time += STEP_SHARE * gap / speed;
             if time >= self.query.duration {
                 return Finding::Free {
                     gap: least + self.margin,
@@ -159,8 +159,8 @@ impl<'a> Referee<'a> {
             .fold(0.0, greater)
     }
 
-    fn posed(&self, time: f64) -> [PosedMesh<'a>; 2] {
-        let posed = |k: usize, actor: &'a crate::query::Actor| {
+    fn posed_meshes(&self, time: f64) -> [PosedMesh<'a>; 2] {
+        let posed = |k: usize, actor: &'a crate::query::MovingShape| {
             let mesh = &actor.shape.mesh;
             PosedMesh::new(
                 mesh,

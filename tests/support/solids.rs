@@ -20,11 +20,11 @@ pub enum Solid {
     /// A tetrahedron as a mesh, by its corners.
     Tetrahedron([DVec3; 4]),
     /// A cuboid as a mesh of twelve triangles, by its half extents.
-    Crate(DVec3),
+    CuboidMesh(DVec3),
 }
 
 /// The corners of a tetrahedron's faces, counterclockwise from outside if its determinant is positive.
-const SIDES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 impl Solid {
     /// Returns a random solid of size about `size`.
@@ -35,7 +35,7 @@ impl Solid {
             0..5 => Solid::Ball(x),
             5..9 => Solid::Capsule(0.5 * x, y),
             9..14 => Solid::Cuboid(DVec3::new(x, y, z)),
-            14 => Solid::Crate(DVec3::new(x, y, z)),
+            14 => Solid::CuboidMesh(DVec3::new(x, y, z)),
             _ => {
                 let (x, y, z) = (DVec3::X * x, DVec3::Y * y, DVec3::Z * z);
                 Solid::Tetrahedron([-x - y, x - y, y - z, y + z].map(|p| p + 0.3 * (x + z)))
@@ -57,8 +57,8 @@ impl Solid {
             Solid::Ball(radius) => Body::sphere(radius).expect("a ball"),
             Solid::Capsule(radius, half) => Body::capsule(radius, half).expect("a capsule"),
             Solid::Cuboid(half) => Body::cuboid(half).expect("a cuboid"),
-            Solid::Tetrahedron(corners) => mesh(&corners, &SIDES),
-            Solid::Crate(half) => {
+            Solid::Tetrahedron(corners) => mesh(&corners, &TETRAHEDRON_FACES),
+            Solid::CuboidMesh(half) => {
                 let Mesh { vertices, faces } = cuboid(half).mesh;
                 mesh(&vertices, &faces)
             }
@@ -79,11 +79,11 @@ impl Solid {
                 let core = [-half, half, half].map(|z| at(z * DVec3::Z));
                 (vec![Face::new(core)], radius)
             }
-            Solid::Cuboid(half) | Solid::Crate(half) => {
+            Solid::Cuboid(half) | Solid::CuboidMesh(half) => {
                 let Mesh { vertices, faces } = cuboid(half).mesh;
                 hull(&vertices, &faces)
             }
-            Solid::Tetrahedron(corners) => hull(&corners, &SIDES),
+            Solid::Tetrahedron(corners) => hull(&corners, &TETRAHEDRON_FACES),
         };
         PlacedSolid { faces, radius }
     }

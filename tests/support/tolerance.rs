@@ -12,11 +12,11 @@ pub fn rounding(scale: f64) -> f64 {
 
 /// The allowed lateness of a reported time relative to a closed form, in units of the duration. It is the rounding of
 /// the closed form itself, a few units in the last place after its subtractions.
-pub const CLOSED_FORM: f64 = 1e-13;
+pub const CLOSED_FORM_LATENESS: f64 = 1e-13;
 
 /// The fraction of a scene's size below which the referee considers bodies as touching unless they intersect. It is
 /// 2²³ times the rounding of its distances, and less than any tolerance tested.
-pub const CLOSE: f64 = 1e-10;
+pub const TOUCHING_SHARE: f64 = 1e-10;
 
 /// The fraction of each proven step that the referee takes. The rounding is less than the rest.
-pub const KEPT: f64 = 1.0 - 1e-9;
+pub const STEP_SHARE: f64 = 1.0 - 1e-9;

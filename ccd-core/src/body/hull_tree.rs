@@ -28,7 +28,6 @@ use convex::support_of;
 use std::sync::Arc;
 
 /// A binary tree over the pieces of a body in which every node has the convex hull of all pieces below it `[SWIFT01]`.
-/// Every node has the convex hull of all pieces below `[SWIFT01]`.
 ///
 /// # Guarantee
 /// - A leaf's hull is its piece.

@@ -111,8 +111,7 @@ impl DisjointSets {
         k
     }
 
-    /// Joins the sets of two elements, and returns whether they were different. Returns whether the sets were
-    /// different.
+    /// Joins the sets of two elements, and returns whether they were different.
     fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;

@@ -184,8 +184,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
-/// Tests features without mesh numbers: hulls of unknown facets have only corners. Hulls of unknown facets have only
-/// their corners.
+/// Tests features without mesh numbers: hulls of unknown facets have only corners.
 #[test]
 fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();

@@ -78,10 +78,10 @@ fn every_corpus_has_a_target() {
 }
 
 /// A lock that lets one target run at a time, because the memory limit holds for the whole process.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+static TARGET_LOCK: Mutex<()> = Mutex::new(());
 
 fn replay(target: Target) {
-    let _one = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let _one = TARGET_LOCK.lock().unwrap_or_else(PoisonError::into_inner);
     if let Ok(file) = std::env::var("CCD_FUZZ_FILE") {
         return (target.run)(&fs::read(file).expect("a readable file"));
     }
@@ -94,8 +94,8 @@ fn replay(target: Target) {
         })
         .collect();
     assert!(!corpus.is_empty(), "no corpus of {}", target.name);
-    let mut mutator = Mutator::new(from_environment("CCD_TEST_SEED", 1), &corpus);
-    for number in 0..CHANGES * from_environment("CCD_TEST_CASES", 1) {
+    let mut mutator = Mutator::new(number_from_environment("CCD_TEST_SEED", 1), &corpus);
+    for number in 0..CHANGES * number_from_environment("CCD_TEST_CASES", 1) {
         let bytes = mutator.next_file();
         run(target, &bytes, &format!("change {number}"));
     }
@@ -123,7 +123,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-fn from_environment(name: &str, default: u64) -> u64 {
+fn number_from_environment(name: &str, default: u64) -> u64 {
     let value = std::env::var(name).ok().and_then(|text| text.parse().ok());
     value.unwrap_or(default)
 }

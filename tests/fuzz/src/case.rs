@@ -13,7 +13,7 @@ pub struct Case {
     pub duration: f64,
     pub config: Settings,
     /// The expected result, as far as the generator knows it.
-    pub expect: Expect,
+    pub expected: Expect,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

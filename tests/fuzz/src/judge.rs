@@ -28,7 +28,7 @@ pub enum Fault {
     /// Touching or overlap at the start is reported although the bodies are apart.
     FalseStart,
     /// The bodies overlap at the start, which is not reported.
-    NotOverlapping,
+    MissedOverlap,
     /// A reported lower bound is above the distance.
     LowerBound,
     /// A reported upper bound is below the distance.
@@ -159,7 +159,7 @@ impl<'a> Judge<'a> {
             Outcome::Contact { .. } | Outcome::Free { .. } | Outcome::Touching { .. }
                 if overlaps =>
             {
-                say(Fault::NotOverlapping, format!("{:?}", answer.outcome));
+                say(Fault::MissedOverlap, format!("{:?}", answer.outcome));
             }
             Outcome::Contact { time, contact } => {
                 early.into_iter().for_each(|e| say(Fault::Late, known(e)));
@@ -202,7 +202,7 @@ impl<'a> Judge<'a> {
     }
 
     fn check_expected(&self, outcome: &Outcome) -> Faults {
-        let wrong = match (self.case.expect, *outcome) {
+        let wrong = match (self.case.expected, *outcome) {
             (_, Outcome::Unresolved(_)) | (Expect::Nothing, _) => None,
             (Expect::Free, Outcome::Free { .. }) => None,
             (Expect::Free, _) => Some(Fault::FalseContact),
@@ -212,7 +212,7 @@ impl<'a> Judge<'a> {
             (Expect::ContactBy(_), Outcome::Free { .. }) => Some(Fault::Missed),
             (Expect::ContactBy(_), _) => None,
         };
-        let text = || format!("expected {:?}, {outcome:?}", self.case.expect);
+        let text = || format!("expected {:?}, {outcome:?}", self.case.expected);
         wrong.into_iter().map(|fault| (fault, text())).collect()
     }
 
@@ -339,7 +339,7 @@ impl<'a> Judge<'a> {
         let wrong = match *overlap {
             Overlap::Pieces(contact) => {
                 self.start.distance > self.rounding && !self.start.may_contain
-                    || self.only_touch(given.bodies, &contact)
+                    || self.interiors_are_disjoint(given.bodies, &contact)
             }
             Overlap::AInsideB(p) => !self.is_inside(p.to_array(), 1),
             Overlap::BInsideA(p) => !self.is_inside(p.to_array(), 0),
@@ -351,7 +351,7 @@ impl<'a> Judge<'a> {
     }
 
     /// Returns true if two pieces that are reported to overlap are triangles with disjoint interiors.
-    fn only_touch(&self, bodies: &Bodies, contact: &Contact) -> bool {
+    fn interiors_are_disjoint(&self, bodies: &Bodies, contact: &Contact) -> bool {
         match self
             .piece_triangles(bodies, contact, 0.0)
             .as_ref()

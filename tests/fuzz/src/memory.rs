@@ -8,12 +8,12 @@ use std::sync::Once;
 #[global_allocator]
 static HEAP: Cap<System> = Cap::new(System, usize::MAX);
 
-static UNLIMITED_PANICS: Once = Once::new();
+static PANIC_HOOK_INIT: Once = Once::new();
 
 /// Runs a function within a memory limit. Aborts the process if all threads together need more than `bytes`.
 pub(crate) fn with_memory_limit<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
     // The report of a panic takes more memory than most inputs.
-    UNLIMITED_PANICS.call_once(|| {
+    PANIC_HOOK_INIT.call_once(|| {
         let hook = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
             let _ = HEAP.set_limit(usize::MAX);

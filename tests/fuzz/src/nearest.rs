@@ -45,7 +45,7 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
 /// A side of a triangle, prepared for distances.
 struct Edge<N> {
     from: Vector<N>,
-    way: Vector<N>,
+    edge_vector: Vector<N>,
     /// The direction of the edge, scaled so that its squares neither overflow nor underflow, and the scale.
     along: Vector<N>,
     scale: N,
@@ -60,7 +60,7 @@ impl<N: Number> Edge<N> {
             let (scale, square) = (ratio(along, way), along.dot(along));
             Edge {
                 from,
-                way,
+                edge_vector: way,
                 along,
                 scale,
                 square,
@@ -73,7 +73,7 @@ impl<N: Number> Edge<N> {
     /// its start.
     fn offset_from(&self, p: Vector<N>) -> Vector<N> {
         let share = self.along.dot(p - self.from) / self.square * self.scale;
-        self.from + self.way * clamp_to_unit_interval(share) - p
+        self.from + self.edge_vector * clamp_to_unit_interval(share) - p
     }
 }
 
@@ -117,8 +117,9 @@ fn offset_between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>
     let (zero, one) = (N::from_f64(0.0), N::from_f64(1.0));
     let within = |x: N| x >= zero && x <= one;
     // Clamped anyway, since rounding may put the other point slightly beyond its end.
-    (within(x) || within(y))
-        .then(|| w + q.way * clamp_to_unit_interval(y) - p.way * clamp_to_unit_interval(x))
+    (within(x) || within(y)).then(|| {
+        w + q.edge_vector * clamp_to_unit_interval(y) - p.edge_vector * clamp_to_unit_interval(x)
+    })
 }
 
 /// Returns the vector from a point to its foot in a triangle's plane, if the foot is within the triangle.
@@ -163,7 +164,12 @@ fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector
     (0..3).any(|k| {
         let (up, down) = (heights[k], heights[(k + 1) % 3]);
         let crosses = (up > zero && down < zero) || (up < zero && down > zero);
-        crosses && is_over_triangle(edges[k].from + edges[k].way * (up / (up - down)), t, n)
+        crosses
+            && is_over_triangle(
+                edges[k].from + edges[k].edge_vector * (up / (up - down)),
+                t,
+                n,
+            )
     })
 }
 

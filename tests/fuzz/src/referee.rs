@@ -14,9 +14,9 @@ use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
 /// The largest error of the referee's distances, as a fraction of a scene's size.
-const ERROR: f64 = 1e-25;
+const MAX_DISTANCE_ERROR: f64 = 1e-25;
 /// The distance, as a fraction of a scene's size, below which results of f64 are checked in [`Double`].
-const CHECKED_BELOW: f64 = 1e-13;
+const RECHECK_DISTANCE: f64 = 1e-13;
 
 /// A body's triangles and its motion.
 pub struct MovingBody {
@@ -126,7 +126,7 @@ impl Scene {
     /// 1e-31.
     pub fn error(&self) -> f64 {
         let far = self.sides.iter().map(|s| s.track.start.largest());
-        ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
+        MAX_DISTANCE_ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
     }
 
     pub fn snapshots(&self, t: f64) -> [Snapshot; 2] {
@@ -148,7 +148,7 @@ impl Scene {
         let best = near
             .iter()
             .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
-        let noise = CHECKED_BELOW * self.scale;
+        let noise = RECHECK_DISTANCE * self.scale;
         let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
         let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
         exact.fold(f64::INFINITY, smaller)
@@ -171,7 +171,7 @@ impl Scene {
         for (i, (s, m)) in a.iter().enumerate() {
             for (j, (t, n)) in b.iter().enumerate() {
                 let (way, radii) = (*m - *n, balls[0][i].radius + balls[1][j].radius);
-                let kept = (best + radii) * (1.0 + 1e-9) + CHECKED_BELOW * self.scale;
+                let kept = (best + radii) * (1.0 + 1e-9) + RECHECK_DISTANCE * self.scale;
                 if way.dot(way) < kept * kept {
                     let d = distance(s, t);
                     best = smaller(best, d);

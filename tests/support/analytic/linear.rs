@@ -4,7 +4,7 @@ use super::{Expect, Scene};
 use crate::models::{
     comb, cuboid, icosphere, inradius, needles, parallel_plate, slit_plate, torus, u_hook,
 };
-use crate::query::Actor;
+use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -26,14 +26,14 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-fn slab() -> Actor {
-    Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z)
+fn slab() -> MovingShape {
+    MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z)
 }
 
 /// Returns T1: a cube that falls face onto face, with coplanar faces.
 fn falling_cube() -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = Actor::straight(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let cube = MovingShape::straight(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     Scene::new(
         "T1 falling cube",
         [cube, slab()],
@@ -46,14 +46,14 @@ fn tilted_cubes() -> [Scene; 2] {
     let cube = || cuboid(DVec3::splat(0.5));
     let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
     let lower = cube().placed(DQuat::from_rotation_y(FRAC_PI_4), DVec3::ZERO);
-    let falls = |shape| Actor::straight(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falls = |shape| MovingShape::straight(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     // Rotates the diagonal to −z.
     let down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let corner_down = cube().placed(down, DVec3::ZERO);
     [
         Scene::new(
             "T8 edge on edge",
-            [falls(upper), Actor::still(lower, DVec3::ZERO)],
+            [falls(upper), MovingShape::still(lower, DVec3::ZERO)],
             Expect::hit_at(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
         ),
         Scene::new(
@@ -67,7 +67,7 @@ fn tilted_cubes() -> [Scene; 2] {
 /// Returns T10: a flat cube that slides over a slab at a small distance.
 pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = Actor::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
+    let cube = MovingShape::straight(cube, (0.5 + gap) * DVec3::Z, velocity);
     // Accounts for the rounding of the cube's position: 0.5 + gap is a multiple of 2⁻⁵³.
     let gap = (0.5 + gap) - 0.5;
     Scene::new(
@@ -80,8 +80,8 @@ pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
 /// Returns T13: a small fast cube that hits a thin sheet.
 fn bullet() -> Scene {
     let bullet = cuboid(DVec3::splat(0.005));
-    let bullet = Actor::straight(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
-    let paper = Actor::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);
+    let bullet = MovingShape::straight(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
+    let paper = MovingShape::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);
     Scene::new(
         "T13 bullet",
         [bullet, paper],
@@ -108,14 +108,14 @@ fn hooks_parting() -> Scene {
     )
 }
 
-fn hooks(velocity: DVec3) -> [Actor; 2] {
+fn hooks(velocity: DVec3) -> [MovingShape; 2] {
     let (bar, gap, length) = (0.2, 0.6, 0.55);
     let crossed = DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI);
     let upper = u_hook(bar, gap, length);
     let lower = u_hook(bar, gap, length).placed(crossed, DVec3::ZERO);
     [
-        Actor::straight(upper, 0.5 * DVec3::Z, velocity),
-        Actor::still(lower, DVec3::ZERO),
+        MovingShape::straight(upper, 0.5 * DVec3::Z, velocity),
+        MovingShape::still(lower, DVec3::ZERO),
     ]
 }
 
@@ -126,7 +126,7 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
     let corner = |x: f64, z: f64| tilted * DVec3::new(x, 0.0, z);
     let (top, bottom) = (corner(1.0, 0.1), corner(1.0, -0.1));
     let speed = 5.0;
-    let plate = Actor::straight(plate, -2.0 * DVec3::X, speed * DVec3::X);
+    let plate = MovingShape::straight(plate, -2.0 * DVec3::X, speed * DVec3::X);
     let expect = if top.z < half_height {
         Expect::Free {
             gap: half_height - top.z,
@@ -137,7 +137,7 @@ fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
         let front = bottom.x + part * (top.x - bottom.x);
         Expect::hit_at(move |g| (2.0 - front - g / phi.cos()) / speed)
     };
-    let slit = Actor::still(slit_plate(half_height), DVec3::ZERO);
+    let slit = MovingShape::still(slit_plate(half_height), DVec3::ZERO);
     Scene::new(format!("T16 slit {half_height}"), [plate, slit], expect)
 }
 
@@ -148,7 +148,7 @@ fn linked_tori() -> Scene {
     // In the xz-plane, its first section on −x.
     let upright = DQuat::from_rotation_x(FRAC_PI_2) * DQuat::from_rotation_z(PI);
     let upright = torus(major, minor, rings, sides).placed(upright, DVec3::ZERO);
-    let upright = Actor::straight(upright, major * DVec3::X, DVec3::X);
+    let upright = MovingShape::straight(upright, major * DVec3::X, DVec3::X);
     // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the angle between
     // sections, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
@@ -158,7 +158,7 @@ fn linked_tori() -> Scene {
     };
     Scene::new(
         "T17 linked tori",
-        [Actor::still(flat, DVec3::ZERO), upright],
+        [MovingShape::still(flat, DVec3::ZERO), upright],
         expect,
     )
 }
@@ -170,8 +170,8 @@ pub fn combs(teeth: usize) -> Scene {
         DQuat::from_rotation_x(PI),
         DVec3::new(0.5, 0.0, 1.0 + apart),
     );
-    let upper = Actor::straight(flipped, DVec3::ZERO, -speed * DVec3::Z);
-    let lower = Actor::still(comb(teeth), DVec3::ZERO);
+    let upper = MovingShape::straight(flipped, DVec3::ZERO, -speed * DVec3::Z);
+    let lower = MovingShape::still(comb(teeth), DVec3::ZERO);
     Scene::new(
         format!("T19 combs of {teeth}"),
         [upper, lower],
@@ -181,7 +181,7 @@ pub fn combs(teeth: usize) -> Scene {
 
 /// Returns T21: needles that come down tip first.
 fn needles_on_slab(width: f64) -> Scene {
-    let fall = Actor::straight(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
+    let fall = MovingShape::straight(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z);
     Scene::new(
         format!("T21 needles of {width:.0e}"),
         [fall, slab()],
@@ -191,8 +191,8 @@ fn needles_on_slab(width: f64) -> Scene {
 
 /// Returns two equal plates, of which every pair of triangles touches at the same time.
 fn parallel_plates() -> Scene {
-    let falling = Actor::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
-    let lying = Actor::still(parallel_plate(16), DVec3::ZERO);
+    let falling = MovingShape::straight(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z);
+    let lying = MovingShape::still(parallel_plate(16), DVec3::ZERO);
     Scene::new("plates", [falling, lying], Expect::hit_at(|g| 0.5 - g))
 }
 
@@ -202,7 +202,7 @@ fn spinning_icosphere() -> Scene {
     let ball = icosphere(radius, 2);
     let inner = inradius(&ball.mesh);
     let spin = DVec3::new(1.0, 2.0, 3.0);
-    let ball = Actor::moving(ball, height * DVec3::Z, -speed * DVec3::Z, spin);
+    let ball = MovingShape::moving(ball, height * DVec3::Z, -speed * DVec3::Z, spin);
     let expect = Expect::Hit {
         earliest: Box::new(move |g| (height - radius - g) / speed),
         latest: (height - inner) / speed,

@@ -2,7 +2,7 @@
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, Shape, cuboid};
-use crate::query::Actor;
+use crate::query::MovingShape;
 use ccd_core::glam::DVec3;
 use ccd_core::{Polytope, Volume};
 use std::f64::consts::PI;
@@ -37,8 +37,8 @@ fn ball(radius: f64) -> Shape {
     rounded(vec![DVec3::ZERO], radius)
 }
 
-fn wall() -> Actor {
-    Actor::still(
+fn wall() -> MovingShape {
+    MovingShape::still(
         without_mesh(cuboid(DVec3::new(0.5, 4.0, 4.0))),
         2.0 * DVec3::X,
     )
@@ -51,13 +51,13 @@ fn without_mesh(mut shape: Shape) -> Shape {
 
 /// Returns two balls that pass each other at a distance.
 fn balls_passing() -> Scene {
-    let moving = Actor::moving(
+    let moving = MovingShape::moving(
         ball(0.5),
         DVec3::new(-2.0, 1.1, 0.0),
         4.0 * DVec3::X,
         PI * DVec3::Z,
     );
-    let still = Actor::still(ball(0.5), DVec3::ZERO);
+    let still = MovingShape::still(ball(0.5), DVec3::ZERO);
     // The least distance, when its centre passes at 1.1.
     Scene::new(
         "balls passing",
@@ -68,15 +68,15 @@ fn balls_passing() -> Scene {
 
 /// Returns two moving balls that meet off centre.
 fn balls_head_on() -> Scene {
-    let left = Actor::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
-    let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
+    let left = MovingShape::straight(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X);
+    let right = MovingShape::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
     Scene::new("balls head-on", [left, right], Expect::hit_at(time))
 }
 
 /// Returns a rotating ball that falls onto a box.
 fn ball_on_slab() -> Scene {
-    let falling = Actor::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
+    let falling = MovingShape::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
     Scene::new(
         "ball on wall",
         [falling, wall()],
@@ -87,7 +87,7 @@ fn ball_on_slab() -> Scene {
 /// Returns a rotating capsule whose end hits a wall.
 fn capsule_on_wall() -> Scene {
     let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
-    let turning = Actor::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
+    let turning = MovingShape::turning(capsule, DVec3::ZERO, PI * DVec3::Y);
     Scene::new(
         "capsule on wall",
         [turning, wall()],
@@ -99,7 +99,7 @@ fn capsule_on_wall() -> Scene {
 fn rounded_box() -> Scene {
     let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
     shape.parts[0].radius = 0.125;
-    let flying = Actor::straight(shape, -DVec3::X, 4.0 * DVec3::X);
+    let flying = MovingShape::straight(shape, -DVec3::X, 4.0 * DVec3::X);
     let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
     Scene::new("rounded box", [flying, wall()], Expect::hit_at(time))
 }

@@ -2,7 +2,7 @@
 
 use super::{Expect, Scene};
 use crate::models::{cuboid, frame_plate, mace, post, rod, wall_at};
-use crate::query::Actor;
+use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -44,8 +44,8 @@ fn corner_time(height: f64, speed: f64) -> f64 {
 /// Returns T2: a rod that rotates until its end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
-    let spinning = Actor::turning(rod(LENGTH, WIDTH), height * DVec3::Z, PI * DVec3::Y);
-    let slab = Actor::still(cuboid(DVec3::new(4.0, 4.0, 0.5)), -0.5 * DVec3::Z);
+    let spinning = MovingShape::turning(rod(LENGTH, WIDTH), height * DVec3::Z, PI * DVec3::Y);
+    let slab = MovingShape::still(cuboid(DVec3::new(4.0, 4.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T2 rod on slab",
         [spinning, slab],
@@ -63,16 +63,16 @@ fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     )
 }
 
-fn upright_rod_and_wall(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
+fn upright_rod_and_wall(speed: f64, wall: f64, pose: Pose) -> [MovingShape; 2] {
     let shape = cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
     let motion = Motion::new(pose, DVec3::ZERO, pose.rotation() * (speed * DVec3::Y));
     let still = Motion::still(pose);
     [
-        Actor {
+        MovingShape {
             shape,
             motion: motion.expect("finite"),
         },
-        Actor {
+        MovingShape {
             shape: wall_at(wall),
             motion: still,
         },
@@ -84,7 +84,7 @@ fn pre_rotated_rod() -> Scene {
     let [rod, wall] = upright_rod_and_wall(PI, 1.25, Pose::IDENTITY);
     let turn = DQuat::from_rotation_z(FRAC_PI_2);
     let start = Pose::new(DVec3::ZERO, turn.conjugate()).expect("a pose");
-    let rod = Actor {
+    let rod = MovingShape {
         shape: rod.shape.placed(turn, DVec3::ZERO),
         motion: Motion::new(start, DVec3::ZERO, PI * DVec3::Y).expect("finite"),
     };
@@ -109,8 +109,8 @@ fn grazing_miss(depth: f64) -> Scene {
 fn rod_on_post() -> Scene {
     let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
     let shape = cuboid(DVec3::new(LENGTH, width, 0.1));
-    let spinning = Actor::turning(shape, DVec3::ZERO, speed * DVec3::Z);
-    let post = Actor::still(post(radius, angle), DVec3::ZERO);
+    let spinning = MovingShape::turning(shape, DVec3::ZERO, speed * DVec3::Z);
+    let post = MovingShape::still(post(radius, angle), DVec3::ZERO);
     let time = move |g: f64| (angle - ((width + g) / radius).asin()) / speed;
     Scene::new("T7 rod on post", [spinning, post], Expect::hit_at(time))
 }
@@ -120,8 +120,8 @@ fn rod_on_post() -> Scene {
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
-    let swinging = Actor::turning(mace(length, width), DVec3::ZERO, speed * DVec3::Z);
-    let wall = Actor::still(
+    let swinging = MovingShape::turning(mace(length, width), DVec3::ZERO, speed * DVec3::Z);
+    let wall = MovingShape::still(
         wall_at(1.0).placed(DQuat::from_rotation_z(FRAC_PI_2), DVec3::ZERO),
         DVec3::ZERO,
     );
@@ -132,8 +132,8 @@ fn swinging_mace() -> Scene {
 /// Returns T12: a square peg that rotates in a square hole, with four contacts at once.
 fn peg_in_hole() -> Scene {
     let (peg, hole) = (1.0, 1.2);
-    let turning = Actor::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
-    let plate = Actor::still(frame_plate(hole), DVec3::ZERO);
+    let turning = MovingShape::turning(cuboid(DVec3::new(peg, peg, 0.5)), DVec3::ZERO, DVec3::Z);
+    let plate = MovingShape::still(frame_plate(hole), DVec3::ZERO);
     let time = move |g: f64| ((hole - g) / (peg * 2.0_f64.sqrt())).asin() - FRAC_PI_4;
     Scene::new("T12 peg in hole", [turning, plate], Expect::hit_at(time))
 }
@@ -142,8 +142,8 @@ fn peg_in_hole() -> Scene {
 fn two_rods() -> Scene {
     let (apart, speed) = (3.0, 2.0);
     let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
-    let left = Actor::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
-    let right = Actor::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
+    let left = MovingShape::turning(upright(), DVec3::ZERO, speed * DVec3::Y);
+    let right = MovingShape::turning(upright(), apart * DVec3::X, -speed * DVec3::Y);
     let time = move |g: f64| corner_time(0.5 * (apart - g), speed);
     Scene::new("T14 two rods", [left, right], Expect::hit_at(time))
 }
@@ -176,7 +176,7 @@ fn rigidly_turning_pair() -> Scene {
     let on_table = |x: f64| {
         let start = Pose::at(x * DVec3::X).expect("finite");
         let about_origin = -x * DVec3::X;
-        Actor {
+        MovingShape {
             shape: cube(),
             motion: Motion::about(start, DVec3::ZERO, 40.0 * DVec3::Z, about_origin)
                 .expect("finite"),

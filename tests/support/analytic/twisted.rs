@@ -2,7 +2,7 @@
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
-use crate::query::Actor;
+use crate::query::MovingShape;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use std::f64::consts::{PI, TAU};
@@ -11,7 +11,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     let mut out = vec![
         screw_in_nut("T18 screw, right pitch", PITCH, 1),
         screw_in_nut("T18 screw, wrong pitch", 0.5 * PITCH, 1),
-        dirty_cube(),
+        degenerate_cube(),
         two_shells(),
         cuboids_in_the_distance(),
         deep_overlap(),
@@ -28,31 +28,31 @@ pub(super) fn scenes() -> Vec<Scene> {
 }
 
 /// The depth of the screw's start below the nut's bottom, less one pitch.
-const LOW: f64 = 1.05;
+const START_DEPTH: f64 = 1.05;
 
 /// Returns T18: three turns of a screw in its nut, which climbs by `pitch` a turn.
 pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
-    let turning = Actor::moving(
+    let turning = MovingShape::moving(
         screw(fineness),
-        -LOW * DVec3::Z,
+        -START_DEPTH * DVec3::Z,
         3.0 * pitch * DVec3::Z,
         3.0 * TAU * DVec3::Z,
     );
     // Turned ahead by the angle that corresponds to the screw's low start.
-    let turned = DQuat::from_rotation_z(LOW / PITCH * TAU);
-    let still = Actor::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
+    let turned = DQuat::from_rotation_z(START_DEPTH / PITCH * TAU);
+    let still = MovingShape::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
     Scene::new(name, [turning, still], Expect::Unknown)
 }
 
 /// Returns T21: T1 with faces of no area, repeated faces, and the other faces reversed.
-fn dirty_cube() -> Scene {
+fn degenerate_cube() -> Scene {
     let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.flipped();
     let clean = mesh.faces.clone();
     mesh.faces.extend(clean.iter().map(|f| [f[0], f[0], f[1]]));
     mesh.faces.extend(clean.iter().map(|f| [f[2]; 3]));
     mesh.faces.extend(clean);
-    let cube = Actor::straight(Shape::open(mesh), 3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
+    let cube = MovingShape::straight(Shape::open(mesh), 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let slab = MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T21 dirty cube",
         [cube, slab],
@@ -71,8 +71,8 @@ fn two_shells() -> Scene {
     let mesh = both.mesh.clone();
     both.mesh.faces.retain(|f| !level(f, &mesh));
     both.parts.clear();
-    let falling = Actor::straight(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
+    let falling = MovingShape::straight(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let slab = MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         "T21 two shells",
         [falling, slab],
@@ -102,11 +102,11 @@ fn cuboids_in_the_distance() -> Scene {
             0.999_996_07,
         ),
     );
-    let flying = Actor {
+    let flying = MovingShape {
         shape: cuboid(DVec3::new(235.0, 105.0, 110.0)),
         motion: flying.expect("finite"),
     };
-    let still = Actor {
+    let still = MovingShape {
         shape: cuboid(DVec3::new(650.0, 330.0, 275.0)),
         motion: Motion::still(still.expect("a pose")),
     };
@@ -121,17 +121,17 @@ fn cuboids_in_the_distance() -> Scene {
 fn deep_overlap() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let corner = DVec3::new(0.7, 0.1, 0.2);
-    let leaving = Actor::moving(cube(), corner, DVec3::X, DVec3::Z);
+    let leaving = MovingShape::moving(cube(), corner, DVec3::X, DVec3::Z);
     Scene::new(
         "T24 overlap",
-        [leaving, Actor::still(cube(), DVec3::ZERO)],
+        [leaving, MovingShape::still(cube(), DVec3::ZERO)],
         Expect::Overlap,
     )
 }
 
 /// Returns T24: a small cube inside a big one, with separate surfaces.
 fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
-    let small = Actor::turning(
+    let small = MovingShape::turning(
         shape(cuboid(DVec3::splat(0.5)).mesh),
         DVec3::ZERO,
         1e-3 * DVec3::Z,
@@ -143,7 +143,7 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
         },
         other => other,
     };
-    let big = Actor::still(shape(cuboid(DVec3::splat(2.0)).mesh), DVec3::ZERO);
+    let big = MovingShape::still(shape(cuboid(DVec3::splat(2.0)).mesh), DVec3::ZERO);
     Scene::new(name, [small, big], gap)
 }
 
@@ -151,8 +151,8 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
 fn resting() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let bodies = [
-        Actor::still(cube(), DVec3::ZERO),
-        Actor::still(cube(), 2.0 * DVec3::X),
+        MovingShape::still(cube(), DVec3::ZERO),
+        MovingShape::still(cube(), 2.0 * DVec3::X),
     ];
     Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
 }
@@ -160,8 +160,8 @@ fn resting() -> Scene {
 /// Returns T25: a cube that falls while it rotates about the vertical by zero, by very little, or by exactly π.
 fn slow_turn(angle: f64) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
-    let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);
-    let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
+    let cube = MovingShape::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);
+    let slab = MovingShape::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
     Scene::new(
         format!("T25 falling, turning by {angle:.2e}"),
         [cube, slab],

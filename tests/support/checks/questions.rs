@@ -40,7 +40,7 @@ impl Judge<'_> {
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
             Outcome::Measured { time, contact, .. } => {
-                let least = self.least_sample();
+                let least = self.least_sampled_distance();
                 law!(
                     lower <= least + rounding,
                     "lower {lower} is above the least distance {least}"
@@ -78,7 +78,7 @@ impl Judge<'_> {
     pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
-        let least = self.least_sample();
+        let least = self.least_sampled_distance();
         let (lower, upper) = (outcome.lower(), outcome.upper());
         law!(
             lower <= least + rounding,
@@ -181,7 +181,7 @@ impl Judge<'_> {
     }
 
     /// Returns the least of the sampled distances.
-    fn least_sample(&self) -> f64 {
+    fn least_sampled_distance(&self) -> f64 {
         let sampled = self.samples.iter().map(|sample| sample.1);
         let least = sampled.fold(f64::INFINITY, lesser);
         match self.finding {

@@ -7,9 +7,9 @@ use std::cell::OnceCell;
 
 /// An exact convex combination of points, with whole numbers as weights: `Σ w p / Σ w`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Blend(Vec<(u32, DVec3)>);
+pub struct ConvexCombination(Vec<(u32, DVec3)>);
 
-impl Blend {
+impl ConvexCombination {
     /// Creates the combination of points, each with its weight.
     ///
     /// # Panics
@@ -17,12 +17,12 @@ impl Blend {
     pub fn new(parts: impl IntoIterator<Item = (u32, DVec3)>) -> Self {
         let parts: Vec<(u32, DVec3)> = parts.into_iter().collect();
         assert!(parts.iter().any(|part| part.0 > 0), "no weight");
-        Blend(parts)
+        ConvexCombination(parts)
     }
 
     /// Returns the mean of some points.
     pub fn mean(points: impl IntoIterator<Item = DVec3>) -> Self {
-        Blend::new(points.into_iter().map(|p| (1, p)))
+        ConvexCombination::new(points.into_iter().map(|p| (1, p)))
     }
 
     fn weight(&self) -> u32 {
@@ -52,7 +52,7 @@ pub(super) fn exact(x: f64) -> Relaxed {
 
 /// A point for predicates, whose exact fractions are computed on first use.
 pub(super) struct LazyPoint<'a> {
-    blend: &'a Blend,
+    combination: &'a ConvexCombination,
     pub(super) near: DVec3,
     /// The largest absolute coordinate of the points that are combined.
     pub(super) size: f64,
@@ -63,10 +63,10 @@ pub(super) struct LazyPoint<'a> {
 const ROUNDING: f64 = 1e-13;
 
 impl<'a> LazyPoint<'a> {
-    pub(super) fn new(blend: &'a Blend) -> Self {
+    pub(super) fn new(blend: &'a ConvexCombination) -> Self {
         let sizes = blend.0.iter().map(|(_, p)| p.abs().max_element());
         LazyPoint {
-            blend,
+            combination: blend,
             near: blend.rounded(),
             size: sizes.fold(0.0, greater),
             exact: OnceCell::new(),
@@ -79,6 +79,6 @@ impl<'a> LazyPoint<'a> {
     }
 
     pub(super) fn exact(&self) -> &[Relaxed; 3] {
-        self.exact.get_or_init(|| self.blend.exact())
+        self.exact.get_or_init(|| self.combination.exact())
     }
 }

@@ -7,20 +7,20 @@ use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
 /// The pairs of coordinate indices in the views along z, x and y.
-pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+pub(super) const PROJECTION_AXES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// The bounds on the rounding errors of determinants, in units of the power of the size of points. They are hundreds
 /// of times those of the terms, which are dominated by the error of the rounded point.
-const FLAT_ROUNDING: f64 = 1e-12;
-const SOLID_ROUNDING: f64 = 1e-11;
+const ORIENT2D_ROUNDING: f64 = 1e-12;
+const ORIENT3D_ROUNDING: f64 = 1e-11;
 
 /// Returns whether a point is left of (greater), right of (less) or on the line through an edge, in
 /// a view.
 pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (p − a)
     let (u, v) = (b - a, p.near - a);
-    let size = size_of(&[a, b], p);
-    certain_sign(u[x] * v[y] - u[y] * v[x], FLAT_ROUNDING * size * size).unwrap_or_else(|| {
+    let size = max_coordinate(&[a, b], p);
+    certain_sign(u[x] * v[y] - u[y] * v[x], ORIENT2D_ROUNDING * size * size).unwrap_or_else(|| {
         let (u, v) = (exact_difference(a, b), offset_from(a, p));
         (&u[x] * &v[y]).cmp(&(&u[y] * &v[x]))
     })
@@ -31,8 +31,8 @@ pub(super) fn turn([x, y]: [usize; 2], [a, b]: [DVec3; 2], p: &LazyPoint<'_>) ->
 pub(super) fn side([a, b, c]: [DVec3; 3], p: &LazyPoint<'_>) -> Ordering {
     // (b − a) × (c − a) · (p − a)
     let height = (b - a).cross(c - a).dot(p.near - a);
-    let size = size_of(&[a, b, c], p);
-    certain_sign(height, SOLID_ROUNDING * size * size * size).unwrap_or_else(|| {
+    let size = max_coordinate(&[a, b, c], p);
+    certain_sign(height, ORIENT3D_ROUNDING * size * size * size).unwrap_or_else(|| {
         let (u, v, w) = (
             exact_difference(a, b),
             exact_difference(a, c),
@@ -50,7 +50,7 @@ fn certain_sign(x: f64, rounding: f64) -> Option<Ordering> {
 }
 
 /// Returns the largest absolute coordinate of some points and of the combined points of `p`.
-fn size_of(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
+fn max_coordinate(points: &[DVec3], p: &LazyPoint<'_>) -> f64 {
     let sizes = points.iter().map(|q| q.abs().max_element());
     sizes.fold(p.size, greater)
 }
@@ -77,7 +77,9 @@ pub(super) fn triangle_contains(triangle: [DVec3; 3], p: &LazyPoint<'_>) -> bool
         let turns = [[a, b], [b, c], [c, a]].map(|edge| turn(*view, edge, p));
         turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater)
     };
-    !(0..3).any(beyond) && side(triangle, p) == Ordering::Equal && !VIEWS.iter().any(out_of_view)
+    !(0..3).any(beyond)
+        && side(triangle, p) == Ordering::Equal
+        && !PROJECTION_AXES.iter().any(out_of_view)
 }
 
 /// Compares a number with a coordinate of a point.

@@ -15,10 +15,10 @@ pub fn gear(spokes: usize) -> Shape {
         let angle = TAU * j as f64 / columns as f64;
         radii[i] * DVec2::new(angle.cos(), angle.sin())
     };
-    Sheet {
+    CellGrid {
         rows: Line::Open(radii.len()),
         columns: Line::Closed(columns),
-        keeps: &|i, j| match i {
+        is_filled: &|i, j| match i {
             1 => j % 8 < 3,
             3 => j % 4 < 2,
             _ => true,
@@ -29,10 +29,10 @@ pub fn gear(spokes: usize) -> Shape {
 
 /// Returns a plate of `n × m` square holes, whose sides are as long as the bridges between them.
 pub fn perforated_plate(n: usize, m: usize) -> Shape {
-    Sheet {
+    CellGrid {
         rows: Line::Open(2 * n + 2),
         columns: Line::Open(2 * m + 2),
-        keeps: &|i, j| i % 2 == 0 || j % 2 == 0,
+        is_filled: &|i, j| i % 2 == 0 || j % 2 == 0,
     }
     .thicken(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
 }
@@ -40,10 +40,10 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
 /// Returns the L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
 pub fn l_block(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
-    Sheet {
+    CellGrid {
         rows: Line::Open(2 * cells + 1),
         columns: Line::Open(2 * cells + 1),
-        keeps: &|i, j| i < cells || j < cells,
+        is_filled: &|i, j| i < cells || j < cells,
     }
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
@@ -54,10 +54,10 @@ pub fn slotted_plate(width: f64) -> Shape {
         [-2.0, -1.5, 1.5, 2.0],
         [-1.0, -0.5 * width, 0.5 * width, 1.0],
     );
-    Sheet {
+    CellGrid {
         rows: Line::Open(4),
         columns: Line::Open(4),
-        keeps: &|i, j| (i, j) != (1, 1),
+        is_filled: &|i, j| (i, j) != (1, 1),
     }
     .thicken(|i, j| DVec2::new(x[i], y[j]), 0.25)
 }
@@ -66,10 +66,10 @@ pub fn slotted_plate(width: f64) -> Shape {
 pub fn meshed_combs(teeth: usize) -> Shape {
     let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
     let y = [0.0, 0.3, 1.3];
-    let comb = Sheet {
+    let comb = CellGrid {
         rows: Line::Open(2 * teeth),
         columns: Line::Open(3),
-        keeps: &|i, j| j == 0 || i % 2 == 0,
+        is_filled: &|i, j| j == 0 || i % 2 == 0,
     }
     .thicken(|i, j| DVec2::new(x(i), y[j]), 0.2);
     // A half turn about z is exact.
@@ -85,10 +85,10 @@ pub fn meshed_combs(teeth: usize) -> Shape {
 /// Returns a unit cube, its top and its bottom divided into `cells²` squares.
 pub fn divided_cube(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
-    Sheet {
+    CellGrid {
         rows: Line::Open(cells + 1),
         columns: Line::Open(cells + 1),
-        keeps: &|_, _| true,
+        is_filled: &|_, _| true,
     }
     .thicken(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
@@ -104,22 +104,22 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
         }
     }
     let at = |i: usize, j: usize, z: f64| DVec3::new(unit * i as f64, unit * j as f64, z);
-    Sheet {
+    CellGrid {
         rows: Line::Open(cells + 1),
         columns: Line::Open(cells + 1),
-        keeps: &|_, _| true,
+        is_filled: &|_, _| true,
     }
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
 /// A grid of cells, some of which are filled.
-struct Sheet<'a> {
+struct CellGrid<'a> {
     rows: Line,
     columns: Line,
-    keeps: &'a dyn Fn(usize, usize) -> bool,
+    is_filled: &'a dyn Fn(usize, usize) -> bool,
 }
 
-impl Sheet<'_> {
+impl CellGrid<'_> {
     /// Returns the solid that extends by `half` to either side of a sheet in the xy-plane.
     fn thicken(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
@@ -135,7 +135,7 @@ impl Sheet<'_> {
         let mut vertices = Vec::new();
         let mut top = Vec::new();
         for i in 0..self.rows.steps() {
-            for j in (0..self.columns.steps()).filter(|&j| (self.keeps)(i, j)) {
+            for j in (0..self.columns.steps()).filter(|&j| (self.is_filled)(i, j)) {
                 let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
                 // Vertex k + 1 is above vertex k of the bottom.
                 let [a, b, c, d] = corners.map(|(i, j)| {

@@ -1,6 +1,6 @@
 //! Computes positions of a moving body's points from the definition of the motion.
 
-use crate::query::{Actor, Query};
+use crate::query::{MovingShape, Query};
 use ccd_core::glam::DVec3;
 
 /// The map from a body's points to positions in the world at time t. It is relative to the start of body A's centre:
@@ -34,7 +34,7 @@ impl Placement {
         [a, b]
     }
 
-    fn new(actor: &Actor) -> Self {
+    fn new(actor: &MovingShape) -> Self {
         let motion = &actor.motion;
         let start = rotation(motion.start().rotation().to_array());
         let centre = motion.centre();

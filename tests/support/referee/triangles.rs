@@ -15,7 +15,7 @@ pub(super) struct PosedMesh<'a> {
 }
 
 /// The number of faces that share a box in the coarser of two levels.
-const GROUP: usize = 8;
+const GROUP_SIZE: usize = 8;
 
 impl<'a> PosedMesh<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
@@ -29,7 +29,7 @@ impl<'a> PosedMesh<'a> {
         PosedMesh {
             mesh,
             faces: mesh.faces.iter().map(face).collect(),
-            group_boxes: boxes.chunks(GROUP).map(group).collect(),
+            group_boxes: boxes.chunks(GROUP_SIZE).map(group).collect(),
             boxes,
             points,
         }
@@ -80,7 +80,7 @@ impl<'a> PosedMesh<'a> {
 }
 
 fn members(group: usize, count: usize) -> std::ops::Range<usize> {
-    group * GROUP..((group + 1) * GROUP).min(count)
+    group * GROUP_SIZE..((group + 1) * GROUP_SIZE).min(count)
 }
 
 /// Returns the squared distance of two triangles over all vertex-face, vertex-edge and edge-edge pairs; 0 if an edge
@@ -133,7 +133,7 @@ fn line_distance_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
 }
 
 /// Returns the point of a segment that is nearest to `p`.
-pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
+pub fn nearest_on_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     let along = b - a;
     let t = (p - a).dot(along) / along.length_squared();
     // NaN for a segment of no length: either end will do.
@@ -145,7 +145,7 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
 }
 
 /// Returns the point of a triangle that is nearest to `p`.
-pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
+pub fn nearest_on_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     Face::new(corners).nearest(p)
 }
 
@@ -209,7 +209,7 @@ impl Face {
         };
         let edges = [[a, b], [b, c], [c, a]];
         edges
-            .map(|edge| point_segment(p, edge))
+            .map(|edge| nearest_on_segment(p, edge))
             .into_iter()
             .fold(foot, nearer)
     }

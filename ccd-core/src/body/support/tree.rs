@@ -1,5 +1,4 @@
-//! Finds extremal points by a tree, and visits only parts that may contain them. A search visits only the parts that
-//! may contain the farthest point.
+//! Finds extremal points by a tree, and visits only the parts that may contain them.
 
 use crate::math::order::{greater, lesser};
 use crate::math::principal::principal_axes;
@@ -43,8 +42,7 @@ struct Discs {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     thickness: [f32; LANES],
-    /// The allowance for rounding; so low in lanes without a disc that these are never visited. In lanes without a disc
-    /// it is so low that the lane is never visited.
+    /// The allowance for rounding. In lanes without a disc it is so low that these are never visited.
     rounding: [f32; LANES],
 }
 

@@ -86,8 +86,7 @@ fn uv_sphere(rings: u32, sectors: u32) -> Mesh {
     }
 }
 
-/// Tests that the work for a piece of many faces grows with the near pairs of faces, not with all pairs. The work is
-/// that of the near pairs of faces, not of all pairs.
+/// Tests that the work for a piece of many faces grows with the near pairs of faces, not with all pairs.
 #[test]
 fn a_piece_of_many_faces_is_sorted_once() {
     let ball = uv_sphere(32, 34);

@@ -256,8 +256,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         Ok(stretches.cut_about(motions.span, time, length))
     }
 
-    /// Measures the bodies at a time; `None` if they overlap, or a limit is reached. Returns `None` if they overlap, or
-    /// a limit is reached.
+    /// Measures the bodies at a time. Returns `None` if they overlap, or if a limit is reached.
     fn distance_at_time(
         &mut self,
         stretches: &mut Stretches<'_, '_>,

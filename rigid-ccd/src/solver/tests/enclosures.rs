@@ -43,7 +43,7 @@ impl Pair {
         }
     }
 
-    /// Returns the exact distance of the cylinders at the start, which is that at the end.
+    /// Returns the motions of a cylinder that passes, and of one at rest.
     fn ways(&self) -> [Motion; 2] {
         let passes = Motion::new(self.places[0], [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
         [passes, Motion::still(self.places[2])]

@@ -6,12 +6,12 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::ops::Range;
 
-pub struct Draw(Pcg64);
+pub struct RandomSource(Pcg64);
 
-impl Draw {
+impl RandomSource {
     /// Creates the random stream of one query, so that each query can be run alone.
     pub fn new(seed: u64, index: u64) -> Self {
-        Draw(Pcg64::seed_from_u64(
+        RandomSource(Pcg64::seed_from_u64(
             seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index,
         ))
     }

@@ -12,7 +12,7 @@ mod shells;
 mod turns;
 
 use crate::case::{Case, Expect, Shape};
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use ccd_core::Settings;
 use clap::ValueEnum;
@@ -42,7 +42,7 @@ pub enum Family {
 }
 
 impl Family {
-    pub fn draw(self, draw: &mut Draw) -> Case {
+    pub fn draw(self, draw: &mut RandomSource) -> Case {
         match self {
             Family::Needles => needles::draw(draw),
             Family::Far => far::draw(draw),
@@ -60,15 +60,16 @@ impl Family {
 
 /// Returns a case of two shapes that pass each other halfway, or meet. Their centres come within about the sum of
 /// their radii. Both move, and rotate by up to `turn` over a duration of 1.
-fn passing_case(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
+fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());
     let travel = reach * draw.uniform(1.0..4.0);
     let miss = scale_array(aside, reach * draw.uniform(0.0..0.9));
     let common = scale_array(draw.point(), reach);
-    let spin = |draw: &mut Draw| scale_array(draw.direction(), turn * draw.uniform(0.2..1.0));
+    let spin =
+        |draw: &mut RandomSource| scale_array(draw.direction(), turn * draw.uniform(0.2..1.0));
     let half = scale_array(way, 0.5 * travel);
-    let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
+    let course = |draw: &mut RandomSource, side: f64, at: [f64; 3]| {
         let start = draw.pose(add_arrays(scale_array(half, -side), at));
         let moved = add_arrays(scale_array(half, 2.0 * side), common);
         RawMotion::velocities(start, moved, spin(draw))
@@ -79,7 +80,7 @@ fn passing_case(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Settings
         courses,
         duration: 1.0,
         config,
-        expect: Expect::Nothing,
+        expected: Expect::Nothing,
     }
 }
 
@@ -88,7 +89,7 @@ fn motion_at_rest() -> RawMotion {
     RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
-fn random_tolerance(draw: &mut Draw) -> Settings {
+fn random_tolerance(draw: &mut RandomSource) -> Settings {
     Settings {
         tolerance: draw.log_uniform(1e-9..1e-2),
         ..Settings::DEFAULT

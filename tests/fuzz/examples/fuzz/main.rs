@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use tally::Tally;
-use trial::{Trial, Watch};
+use trial::{Trial, Watchdog};
 
 /// Random queries from families of hard cases, judged in double-double.
 #[derive(Parser)]
@@ -95,7 +95,7 @@ fn run(family: Family, args: &Args) -> bool {
     };
     let asked = numbers.end - numbers.start;
     let tally = Mutex::new(Tally::default());
-    let watch = Watch::start(family, args.seed);
+    let watch = Watchdog::start(family, args.seed);
     numbers.into_par_iter().for_each(|number| {
         let trial = trial::run(family, args.seed, number, &watch);
         if let Some(folder) = &args.seeds

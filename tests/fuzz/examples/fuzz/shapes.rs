@@ -1,11 +1,11 @@
 //! Generates meshes around the origin, of size about 1.
 
 use crate::case::{Form, Shape};
-use crate::draw::{Draw, scale_array};
+use crate::draw::{RandomSource, scale_array};
 use crate::vector::Vector;
 
 /// Returns a mesh of `count` random triangles.
-pub fn soup(draw: &mut Draw, count: usize) -> Shape {
+pub fn soup(draw: &mut RandomSource, count: usize) -> Shape {
     let mut shape = Shape::default();
     for k in 0..count as u32 {
         let (at, size) = (draw.point(), draw.log_uniform(0.05..1.0));
@@ -27,7 +27,7 @@ fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: Form) -> Shape {
 }
 
 /// Returns a random tetrahedron, oriented outward.
-pub fn tetrahedron(draw: &mut Draw) -> Shape {
+pub fn tetrahedron(draw: &mut RandomSource) -> Shape {
     let corners = [(); 4].map(|()| Vector(draw.point()));
     let [a, b, c, d] = corners;
     let up = (b - a).cross(c - a).dot(d - a) > 0.0;
@@ -66,7 +66,7 @@ pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
 }
 
 /// Returns a bipyramid: corners around an axis and two poles, convex or star-shaped.
-pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
+pub fn bipyramid(draw: &mut RandomSource, corners: u32, waist: f64) -> Shape {
     let mut vertices = vec![
         [0.0, 0.0, draw.uniform(0.2..1.0)],
         [0.0, 0.0, -draw.uniform(0.2..1.0)],
@@ -88,9 +88,9 @@ pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
 }
 
 /// Returns the hull of points on a stretched sphere, built facet by facet.
-pub fn hull(draw: &mut Draw, count: usize) -> Shape {
+pub fn hull(draw: &mut RandomSource, count: usize) -> Shape {
     let stretch = [(); 3].map(|()| draw.log_uniform(0.2..1.0));
-    let point = |draw: &mut Draw| {
+    let point = |draw: &mut RandomSource| {
         let v = draw.direction();
         [v[0] * stretch[0], v[1] * stretch[1], v[2] * stretch[2]]
     };
@@ -117,7 +117,7 @@ pub fn hull(draw: &mut Draw, count: usize) -> Shape {
 }
 
 /// Returns a random shape of this module, with up to about 30 triangles.
-pub fn any_shape(draw: &mut Draw) -> Shape {
+pub fn any_shape(draw: &mut RandomSource) -> Shape {
     match draw.count(0..7) {
         0 | 1 => {
             let count = draw.count(1..9);
@@ -134,7 +134,7 @@ pub fn any_shape(draw: &mut Draw) -> Shape {
 }
 
 /// Returns a random closed shape.
-pub fn closed_shape(draw: &mut Draw) -> Shape {
+pub fn closed_shape(draw: &mut RandomSource) -> Shape {
     match draw.count(0..4) {
         0 => tetrahedron(draw),
         1 => {

@@ -17,7 +17,7 @@ pub struct Tally {
     /// The number of unresolved answers by reason, for all methods.
     unresolved: BTreeMap<String, u64>,
     /// The number of the first query with each reason.
-    examples: BTreeMap<String, u64>,
+    first_queries: BTreeMap<String, u64>,
     refused: BTreeMap<String, u64>,
     faults: BTreeMap<Fault, u64>,
     /// The number of queries for which the referee's search was not complete.
@@ -41,7 +41,9 @@ impl Tally {
         }
         for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.methods) {
             if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
-                self.examples.entry(format!("{reason:?}")).or_insert(number);
+                self.first_queries
+                    .entry(format!("{reason:?}"))
+                    .or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
                 *self.unresolved.entry(entry).or_default() += 1;
             }
@@ -116,7 +118,7 @@ impl fmt::Display for Tally {
             ("by the default", &self.statuses),
             ("asked", &self.by_method),
             ("unresolved", &self.unresolved),
-            ("first query, for --only", &self.examples),
+            ("first query, for --only", &self.first_queries),
             ("refused", &self.refused),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {

@@ -1,7 +1,7 @@
 //! Draws one query of a family, and answers it by several methods, with a time limit.
 
 use crate::case::{Case, Form};
-use crate::draw::Draw;
+use crate::draw::RandomSource;
 use crate::engine::{Kind, Method};
 use crate::families::Family;
 use crate::judge::Fault;
@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 /// The time after which a query counts as hanging.
 const HANG_TIME: Duration = Duration::from_secs(20);
 
-pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
-    let mut draw = Draw::new(seed, number);
+pub fn run(family: Family, seed: u64, number: u64, watch: &Watchdog) -> Trial {
+    let mut draw = RandomSource::new(seed, number);
     let case = family.draw(&mut draw);
     let asked = methods(&mut draw, &case);
     watch.begin(number);
@@ -26,7 +26,7 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
 }
 
 /// Chooses the methods and pieces for a case: always the default, and some others.
-fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
+fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
     let mut asked = vec![(Kind::Triangles, Method::Direct)];
     let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
     let small = case.shapes.iter().all(|s| s.faces.len() < 200);
@@ -68,11 +68,11 @@ pub fn report(failure: &Failure, family: Family, seed: u64, number: u64, case: &
 
 /// A watchdog over all threads, which ends the program if one of them hangs.
 #[derive(Clone)]
-pub struct Watch(Arc<Mutex<HashMap<ThreadId, (u64, Instant)>>>);
+pub struct Watchdog(Arc<Mutex<HashMap<ThreadId, (u64, Instant)>>>);
 
-impl Watch {
+impl Watchdog {
     pub fn start(family: Family, seed: u64) -> Self {
-        let watch = Watch(Arc::default());
+        let watch = Watchdog(Arc::default());
         let all = Arc::downgrade(&watch.0);
         thread::spawn(move || {
             while let Some(all) = all.upgrade() {
@@ -83,7 +83,7 @@ impl Watch {
                 });
                 drop(all);
                 if let Some(number) = late {
-                    let case = family.draw(&mut Draw::new(seed, number));
+                    let case = family.draw(&mut RandomSource::new(seed, number));
                     eprintln!(
                         "{:?}: {family:?} --seed {seed} --only {number}",
                         Fault::Hang

@@ -1,14 +1,14 @@
 //! Searches for the first contact by conservative advancement over all pairs of triangles, in f64, checked in
 //! [`Double`].
 
-use super::{Ball, CHECKED_BELOW, Evidence, Limit, Scene};
+use super::{Ball, Evidence, Limit, RECHECK_DISTANCE, Scene};
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, penetration_depth};
 use crate::raw_motion::Snapshot;
 use crate::vector::{Number, larger, smaller};
 
 /// The maximum number of steps of one pair, and of all pairs, before the rest of the time is sampled.
-const PAIR_STEPS: usize = 300;
+const MAX_PAIR_STEPS: usize = 300;
 const MAX_TOTAL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
@@ -27,7 +27,7 @@ pub(super) struct Search<'a> {
 struct GapRate {
     gap: f64,
     rate: f64,
-    bend: f64,
+    rate_change_bound: f64,
 }
 
 /// Returns the time until which a gap stays open: solves gap = rate τ + bend τ²/2, in the form without cancellation.
@@ -72,7 +72,7 @@ impl<'a> Search<'a> {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).rounded();
         let v = (b.track.velocity - a.track.velocity).rounded();
-        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + CHECKED_BELOW * self.scene.scale;
+        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + RECHECK_DISTANCE * self.scene.scale;
         let (square, along) = (v.dot(v), way.dot(v));
         let excess = way.dot(way) - kept * kept;
         let root = along * along - square * excess;
@@ -91,13 +91,17 @@ impl<'a> Search<'a> {
 
     fn search_pair(&mut self, i: usize, j: usize, begin: f64) {
         let mut t = begin;
-        for _ in 0..PAIR_STEPS {
+        for _ in 0..MAX_PAIR_STEPS {
             self.steps += 1;
             if self.steps > MAX_TOTAL_STEPS {
                 break;
             }
-            let GapRate { gap, rate, bend } = self.measure(i, j, t);
-            if !(gap > CHECKED_BELOW * self.scene.scale) {
+            let GapRate {
+                gap,
+                rate,
+                rate_change_bound: bend,
+            } = self.measure(i, j, t);
+            if !(gap > RECHECK_DISTANCE * self.scene.scale) {
                 if self.is_below_threshold(i, j, t) {
                     return;
                 }
@@ -113,7 +117,7 @@ impl<'a> Search<'a> {
         for k in 0..=SAMPLES {
             let t = t + left * (k as f64 / SAMPLES as f64);
             let gap = self.measure(i, j, t).gap;
-            if !(gap > CHECKED_BELOW * self.scene.scale) && self.is_below_threshold(i, j, t) {
+            if !(gap > RECHECK_DISTANCE * self.scene.scale) && self.is_below_threshold(i, j, t) {
                 return;
             }
         }
@@ -122,14 +126,18 @@ impl<'a> Search<'a> {
     /// Returns a time after `begin` until which the bodies are well apart, by a bound for all pairs together.
     fn bodies_apart_until(&self, begin: f64) -> f64 {
         let mut t = begin;
-        for _ in 0..PAIR_STEPS {
+        for _ in 0..MAX_PAIR_STEPS {
             let [a, b] = [0, 1].map(|side| self.scene.triangles_at(side, t));
             let near = self.scene.near_pairs(&a, &b);
             let least = near
                 .iter()
                 .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
-            let GapRate { rate, bend, .. } = self.ball_gap(whole, &self.scene.snapshots(t));
+            let GapRate {
+                rate,
+                rate_change_bound: bend,
+                ..
+            } = self.ball_gap(whole, &self.scene.snapshots(t));
             let tau = free_time(least - self.threshold, rate, bend);
             // A hundred more such steps would not reach the end, so it is faster pair by pair.
             if !(tau > 0.003 * (self.until - t)) {
@@ -146,9 +154,14 @@ impl<'a> Search<'a> {
     /// Returns a time after `begin` until which two balls are well apart.
     fn balls_apart_until(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
-        for _ in 0..PAIR_STEPS {
-            let GapRate { gap, rate, bend } = self.ball_gap([p, q], &self.scene.snapshots(t));
-            if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > CHECKED_BELOW * self.scene.scale)
+        for _ in 0..MAX_PAIR_STEPS {
+            let GapRate {
+                gap,
+                rate,
+                rate_change_bound: bend,
+            } = self.ball_gap([p, q], &self.scene.snapshots(t));
+            if !(gap > 0.25 * smaller(p.radius, q.radius)
+                && gap > RECHECK_DISTANCE * self.scene.scale)
             {
                 break;
             }
@@ -175,7 +188,7 @@ impl<'a> Search<'a> {
         GapRate {
             gap: apart - p.radius - q.radius - self.threshold,
             rate,
-            bend,
+            rate_change_bound: bend,
         }
     }
 

@@ -15,7 +15,7 @@ struct Question {
     case: Case,
     asked: Vec<(Kind, Method)>,
     /// Whether to check for equal bits and to list the features in contact as well.
-    more: bool,
+    extra_checks: bool,
 }
 
 /// Decodes a query, answers it by its methods, and judges the answers.
@@ -28,7 +28,7 @@ pub(super) fn run(bytes: &[u8]) {
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
-    if question.more && trial.refused.is_none() {
+    if question.extra_checks && trial.refused.is_none() {
         check_equal_bits(&question.case);
     }
 }

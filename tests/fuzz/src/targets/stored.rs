@@ -15,23 +15,23 @@ const MEMORY_PER_BYTE: usize = 1 << 10;
 
 /// The length of the magic number and the version, which begin the file. The length of the payload and its checksum
 /// follow.
-const START: usize = 12;
+const HEADER_BYTES: usize = 12;
 const LENGTH: usize = 8;
-const CHECKSUM: usize = 4;
+const CHECKSUM_BYTES: usize = 4;
 
 /// The magic number and the version of this build's format.
-static HEAD: LazyLock<Vec<u8>> = LazyLock::new(|| {
+static HEADER: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, triangle.as_bytes()).expect("a triangle");
     let model = prepare(&mesh, Detail::Triangles).expect("a body");
-    bodies::stored(&model)[..START].to_vec()
+    bodies::stored(&model)[..HEADER_BYTES].to_vec()
 });
 
 pub(super) fn run(bytes: &[u8]) {
     if bytes.len() > MAX_BYTES {
         return;
     }
-    LazyLock::force(&HEAD);
+    LazyLock::force(&HEADER);
     memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
         check(bytes);
         check(&with_repaired_frame(bytes));
@@ -40,9 +40,9 @@ pub(super) fn run(bytes: &[u8]) {
 
 /// Returns the file with the magic number, version, length and checksum that fit its payload.
 fn with_repaired_frame(bytes: &[u8]) -> Vec<u8> {
-    let end = bytes.len().saturating_sub(CHECKSUM);
-    let payload = bytes.get(START + LENGTH..end).unwrap_or_default();
-    let mut file = HEAD.clone();
+    let end = bytes.len().saturating_sub(CHECKSUM_BYTES);
+    let payload = bytes.get(HEADER_BYTES + LENGTH..end).unwrap_or_default();
+    let mut file = HEADER.clone();
     file.extend((payload.len() as u64).to_le_bytes());
     file.extend(payload);
     let checksum = crc32fast::hash(&file);

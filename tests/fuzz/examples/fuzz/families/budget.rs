@@ -2,10 +2,10 @@
 
 use super::margins;
 use crate::case::Case;
-use crate::draw::{Draw, scale_array};
+use crate::draw::{RandomSource, scale_array};
 use crate::shapes;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let mut case = margins::draw(draw);
     if draw.chance(0.5) {
         case.shapes[0] = shapes::ring(draw.count(4..9) as u32, draw.count(3..5) as u32, 0.2);

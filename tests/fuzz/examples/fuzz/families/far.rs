@@ -2,12 +2,12 @@
 
 use super::passing_case;
 use crate::case::Case;
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::Settings;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let config = Settings {
         tolerance: draw.log_uniform(1e-12..1e-2),
         ..Settings::DEFAULT
@@ -36,7 +36,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
 
 /// Returns the same motion, given by end poses about any centre, and moved far from the origin.
 fn between_end_poses(
-    draw: &mut Draw,
+    draw: &mut RandomSource,
     course: &RawMotion,
     far: [f64; 3],
     duration: f64,

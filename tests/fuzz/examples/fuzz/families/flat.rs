@@ -2,11 +2,11 @@
 
 use super::{motion_at_rest, random_tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let bodies = [polygon_or_box_on_plane(draw), polygon_or_box_on_plane(draw)];
     let mut config = random_tolerance(draw);
     if draw.chance(0.3) {
@@ -48,12 +48,12 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         courses,
         duration: 1.0,
         config,
-        expect: Expect::Nothing,
+        expected: Expect::Nothing,
     }
 }
 
 /// Returns a polygon in the plane z = 0, or a box with its lower face there.
-fn polygon_or_box_on_plane(draw: &mut Draw) -> Shape {
+fn polygon_or_box_on_plane(draw: &mut RandomSource) -> Shape {
     if draw.chance(0.4) {
         let half = [(); 3].map(|()| draw.pick(&[0.25, 0.5, 1.0]));
         return shapes::cuboid(half).map(|[x, y, z]| [x, y, z + half[2]]);

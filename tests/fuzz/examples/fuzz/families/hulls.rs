@@ -2,10 +2,10 @@
 
 use super::{passing_case, random_tolerance};
 use crate::case::Case;
-use crate::draw::Draw;
+use crate::draw::RandomSource;
 use crate::shapes;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let many = if draw.chance(0.05) {
         draw.log_uniform(4.0..2000.0) as usize
     } else {

@@ -2,12 +2,12 @@
 
 use super::{motion_at_rest, random_tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
 use ccd_core::StartPolicy;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let half = [
         draw.log_uniform(0.2..2.0),
         draw.log_uniform(0.2..2.0),
@@ -66,7 +66,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         courses,
         duration: 1.0,
         config,
-        expect,
+        expected: expect,
     }
 }
 
@@ -81,7 +81,7 @@ fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
 }
 
 /// Returns the velocity and the angular velocity of a released body, and the expected result.
-fn released_motion(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
+fn released_motion(draw: &mut RandomSource, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
     let along = scale_array(draw.point(), draw.uniform(0.0..3.0));
     match draw.count(0..5) {
         0 => ([0.0, 0.0, draw.uniform(0.0..3.0)], [0.0; 3], Expect::Free),

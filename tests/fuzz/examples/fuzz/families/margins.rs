@@ -2,10 +2,10 @@
 
 use super::{passing_case, random_tolerance};
 use crate::case::Case;
-use crate::draw::{Draw, scale_array};
+use crate::draw::{RandomSource, scale_array};
 use crate::shapes;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let bodies = [shapes::any_shape(draw), shapes::any_shape(draw)];
     let mut config = random_tolerance(draw);
     config.margin = draw.log_uniform(1e-3..100.0);

@@ -2,11 +2,11 @@
 
 use super::{motion_at_rest, passing_case, random_tolerance};
 use crate::case::{Case, Shape};
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::Goal;
 use crate::shapes;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let thin = thin_triangles(draw);
     let other = if draw.chance(0.5) {
         self::thin_triangles(draw)
@@ -49,7 +49,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
 }
 
 /// Returns thin triangles: in one plane, around one axis, or anywhere.
-fn thin_triangles(draw: &mut Draw) -> Shape {
+fn thin_triangles(draw: &mut RandomSource) -> Shape {
     let width = match draw.count(0..3) {
         0 => draw.log_uniform(1e-300..1e-140),
         // The squares are denormal.
@@ -85,7 +85,7 @@ fn thin_triangles(draw: &mut Draw) -> Shape {
 }
 
 /// Returns a direction with small whole components, or any direction.
-fn lattice_direction(draw: &mut Draw) -> [f64; 3] {
+fn lattice_direction(draw: &mut RandomSource) -> [f64; 3] {
     if draw.chance(0.3) {
         return draw.direction();
     }

@@ -2,12 +2,12 @@
 
 use super::{passing_case, random_tolerance};
 use crate::case::Case;
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::Goal;
 use crate::shapes;
 use ccd_core::order::{greater, lesser};
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let sizes = [draw.log_uniform(1e-9..1e9), draw.log_uniform(1e-9..1e9)];
     let large = greater(sizes[0], sizes[1]);
     let bodies = sizes.map(|size| shapes::any_shape(draw).map(|v| scale_array(v, size)));

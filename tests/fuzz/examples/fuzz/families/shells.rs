@@ -2,11 +2,11 @@
 
 use super::{motion_at_rest, passing_case, random_tolerance};
 use crate::case::{Case, Expect, Form, Shape};
-use crate::draw::{Draw, add_arrays, scale_array};
+use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::RawMotion;
 use crate::shapes;
 
-pub(super) fn draw(draw: &mut Draw) -> Case {
+pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let several = closed_parts(draw);
     let other = if draw.chance(0.3) {
         self::closed_parts(draw)
@@ -42,12 +42,12 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         courses,
         duration: 1.0,
         config,
-        expect: Expect::Nothing,
+        expected: Expect::Nothing,
     }
 }
 
 /// Returns one to four closed parts. Some are inside out, and some are nested.
-fn closed_parts(draw: &mut Draw) -> Shape {
+fn closed_parts(draw: &mut RandomSource) -> Shape {
     let count = draw.count(1..5);
     let mut all = Shape::default();
     let (mut at, mut size) = ([0.0; 3], 1.0);

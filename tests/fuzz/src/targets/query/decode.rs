@@ -14,32 +14,32 @@ const BUDGET: u64 = 20_000;
 const MAX_ROTATION: f64 = 40.0;
 
 /// The bits for the kind of shape, in the byte before a shape.
-pub(super) const KIND: u8 = 7;
-pub(super) const FLIPPED: u8 = 64;
-pub(super) const SCALED: u8 = 128;
+pub(super) const KIND_MASK: u8 = 7;
+pub(super) const FLIPPED_BIT: u8 = 64;
+pub(super) const SCALED_BIT: u8 = 128;
 /// The bit for a rotated start, in the byte before a motion.
-pub(super) const TURNED: u8 = 1;
-pub(super) const MOVES: u8 = 2;
+pub(super) const ROTATED_BIT: u8 = 1;
+pub(super) const VELOCITY_BIT: u8 = 2;
 pub(super) const SPINS: u8 = 4;
-pub(super) const CENTRED: u8 = 8;
+pub(super) const CENTRE_BIT: u8 = 8;
 pub(super) const ENDS: u8 = 16;
 /// The bit for a margin, in the byte before the settings.
 pub(super) const MARGIN: u8 = 1;
-pub(super) const LEAVE: u8 = 2;
-pub(super) const LASTS: u8 = 4;
-pub(super) const BUDGETED: u8 = 8;
+pub(super) const LEAVE_BIT: u8 = 2;
+pub(super) const DURATION_BIT: u8 = 4;
+pub(super) const BUDGET_BIT: u8 = 8;
 pub(super) const TOLERANCE: u8 = 16;
-pub(super) const AIMED: u8 = 32;
-pub(super) const MORE: u8 = 64;
+pub(super) const AIMED_BIT: u8 = 32;
+pub(super) const EXTRA_CHECKS_BIT: u8 = 64;
 
 /// The kind of shape that is a mesh of any vertices and faces.
-pub(super) const MESH: u8 = 0;
+pub(super) const MESH_KIND: u8 = 0;
 
 pub(super) fn decode_question(bytes: &[u8]) -> Question {
     let mut source = Source::new(bytes);
     let flags = source.byte();
     let config = config(&mut source, flags);
-    let [duration] = source.numbers_if(flags & LASTS > 0, [1.0]);
+    let [duration] = source.numbers_if(flags & DURATION_BIT > 0, [1.0]);
     let asked = methods(&mut source);
     let shapes = [shape(&mut source), shape(&mut source)];
     let mut courses = [course(&mut source), course(&mut source)];
@@ -50,15 +50,15 @@ pub(super) fn decode_question(bytes: &[u8]) -> Question {
         courses,
         duration,
         config,
-        expect: Expect::Nothing,
+        expected: Expect::Nothing,
     };
-    if flags & AIMED > 0 {
+    if flags & AIMED_BIT > 0 {
         aim(&mut source, &mut case);
     }
     Question {
         case,
         asked,
-        more: flags & MORE > 0,
+        extra_checks: flags & EXTRA_CHECKS_BIT > 0,
     }
 }
 
@@ -69,7 +69,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
         1e-3
     };
     let [margin] = source.numbers_if(flags & MARGIN > 0, [0.0]);
-    let budget = if flags & BUDGETED > 0 {
+    let budget = if flags & BUDGET_BIT > 0 {
         u64::from(source.byte())
     } else {
         BUDGET
@@ -78,7 +78,7 @@ fn config(source: &mut Source<'_>, flags: u8) -> Settings {
         tolerance,
         margin: margin.abs(),
         budget,
-        start: if flags & LEAVE > 0 {
+        start: if flags & LEAVE_BIT > 0 {
             StartPolicy::Leave
         } else {
             StartPolicy::Report
@@ -106,8 +106,8 @@ fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
 
 fn shape(source: &mut Source<'_>) -> Shape {
     let kind = source.byte();
-    let mut shape = match kind & KIND {
-        MESH => mesh(source),
+    let mut shape = match kind & KIND_MASK {
+        MESH_KIND => mesh(source),
         1 => soup(source, 1),
         2 => {
             let triangles = source.count(1, 5);
@@ -130,10 +130,10 @@ fn shape(source: &mut Source<'_>) -> Shape {
         1 => Form::Solid,
         _ => Form::Soup,
     };
-    if kind & FLIPPED > 0 {
+    if kind & FLIPPED_BIT > 0 {
         shape = shape.flipped();
     }
-    if kind & SCALED > 0 {
+    if kind & SCALED_BIT > 0 {
         let scale = source.number();
         shape = shape.map(|v| (Vector(v) * scale).0);
     }
@@ -216,9 +216,9 @@ fn course(source: &mut Source<'_>) -> RawMotion {
     let none = [0.0; 3];
     let start = RawPose {
         position: source.numbers(),
-        quaternion: source.numbers_if(has(TURNED), RawPose::at(none).quaternion),
+        quaternion: source.numbers_if(has(ROTATED_BIT), RawPose::at(none).quaternion),
     };
-    let centre = source.numbers_if(has(CENTRED), none);
+    let centre = source.numbers_if(has(CENTRE_BIT), none);
     let goal = if has(ENDS) {
         Goal::End(RawPose {
             position: source.numbers(),
@@ -226,7 +226,7 @@ fn course(source: &mut Source<'_>) -> RawMotion {
         })
     } else {
         Goal::Velocities {
-            linear: source.numbers_if(has(MOVES), none),
+            linear: source.numbers_if(has(VELOCITY_BIT), none),
             spin: source.numbers_if(has(SPINS), none),
         }
     };

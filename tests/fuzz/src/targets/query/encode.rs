@@ -1,9 +1,10 @@
 //! Encodes a query as bytes, to turn cases into seeds.
 
 use super::decode::{
-    BUDGETED, CENTRED, ENDS, LASTS, LEAVE, MARGIN, MESH, MOVES, SPINS, TOLERANCE, TURNED,
+    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, ENDS, LEAVE_BIT, MARGIN, MESH_KIND, ROTATED_BIT, SPINS,
+    TOLERANCE, VELOCITY_BIT,
 };
-use super::source::{RAW, SIXTEENTHS};
+use super::source::{RAW_NUMBER_TAG, SIXTEENTH_TAGS};
 use crate::case::{Case, Form, Shape};
 use crate::raw_motion::{Goal, RawMotion};
 use ccd_core::StartPolicy;
@@ -13,13 +14,13 @@ use ccd_core::StartPolicy;
 pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
     let mut out = Writer(Vec::new());
     let config = &case.config;
-    let mut flags = MARGIN | LASTS | TOLERANCE;
+    let mut flags = MARGIN | DURATION_BIT | TOLERANCE;
     if config.start == StartPolicy::Leave {
-        flags |= LEAVE;
+        flags |= LEAVE_BIT;
     }
     let budget = u8::try_from(config.budget).ok();
     if budget.is_some() {
-        flags |= BUDGETED;
+        flags |= BUDGET_BIT;
     }
     out.0.push(flags);
     out.numbers(&[config.tolerance, config.margin]);
@@ -42,13 +43,13 @@ impl Writer {
         for &x in numbers {
             let tag = 16.0 * x + 64.0;
             if tag >= 0.0
-                && tag < f64::from(SIXTEENTHS)
+                && tag < f64::from(SIXTEENTH_TAGS)
                 && tag.fract() == 0.0
                 && x.to_bits() != (-0.0f64).to_bits()
             {
                 self.0.push(tag as u8);
             } else {
-                self.0.push(RAW);
+                self.0.push(RAW_NUMBER_TAG);
                 self.0.extend(x.to_le_bytes());
             }
         }
@@ -60,7 +61,7 @@ impl Writer {
             Form::Solid => 1,
             Form::Soup | Form::Points => 2,
         };
-        self.0.push(MESH | form << 3);
+        self.0.push(MESH_KIND | form << 3);
         let (vertices, faces) = (shape.vertices.len(), shape.faces.len());
         if !((1..33).contains(&vertices) && (1..49).contains(&faces)) {
             return None;
@@ -74,10 +75,10 @@ impl Writer {
 
     fn course(&mut self, course: &RawMotion) {
         let goal = match course.goal {
-            Goal::Velocities { .. } => MOVES | SPINS,
+            Goal::Velocities { .. } => VELOCITY_BIT | SPINS,
             Goal::End(_) => ENDS | SPINS,
         };
-        self.0.push(TURNED | CENTRED | goal);
+        self.0.push(ROTATED_BIT | CENTRE_BIT | goal);
         self.numbers(&course.start.position);
         self.numbers(&course.start.quaternion);
         self.numbers(&course.centre);

@@ -8,9 +8,9 @@ pub(super) struct Source<'a> {
 }
 
 /// The tag byte before a number in eight bytes.
-pub(super) const RAW: u8 = 255;
+pub(super) const RAW_NUMBER_TAG: u8 = 255;
 /// The number of tag bytes that stand for multiples of a sixteenth.
-pub(super) const SIXTEENTHS: u8 = 128;
+pub(super) const SIXTEENTH_TAGS: u8 = 128;
 
 impl<'a> Source<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
@@ -46,8 +46,8 @@ impl<'a> Source<'a> {
             self.byte()
         };
         let x = match tag {
-            0..SIXTEENTHS => (f64::from(tag) - 64.0) / 16.0,
-            SIXTEENTHS..192 => self.earlier(tag - SIXTEENTHS),
+            0..SIXTEENTH_TAGS => (f64::from(tag) - 64.0) / 16.0,
+            SIXTEENTH_TAGS..192 => self.earlier(tag - SIXTEENTH_TAGS),
             192..208 => {
                 let power = 2f64.powi(i32::from(self.byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }
@@ -62,7 +62,7 @@ impl<'a> Source<'a> {
                 let power = 10f64.powf(0.25 * f64::from(self.byte().cast_signed()));
                 if tag % 2 == 0 { power } else { -power }
             }
-            248..=RAW => f64::from_le_bytes(self.array()),
+            248..=RAW_NUMBER_TAG => f64::from_le_bytes(self.array()),
         };
         self.seen.push(x);
         x
