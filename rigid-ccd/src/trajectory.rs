@@ -38,7 +38,9 @@ mod worst_stray;
 pub use ballistic::Ballistic;
 pub use bounded::{Bounded, Speeds};
 pub use carried::{Carried, Steady};
-pub use ccd_core::{Acceleration, Accelerations, Motion, Smooth, Stray, Stretch, Trajectory};
+pub use ccd_core::{
+    Acceleration, Accelerations, Motion, Movement, Moving, Smooth, Stray, Stretch, Trajectory,
+};
 pub use chain::Chain;
 pub use curve::Curve;
 pub use joint::Joint;

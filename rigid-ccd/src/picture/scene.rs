@@ -2,8 +2,8 @@
 
 use super::drawn::{drawn, feature_corners};
 use super::verdict::number;
-use crate::HitKind;
 use crate::scene::{Impact, PairError};
+use ccd_core::HitKind;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Feature, Motion};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};

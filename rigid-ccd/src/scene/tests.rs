@@ -3,7 +3,8 @@
 use super::*;
 use crate::body::{Pieces, Volume};
 use crate::trajectory::Ballistic;
-use crate::{Error, Hit, HitKind, Limit, Solver, StartPolicy};
+use crate::answer::{HitKind, Limit};
+use crate::{Error, Hit, Solver, StartPolicy};
 use ccd_core::Trajectory;
 use ccd_core::Unresolved;
 use rand::{RngExt, SeedableRng};
