@@ -17,7 +17,7 @@ pub const KINDS: [&str; 13] = [
     "poses",
     "thrown",
     "Bézier curve, slerp",
-    "B-spline, squad",
+    "B-spline, slerp",
     "link",
     "carried",
     "timed",
@@ -78,10 +78,10 @@ fn draw_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajecto
                     .about(vector(rng, 0.3 * reach))?,
             )
         }
-        "B-spline, squad" => {
+        "B-spline, slerp" => {
             let count = rng.random_range(4..9);
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
-            Box::new(Spline::new(curve, Turns::squad(&random_orientations(rng))?))
+            Box::new(Spline::new(curve, Turns::slerp(&random_orientations(rng))?))
         }
         "link" => {
             let count = rng.random_range(1..6);

@@ -12,9 +12,8 @@ use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, complain, print_remarks};
-use crate::batch::{Bodies, Question, Solve, SolverKind, Timing, time};
+use crate::batch::{Question, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
-use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Instructions, Settings};
@@ -73,7 +72,10 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answer_row(pair.bodies(), &course, &timing, solver.as_mut())),
+            None => {
+                let answer = time(pair.bodies(), &course, &timing, solver.as_mut());
+                Some(timing.row(pair.bodies(), &course, &answer))
+            }
         };
         if let Some(row) = row {
             chosen.add_if_wanted(&course, &row);
@@ -126,19 +128,6 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     let unit = bodies.meshes.unit();
     let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
-}
-
-/// Answers a row of motions or paths, and returns its row of results.
-fn answer_row(
-    bodies: Bodies<'_>,
-    course: &Course,
-    timing: &Timing,
-    solver: &mut dyn Solve,
-) -> ResultRow {
-    match time(bodies, course, timing, solver) {
-        Ok(timed) => timed.row(bodies, course, timing),
-        Err(problem) => ResultRow::error(course.id(), &problem),
-    }
 }
 
 /// Writes the page of the chosen rows. Without any there is none, which is told.

@@ -241,22 +241,6 @@ fn b_spline_and_slerp() {
     });
 }
 
-#[test]
-fn b_spline_and_squad() {
-    check("B-spline, squad", 0.05, |rng| {
-        let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
-        Spline::new(curve, Turns::squad(&keys(rng, 5))?).about(vector(rng, 1.0))
-    });
-}
-
-#[test]
-fn squad_alone() {
-    check("squad", 0.05, |rng| {
-        let point = Curve::bezier(&[[0.0; 3]], 2.0)?;
-        Ok(Spline::new(point, Turns::squad(&keys(rng, 4))?))
-    });
-}
-
 /// Tests that axes before a held joint are not treated as parallel to those after it, whatever the joint's origin.
 #[test]
 fn links_behind_joints_that_are_held() {
@@ -416,8 +400,8 @@ fn tangents_have_the_velocities_of_poses() {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
         let chain = arm(&mut rng, 5, Axes::Any);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
-        let squad = Turns::squad(&keys(&mut rng, 6)).unwrap();
-        let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), squad);
+        let turns = Turns::slerp(&keys(&mut rng, 6)).unwrap();
+        let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
         let carried = Carried::new(ballistic(&mut rng).unwrap(), ballistic(&mut rng).unwrap());
         let all: [&dyn Smooth; 3] = [&link, &spline, &carried];
         let time = rng.random_range(0.1..1.9);
