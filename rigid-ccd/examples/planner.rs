@@ -2,19 +2,17 @@
 //! checks at equal steps.
 //!
 //! ```sh
-//! cargo run --release -p rigid-ccd --example planner -- [OUT.svg]
+//! cargo run --release -p rigid-ccd --example planner
 //! ```
-//! It draws places on both sides of the wall and in the slot, joins near ones by motions, and seeks a path. The
-//! picture shows the roadmap from above; by default it is written to `target/planner.svg`.
+//! It draws places on both sides of the wall and in the slot, joins near ones by motions, and seeks a path.
 
-use plotters::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{Body, Error, Motion, Pose, Settings, Solver, load};
 use std::collections::VecDeque;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Two walls with a slot between them.
 struct Room {
@@ -144,46 +142,7 @@ fn path(count: usize, free: &[[usize; 2]]) -> Option<Vec<usize>> {
     Some(path)
 }
 
-fn draw(
-    places: &[Pose],
-    free: &[[usize; 2]],
-    path: &[usize],
-    out: &Path,
-) -> Result<(), Box<dyn std::error::Error>> {
-    let at = |k: usize| {
-        let middle = places[k].transform_point(MIDDLE.into());
-        (middle.x, middle.y)
-    };
-    let area = SVGBackend::new(out, (900, 560)).into_drawing_area();
-    area.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&area)
-        .caption(
-            "Certified roadmap of a bracket through a slot, from above",
-            ("sans-serif", 18),
-        )
-        .margin(12)
-        .x_label_area_size(28)
-        .y_label_area_size(36)
-        .build_cartesian_2d(-4.5..4.5, -2.8..2.8)?;
-    chart.configure_mesh().disable_mesh().draw()?;
-    for side in [-1.0, 1.0] {
-        let wall = [(-0.3, side * HALF_SLOT), (0.3, side * 2.8)];
-        chart.draw_series([Rectangle::new(wall, BLACK.mix(0.5).filled())])?;
-    }
-    for &[a, b] in free {
-        chart.draw_series(LineSeries::new([at(a), at(b)], BLUE.mix(0.25)))?;
-    }
-    chart.draw_series((0..places.len()).map(|k| Circle::new(at(k), 2, BLUE.filled())))?;
-    let line = path.iter().map(|&k| at(k));
-    chart.draw_series(LineSeries::new(line, RED.stroke_width(3)))?;
-    area.present()?;
-    Ok(())
-}
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let out = std::env::args()
-        .nth(1)
-        .map_or_else(|| PathBuf::from("target/planner.svg"), PathBuf::from);
     let body = load(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket.obj"))?;
     let room = Room::new()?;
     let mut solver = Solver::new().with_settings(Settings {
@@ -213,16 +172,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         writeln!(print, "{steps:>4} steps accept {wrong} edges that are not")?;
     }
-    let path = path(places.len(), &free);
-    let path = path.unwrap_or_default();
-    match path.len() {
-        0 => writeln!(print, "no path")?,
-        count => writeln!(print, "a path of {} edges", count - 1)?,
+    match path(places.len(), &free) {
+        None => writeln!(print, "no path")?,
+        Some(path) => writeln!(print, "a path of {} edges", path.len() - 1)?,
     }
-    if let Some(folder) = out.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
-    draw(&places, &free, &path, &out)?;
-    writeln!(print, "picture: {}", out.display())?;
     Ok(())
 }
