@@ -11,7 +11,6 @@
 //! | is thrown | [`Ballistic`] |
 //! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`Turns`] |
 //! | is the link of an arm whose joints all move | [`Link`] of a [`Chain`] |
-//! | is carried by another one | [`Carried`] |
 //! | follows any of these at another pace | [`Timed`] |
 //! | moves in a way of your own | [`Smooth`], or [`Trajectory`] |
 //!
@@ -20,7 +19,6 @@
 
 mod ballistic;
 mod bounded;
-mod carried;
 mod chain;
 mod checks;
 mod curve;
@@ -37,7 +35,6 @@ mod worst_stray;
 
 pub use ballistic::Ballistic;
 pub use bounded::{Bounded, Speeds};
-pub use carried::{Carried, Steady};
 pub use ccd_core::{
     Acceleration, Accelerations, Motion, Movement, Moving, Smooth, Stray, Stretch, Trajectory,
 };

@@ -5,11 +5,11 @@ use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, 
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use rigid_ccd::trajectory::{
-    Ballistic, Carried, Chain, Curve, Joint, Pace, Poses, Spline, Steady, Timed, Turns, screw,
+    Ballistic, Chain, Curve, Joint, Pace, Poses, Spline, Timed, Turns, screw,
 };
 
 /// The names of the kinds of trajectories.
-pub const KINDS: [&str; 13] = [
+pub const KINDS: [&str; 12] = [
     "motion",
     "still",
     "screw",
@@ -19,7 +19,6 @@ pub const KINDS: [&str; 13] = [
     "Bézier curve, slerp",
     "B-spline, slerp",
     "link",
-    "carried",
     "timed",
     "smooth",
     "zigzag",
@@ -92,11 +91,6 @@ fn draw_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajecto
                 chain: Chain::new(Pose::IDENTITY, joints?),
                 positions,
             })
-        }
-        "carried" => {
-            let carrier = Steady(motion(rng, reach)?);
-            let inner = Ballistic::new(motion(rng, reach)?, vector(rng, reach))?;
-            Box::new(Carried::new(carrier, inner))
         }
         "timed" => {
             let thrown = Ballistic::new(motion(rng, reach)?, vector(rng, 4.0 * reach))?;

@@ -102,11 +102,6 @@ fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
     Chain::new(Pose::IDENTITY, joints.unwrap())
 }
 
-#[test]
-fn steady() {
-    check("steady", 0.0, |rng| Ok(Steady(motion(rng)?)));
-}
-
 /// Tests a thrown body, whose deviation is due to rounding alone.
 #[test]
 fn thrown() {
@@ -324,13 +319,6 @@ fn links_with_axes_across() {
 }
 
 #[test]
-fn random_carried() {
-    check("carried", 0.3, |rng| {
-        Ok(Carried::new(ballistic(rng)?, ballistic(rng)?))
-    });
-}
-
-#[test]
 fn timed() {
     check("timed", 0.3, |rng| {
         let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
@@ -402,8 +390,8 @@ fn tangents_have_the_velocities_of_poses() {
         let link = chain.link(5, &first, &last, 2.0).unwrap();
         let turns = Turns::slerp(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
-        let carried = Carried::new(ballistic(&mut rng).unwrap(), ballistic(&mut rng).unwrap());
-        let all: [&dyn Smooth; 3] = [&link, &spline, &carried];
+        let thrown = ballistic(&mut rng).unwrap();
+        let all: [&dyn Smooth; 3] = [&link, &spline, &thrown];
         let time = rng.random_range(0.1..1.9);
         for (number, smooth) in all.into_iter().enumerate() {
             let tangent = smooth.tangent(time).unwrap();
