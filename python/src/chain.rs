@@ -3,6 +3,7 @@
 use crate::arrays::{any_numbers, finite, index, numbers};
 use crate::errors::{input_error, warn};
 use crate::motion::{GivenPose, given_pose, matrix_of};
+use crate::pickle::{Recipe, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::trajectory::{Chain, Joint, Link, Trajectory};
@@ -13,8 +14,7 @@ use rigid_ccd::{InputError, Remark};
 pub(crate) struct PyJoint {
     joint: Joint,
     kind: Kind,
-    origin: GivenPose,
-    limits: Option<[f64; 2]>,
+    made: Recipe,
 }
 
 /// The degree of freedom of a joint, with its axis.
@@ -62,23 +62,8 @@ impl PyJoint {
         PyJoint::new(Kind::Fixed, origin, None)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let PyJoint {
-            kind,
-            origin,
-            limits,
-            ..
-        } = slf.get();
-        let make = slf.get_type().getattr(kind.name())?;
-        let parts = match *kind {
-            Kind::Revolute(axis) | Kind::Prismatic(axis) => {
-                (*origin, axis, *limits).into_pyobject(slf.py())?
-            }
-            Kind::Fixed => (*origin,).into_pyobject(slf.py())?,
-        };
-        Ok((make, parts))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        slf.get().made.reduced(slf.get_type())
     }
 
     /// The least and the greatest allowed position of the joint.
@@ -113,10 +98,10 @@ impl Kind {
 impl PyJoint {
     fn new(
         kind: Kind,
-        origin: &Bound<'_, PyAny>,
+        given: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let origin = given_pose(origin, "origin")?;
+        let origin = given_pose(given, "origin")?;
         let pose = origin.pose("origin")?;
         let joint = match kind {
             Kind::Revolute(axis) => Joint::revolute(pose, axis),
@@ -132,11 +117,17 @@ impl PyJoint {
             Some([low, high]) => joint.map_err(input_error)?.within(low..=high),
             None => joint.map_err(input_error)?,
         };
+        let (py, name) = (given.py(), Some(kind.name()));
+        let made = match kind {
+            Kind::Revolute(axis) | Kind::Prismatic(axis) => {
+                Recipe::new(py, name, (origin, axis, limits))
+            }
+            Kind::Fixed => Recipe::new(py, name, (origin,)),
+        };
         Ok(PyJoint {
             joint,
             kind,
-            origin,
-            limits,
+            made: made?,
         })
     }
 }
