@@ -5,11 +5,11 @@ use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, 
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use rigid_ccd::trajectory::{
-    Ballistic, Chain, Curve, Joint, Pace, Poses, Spline, Timed, Turns, screw,
+    Ballistic, Chain, Curve, Joint, Poses, Spline, Turns, screw,
 };
 
 /// The names of the kinds of trajectories.
-pub const KINDS: [&str; 12] = [
+pub const KINDS: [&str; 11] = [
     "motion",
     "still",
     "screw",
@@ -19,7 +19,6 @@ pub const KINDS: [&str; 12] = [
     "Bézier curve, slerp",
     "B-spline, slerp",
     "link",
-    "timed",
     "smooth",
     "zigzag",
 ];
@@ -91,12 +90,6 @@ fn draw_kind(rng: &mut Pcg64, kind: &str, reach: f64) -> Result<Box<dyn Trajecto
                 chain: Chain::new(Pose::IDENTITY, joints?),
                 positions,
             })
-        }
-        "timed" => {
-            let thrown = Ballistic::new(motion(rng, reach)?, vector(rng, 4.0 * reach))?;
-            let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
-            let duration = rng.random_range(0.3..1.5);
-            Box::new(Timed::new(thrown, -0.2..0.8, duration, pace)?)
         }
         "smooth" => Box::new(Oscillation {
             place: vector(rng, reach),

@@ -1,7 +1,6 @@
 //! The motion of a link of a serial chain whose joints move between two positions.
 
 use super::U;
-use super::bounded::{Bounded, Speeds};
 use super::chain::Chain;
 use super::checks::check_duration;
 use super::joint::{Joint, Kind};
@@ -214,12 +213,6 @@ impl Smooth for Link<'_> {
     }
 }
 
-impl Bounded for Link<'_> {
-    fn speeds(&self, from: f64, to: f64) -> Speeds {
-        self.link_bounds(from, to).speeds
-    }
-}
-
 /// The pose of a link and its derivatives at one time, accumulated joint by joint.
 struct State {
     pose: Pose,
@@ -285,6 +278,13 @@ struct LinkBounds {
     joints: f64,
     arms: f64,
     angles: f64,
+}
+
+/// Bounds on the speeds of a link, per unit of time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Speeds {
+    linear: f64,
+    angular: f64,
 }
 
 /// Bounds on the position of a joint in an interval of time, in radians or as a length.

@@ -318,20 +318,6 @@ fn links_with_axes_across() {
     });
 }
 
-#[test]
-fn timed() {
-    check("timed", 0.3, |rng| {
-        let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
-        let first = rng.random_range(0.0..1.0);
-        Timed::new(
-            ballistic(rng)?,
-            first..first + 2.0,
-            rng.random_range(0.5..2.0),
-            pace,
-        )
-    });
-}
-
 /// Tests that the check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {

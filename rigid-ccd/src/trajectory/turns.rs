@@ -6,7 +6,6 @@ use super::rotation::logarithm;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::vector::length;
 use ccd_core::{InputError, Pose};
 
 /// A rotation through given orientations at given times, with a fixed origin. The body does not turn before the first
@@ -75,12 +74,6 @@ impl Turns {
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
         self.segments
             .jump_acceleration(from, to, |segment, time| segment.at(time).1)
-    }
-
-    /// Bounds the angular speed between two times.
-    pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        let speed = |segment: &Segment<Turn>| length(segment.course.spin);
-        self.segments.greatest(from, to, speed)
     }
 
     /// Returns a knot strictly between two times, near the middle of them; `None` without one.

@@ -66,14 +66,16 @@ fn places_may_come_from_afar() {
 #[test]
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
-    let thrown = ballistic(&mut rng).unwrap();
-    let once = Timed::new(thrown, 0.0..1.0, 1.0, Pace::Even).unwrap();
-    let twice = Timed::new(once.clone(), 1.5..1.5, 1.0, Pace::Even).unwrap();
+    let curve = Curve::bezier(&points(&mut rng, 4), 1.0).unwrap();
+    let spline = Spline::new(curve, Turns::slerp(&keys(&mut rng, 3)).unwrap());
+    let stops = [0.0, 1.0].map(|time| (time, motion(&mut rng).unwrap().start()));
+    let poses = Poses::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
         let strays = [
-            once.stretch(time, time),
-            twice.stretch(time, time),
-            once.stretch(1.0, 1.0 + time),
+            spline.stretch(time, time),
+            poses.stretch(time, time),
+            spline.stretch(2.5, 2.5 + time),
+            poses.stretch(1.0, 1.0 + time),
         ];
         for stretch in strays {
             let Stray { shift, turn } = stretch.unwrap().stray;
