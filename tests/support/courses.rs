@@ -4,9 +4,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use rigid_ccd::trajectory::{
-    Ballistic, Chain, Curve, Joint, Poses, Spline, Turns, screw,
-};
+use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, Poses, Spline, Turns, screw};
 
 /// The names of the kinds of trajectories.
 pub const KINDS: [&str; 11] = [

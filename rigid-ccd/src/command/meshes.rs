@@ -1,8 +1,6 @@
 //! The options for reading mesh files, shared by the subcommands.
 
-use super::named::{AXES, UNITS, name_of, named_value_parser};
-use super::pieces::NOT_GIVEN;
-use crate::text::Number;
+use super::named::{AXES, UNITS, named_value_parser};
 use ccd_decomp::{Adjustments, Axis, Unit};
 use clap::Args;
 
@@ -51,18 +49,5 @@ impl MeshArgs {
     /// Returns the unit of all lengths, if it is given.
     pub(super) fn unit(&self) -> Option<Unit> {
         self.unit
-    }
-
-    /// Returns the names and values of these options, as the journal records them.
-    pub(super) fn recorded_options(&self) -> [(&'static str, String); 4] {
-        let scale = self.scale.map(|factor| Number(factor).to_string());
-        let surface = self.surface.then(|| "given".to_owned());
-        [
-            ("--unit", self.unit.map(|unit| name_of(UNITS, &unit))),
-            ("--scale", scale),
-            ("--mirror", self.mirror.map(|axis| name_of(AXES, &axis))),
-            ("--surface", surface),
-        ]
-        .map(|(option, value)| (option, value.unwrap_or_else(|| NOT_GIVEN.to_owned())))
     }
 }

@@ -23,6 +23,7 @@ use crate::picture::{Asked, Claim};
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
+use clap::ArgMatches;
 use journal::{CONTENT_PREFIX, Checkpoint, RecordedOptions};
 use outputs::{ClaimedFiles, OpenedTables};
 use run::Run;
@@ -31,7 +32,7 @@ use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
-pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
+pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
@@ -42,7 +43,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
     let (mut outputs, earlier) =
-        match OpenedTables::new(args, places, &recorded_options(args, &pair))? {
+        match OpenedTables::new(args, places, &recorded_options(args, given, &pair))? {
             OpenedTables::New(outputs) => (outputs, None),
             OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
             OpenedTables::Finished(end) => return resume::report_finished(args, &mut rows, end),
@@ -225,10 +226,9 @@ fn leaves_start_contacts(args: &QueryArgs) -> bool {
 }
 
 /// Returns all options and checksums that determine the tables of the run, except the motions.
-fn recorded_options(args: &QueryArgs, pair: &Pair) -> RecordedOptions {
-    let owned = |(option, value): (&str, String)| (option.to_owned(), value);
-    let mut recorded = vec![owned(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
-    recorded.extend(args.recorded_options().into_iter().map(owned));
+fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> RecordedOptions {
+    let mut recorded = vec![("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned())];
+    recorded.extend(args.recorded_options(given));
     for (option, checksum) in &pair.checksums {
         recorded.push((format!("{CONTENT_PREFIX}{option}"), checksum.clone()));
     }
