@@ -61,19 +61,7 @@ impl Chain {
         to: &'c [f64],
         duration: f64,
     ) -> Result<Link<'c>, InputError> {
-        Link::new(self, link, from, to, duration)
-    }
-}
-
-impl<'c> Link<'c> {
-    fn new(
-        chain: &'c Chain,
-        link: usize,
-        from: &'c [f64],
-        to: &'c [f64],
-        duration: f64,
-    ) -> Result<Self, InputError> {
-        let joints = chain.joints();
+        let joints = self.joints();
         if link > joints.len() {
             return Err(InputError::NoSuchLink {
                 link,
@@ -93,7 +81,7 @@ impl<'c> Link<'c> {
         }
         check_duration(duration)?;
         Ok(Link {
-            chain,
+            chain: self,
             seen_from: None,
             link,
             from,
@@ -101,7 +89,9 @@ impl<'c> Link<'c> {
             duration,
         })
     }
+}
 
+impl<'c> Link<'c> {
     /// Returns the trajectory in the frame of another link, nearer to the base or the same. A query asks for it
     /// against that link at rest, [`Motion::STILL`]: what moves both links costs nothing then.
     ///
