@@ -12,8 +12,7 @@ use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
 use clap::Args;
-use std::fs::File;
-use std::io::{self, Write};
+use std::fs;
 use std::path::PathBuf;
 
 /// The options that name both bodies.
@@ -182,24 +181,11 @@ fn files(source: &BodySource) -> Vec<PathBuf> {
 
 /// Returns the checksum of all files of a body; 0 for a primitive or files that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
-    let mut sum = Crc(crc32fast::Hasher::new());
+    let mut sum = crc32fast::Hasher::new();
     let files = files(source);
-    let mut add = |path: &PathBuf| io::copy(&mut File::open(path)?, &mut sum);
-    match files.iter().try_for_each(|path| add(path).map(drop)) {
-        Ok(()) if !files.is_empty() => sum.0.finalize(),
+    let mut add = |path: &PathBuf| fs::read(path).map(|bytes| sum.update(&bytes));
+    match files.iter().try_for_each(&mut add) {
+        Ok(()) if !files.is_empty() => sum.finalize(),
         _ => 0,
-    }
-}
-
-struct Crc(crc32fast::Hasher);
-
-impl Write for Crc {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
