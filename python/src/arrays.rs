@@ -31,18 +31,14 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     }
     let array = as_array(&given, "int64", "faces")?;
     let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
-    let corner = |(face, index): (usize, i64)| {
-        u32::try_from(index)
-            .map_err(|_| input_error(format!("faces: face {face} has the index {index}")))
-    };
     let rows = array.as_array();
     let rows = rows.rows().into_iter().enumerate();
     rows.map(|(face, row)| {
-        Ok([
-            corner((face, row[0]))?,
-            corner((face, row[1]))?,
-            corner((face, row[2]))?,
-        ])
+        let corner = |index: i64| {
+            let refused = |_| input_error(format!("faces: face {face} has the index {index}"));
+            u32::try_from(index).map_err(refused)
+        };
+        Ok([corner(row[0])?, corner(row[1])?, corner(row[2])?])
     })
     .collect()
 }

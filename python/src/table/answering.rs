@@ -1,11 +1,10 @@
 //! Answers the rows of a table on all cores.
 
-use super::batch::{Names, id_field};
+use super::batch::{Names, id_field, unreadable};
 use super::input::Reader;
 use super::pieces::{Piece, PieceSize, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
-use arrow_schema::ArrowError;
 use rigid_ccd::answer::Limit;
 use rigid_ccd::batch::{Bodies, Question, TimedAnswer, on_threads};
 use rigid_ccd::table::columns::Columns;
@@ -148,10 +147,6 @@ fn stopped_by(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
         stop: Some(Arc::clone(stop)),
         ..asked.settings.clone()
     }
-}
-
-fn unreadable(error: ArrowError) -> TableError {
-    TableError::Unreadable(error.to_string())
 }
 
 /// The answer of a row, or what is wrong with it.

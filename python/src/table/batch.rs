@@ -131,7 +131,7 @@ fn is_name(kind: &DataType) -> bool {
     is_simple || kind.is_string() || is_bytes || is_time
 }
 
-fn unreadable(error: ArrowError) -> TableError {
+pub(crate) fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
