@@ -53,14 +53,16 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
             let (contact, after) = (contact(row), after_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
-        Status::Measured => {
-            let (when, proven) = match asked.claim {
-                Claim::Then => ("At", ""),
-                Claim::Farthest => ("Farthest at", " Proven: never farther."),
-                _ => ("Nearest at", ""),
-            };
-            format!("{when} {time}: {}.{proven}", describe_distance(row))
+        Status::Measured if asked.claim == Claim::Then => {
+            format!("At {time}: {}.", describe_distance(row))
         }
+        Status::Measured if asked.claim == Claim::Farthest => {
+            format!(
+                "Farthest at {time}: {}. Proven: never farther.",
+                describe_distance(row)
+            )
+        }
+        Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
         Status::Kept => {
             let when = match row.distance_upper {
                 Some(_) => format!(": nearest at {time},"),
