@@ -206,19 +206,16 @@ fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
 
 /// Refuses options for tables of motions if the table contains paths.
 fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
-    match rows {
-        Rows::Motions(_) => Ok(()),
-        Rows::Paths(_) if args.schedule != ScheduleKind::BestFirst => {
-            bail!(
-                "--schedule {} needs a table of motions, not of paths",
-                args.schedule
-            )
-        }
-        Rows::Paths(_) if leaves_start_contacts(args) => {
-            bail!("--start leave needs a table of motions, not of paths")
-        }
-        Rows::Paths(_) => Ok(()),
+    if rows.are_of_paths() && args.schedule != ScheduleKind::BestFirst {
+        bail!(
+            "--schedule {} needs a table of motions, not of paths",
+            args.schedule
+        );
     }
+    if rows.are_of_paths() && leaves_start_contacts(args) {
+        bail!("--start leave needs a table of motions, not of paths");
+    }
+    Ok(())
 }
 
 fn leaves_start_contacts(args: &QueryArgs) -> bool {
