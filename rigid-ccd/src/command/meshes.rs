@@ -1,10 +1,11 @@
-//! The options for reading mesh files, shared by the subcommands.
+//! The options for reading mesh files and for their pieces, shared by the subcommands.
 
 use super::named::{AXES, UNITS, named_value_parser};
+use super::pieces::PiecesArgs;
 use ccd_decomp::{Adjustments, Axis, Unit};
 use clap::Args;
 
-/// The options for reading mesh files.
+/// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
     /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
@@ -20,6 +21,8 @@ pub(super) struct MeshArgs {
     /// Take all mesh files as hollow surfaces, also closed ones; one of them: part.stl@surface
     #[arg(long, conflicts_with = "pieces")]
     surface: bool,
+    #[command(flatten)]
+    pub(super) pieces: PiecesArgs,
 }
 
 fn factor(text: &str) -> Result<f64, String> {

@@ -1,7 +1,6 @@
 //! The options that name the two bodies of a query, and the loading of these bodies.
 
 use super::meshes::MeshArgs;
-use super::pieces::PiecesArgs;
 use crate::Remark;
 use crate::batch::{Bodies, SolverKind};
 use crate::command::files::same_file;
@@ -28,8 +27,6 @@ pub(super) struct BodiesArgs {
     pub(super) b: String,
     #[command(flatten)]
     pub(super) meshes: MeshArgs,
-    #[command(flatten)]
-    pub(super) pieces: PiecesArgs,
 }
 
 impl BodiesArgs {
@@ -80,7 +77,7 @@ impl BodiesArgs {
         method: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
-        let detail = self.pieces.detail()?;
+        let detail = self.meshes.pieces.detail()?;
         let progress = Progress::of(&format!("preparing {text}"), quiet);
         let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
         let Prepared {
