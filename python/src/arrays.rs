@@ -67,11 +67,7 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
 
 /// Reads a list of numbers of any length.
 pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    let array = floats(values, what)?;
-    array
-        .call_method0("ravel")?
-        .call_method0("tolist")?
-        .extract()
+    flat_list(&floats(values, what)?)?.extract()
 }
 
 /// Reads a list of whole numbers of any length.
@@ -81,11 +77,12 @@ pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64
     if size > 0 && !matches!(kind, 'i' | 'u') {
         return Err(input_error(format!("{what}: whole numbers are needed")));
     }
-    let array = as_array(&given, "int64", what)?;
-    array
-        .call_method0("ravel")?
-        .call_method0("tolist")?
-        .extract()
+    flat_list(&as_array(&given, "int64", what)?)?.extract()
+}
+
+/// Returns the elements of an array of any shape as a list.
+fn flat_list<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    array.call_method0("ravel")?.call_method0("tolist")
 }
 
 /// Reads row indices, or a boolean array with one element per row.
