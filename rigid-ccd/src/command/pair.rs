@@ -3,10 +3,10 @@
 use super::meshes::MeshArgs;
 use crate::Remark;
 use crate::batch::{Bodies, SolverKind};
-use crate::command::files::same_file;
+use crate::command::files::{Rows, same_file};
 use crate::command::progress::Progress;
 use crate::command::size::Size;
-use crate::command::{complain, print_line};
+use crate::command::{complain, print_line, print_remarks};
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
@@ -111,10 +111,11 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// Returns a remark if the tolerance is large relative to the smaller body.
-    pub(super) fn remark(&self, tolerance: f64) -> Option<Remark> {
+    /// Prints a remark if the tolerance is large relative to the smaller body, and those about the rows of a table.
+    pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
         let Bodies { a, b } = self.bodies();
-        Remark::of_tolerance(tolerance, [a, b].map(Remark::size))
+        let remark = Remark::of_tolerance(tolerance, [a, b].map(Remark::size));
+        print_remarks(remark.into_iter().chain(rows.remarks()));
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {

@@ -15,7 +15,7 @@ use super::answering::BatchRun;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows};
-use super::{Exit, complain, print_remarks};
+use super::{Exit, complain};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
@@ -78,11 +78,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     }
     if !args.quiet {
         print_summary(args, &run.summary);
-        print_remarks(
-            pair.remark(args.tolerance)
-                .into_iter()
-                .chain(rows.remarks()),
-        );
+        pair.print_remarks(args.tolerance, &rows);
     }
     Ok(match (exit(args, end), shown) {
         (Exit::AllAnswered, shown) | (_, shown @ Exit::SomeRowsBad) => shown,

@@ -7,11 +7,11 @@ use args::Subject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
-use super::files::{Rows, input_name, open_courses, refuse_overwriting};
+use super::files::{input_name, open_courses, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, complain, print_remarks};
+use super::{Exit, complain};
 use crate::batch::{Question, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::results::{self, ResultRow};
@@ -51,10 +51,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
     let asked = Asked {
-        claim: match known {
-            Some(_) => Claim::Told,
-            None => Claim::First,
-        },
+        claim: known.as_ref().map_or(Claim::First, |_| Claim::Told),
         margin: args.margin,
         clearance: None,
     };
@@ -84,7 +81,9 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
             break;
         }
     }
-    remark(args, &pair, &rows);
+    if args.results.is_none() && !args.quiet {
+        pair.print_remarks(args.tolerance, &rows);
+    }
     if let (Some(results), true) = (&args.results, chosen.is_empty()) {
         bail!(
             "no row of {} is in {}",
@@ -98,14 +97,6 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         asked,
     };
     write_rows(subject, chosen, out, args.quiet)
-}
-
-/// Prints the remarks about the rows, unless a table of results is shown.
-fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
-    if args.results.is_none() && !args.quiet {
-        let of_tolerance = pair.remark(args.tolerance);
-        print_remarks(of_tolerance.into_iter().chain(rows.remarks()));
-    }
 }
 
 /// The two bodies, their title and their context, for a page of rows.
