@@ -1,7 +1,8 @@
 //! Throws a part at another one: the certified first contact, and tests at equal steps.
 
 use crate::{Part, WebError};
-use rigid_ccd::{Hit, HitKind, Motion, Pose, Settings, Solver};
+use rigid_ccd::answer::HitKind;
+use rigid_ccd::{Hit, Motion, Pose, Settings, Solver};
 
 /// A throw of one second: a part's position at the start, its velocity and its angular velocity. The other part rests
 /// at the world's origin.

@@ -1,11 +1,10 @@
-"""Compares the cost of a table in Python with that of the command `ccd` and of a loop in Rust, in one run.
+"""Compares the cost of a table in Python with that of the command `ccd`, in one run.
 
-    python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd --loop target/release/examples/rows
+    python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd
 
 The rows are repeated until there are --rows. Each way runs --repeat times, in turn, each time in a process of its own:
 where the bodies lie in memory changes a process's speed by 1 to 2 %. Seconds are medians. Ratios are medians of those of
-neighbouring runs, which the machine's changing speed affects least. The times of contact have to be the same bits in
-all of them.
+neighbouring runs, which the machine's changing speed affects least. The times of contact have to be the same bits.
 """
 
 import argparse
@@ -29,7 +28,6 @@ def main() -> None:
     parser.add_argument("b")
     parser.add_argument("motions")
     parser.add_argument("--ccd", required=True, help="the command")
-    parser.add_argument("--loop", required=True, help="the example `rows` of rigid-ccd")
     parser.add_argument("--rows", type=int, default=100_000)
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
@@ -44,20 +42,15 @@ def main() -> None:
     }
     alone = ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1)
     with tempfile.TemporaryDirectory() as folder, alone:
-        motions, results, times = (Path(folder) / name for name in ("motions.csv", "results.csv", "times"))
+        motions, results = (Path(folder) / name for name in ("motions.csv", "results.csv"))
         with open(motions, "w", newline="") as file:
             csv.writer(file).writerows([header, *lines])
-        print(f"{given.rows} rows\nthreads   python s  command s     loop s  python/loop  python/command")
+        print(f"{given.rows} rows\nthreads   python s  command s  python/command")
         for threads in given.threads:
-            taken: dict[str, list[float]] = {"python": [], "command": [], "loop": []}
+            taken: dict[str, list[float]] = {"python": [], "command": []}
             for _ in range(given.repeat):
                 seconds, bits, status = alone.submit(answer, given.a, given.b, columns, threads).result()
                 taken["python"].append(seconds)
-
-                arguments = [given.loop, given.a, given.b, motions, threads, given.rows, times]
-                said = subprocess.run([*map(str, arguments)], check=True, capture_output=True, text=True).stdout
-                taken["loop"].append(float(said.split(":")[1].split()[0]))
-                assert np.array_equal(bits, np.fromfile(times, np.uint64)), "other bits than the loop's"
 
                 bodies = ["--a", given.a, "--b", given.b, "--motions", motions, "--out", results]
                 begin = time.perf_counter()
@@ -66,8 +59,9 @@ def main() -> None:
                 with open(results, newline="") as file:
                     told = np.array([float(row["time"]) for row in csv.DictReader(file)])
                 assert np.array_equal(bits, told.view(np.uint64)), "other bits than the command's"
-            medians = "  ".join(f"{statistics.median(taken[way]):9.3f}" for way in ("python", "command", "loop"))
-            print(f"{threads:7}  {medians}  {ratio(taken, 'loop'):11.3f}  {ratio(taken, 'command'):14.3f}")
+            medians = "  ".join(f"{statistics.median(seconds):9.3f}" for seconds in taken.values())
+            ratio = statistics.median(ours / theirs for ours, theirs in zip(*taken.values(), strict=True))
+            print(f"{threads:7}  {medians}  {ratio:14.3f}")
         counts = dict(zip(*np.unique(status, return_counts=True), strict=True))
         print(f"equal bits; {', '.join(f'{count} {status}' for status, count in counts.items())}")
 
@@ -79,11 +73,6 @@ def answer(a: str, b: str, columns: dict[str, np.ndarray], threads: int) -> tupl
     found = rigid_ccd.first_contacts(*bodies, columns, threads=threads)
     seconds = time.perf_counter() - begin
     return seconds, found["time"].view(np.uint64), found["status"].astype(str)
-
-
-def ratio(taken: dict[str, list[float]], other: str) -> float:
-    """Returns the ratio of the times of Python and another program."""
-    return statistics.median(ours / theirs for ours, theirs in zip(taken["python"], taken[other], strict=True))
 
 
 if __name__ == "__main__":

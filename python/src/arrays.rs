@@ -31,18 +31,14 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     }
     let array = as_array(&given, "int64", "faces")?;
     let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
-    let corner = |(face, index): (usize, i64)| {
-        u32::try_from(index)
-            .map_err(|_| input_error(format!("faces: face {face} has the index {index}")))
-    };
     let rows = array.as_array();
     let rows = rows.rows().into_iter().enumerate();
     rows.map(|(face, row)| {
-        Ok([
-            corner((face, row[0]))?,
-            corner((face, row[1]))?,
-            corner((face, row[2]))?,
-        ])
+        let corner = |index: i64| {
+            let refused = |_| input_error(format!("faces: face {face} has the index {index}"));
+            u32::try_from(index).map_err(refused)
+        };
+        Ok([corner(row[0])?, corner(row[1])?, corner(row[2])?])
     })
     .collect()
 }
@@ -71,11 +67,7 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
 
 /// Reads a list of numbers of any length.
 pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    let array = floats(values, what)?;
-    array
-        .call_method0("ravel")?
-        .call_method0("tolist")?
-        .extract()
+    flat_list(&floats(values, what)?)?.extract()
 }
 
 /// Reads a list of whole numbers of any length.
@@ -85,11 +77,12 @@ pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64
     if size > 0 && !matches!(kind, 'i' | 'u') {
         return Err(input_error(format!("{what}: whole numbers are needed")));
     }
-    let array = as_array(&given, "int64", what)?;
-    array
-        .call_method0("ravel")?
-        .call_method0("tolist")?
-        .extract()
+    flat_list(&as_array(&given, "int64", what)?)?.extract()
+}
+
+/// Returns the elements of an array of any shape as a list.
+fn flat_list<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    array.call_method0("ravel")?.call_method0("tolist")
 }
 
 /// Reads row indices, or a boolean array with one element per row.

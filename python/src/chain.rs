@@ -3,8 +3,9 @@
 use crate::arrays::{any_numbers, finite, index, numbers};
 use crate::errors::{input_error, warn};
 use crate::motion::{GivenPose, given_pose, matrix_of};
+use crate::pickle::{Recipe, Reduced};
 use pyo3::prelude::*;
-use pyo3::types::{PyTuple, PyType};
+use pyo3::types::PyType;
 use rigid_ccd::trajectory::{Chain, Joint, Link, Trajectory};
 use rigid_ccd::{InputError, Remark};
 
@@ -13,8 +14,7 @@ use rigid_ccd::{InputError, Remark};
 pub(crate) struct PyJoint {
     joint: Joint,
     kind: Kind,
-    origin: GivenPose,
-    limits: Option<[f64; 2]>,
+    made: Recipe,
 }
 
 /// The degree of freedom of a joint, with its axis.
@@ -62,23 +62,8 @@ impl PyJoint {
         PyJoint::new(Kind::Fixed, origin, None)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let PyJoint {
-            kind,
-            origin,
-            limits,
-            ..
-        } = slf.get();
-        let make = slf.get_type().getattr(kind.name())?;
-        let parts = match *kind {
-            Kind::Revolute(axis) | Kind::Prismatic(axis) => {
-                (*origin, axis, *limits).into_pyobject(slf.py())?
-            }
-            Kind::Fixed => (*origin,).into_pyobject(slf.py())?,
-        };
-        Ok((make, parts))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        slf.get().made.reduced(slf.get_type())
     }
 
     /// The least and the greatest allowed position of the joint.
@@ -113,10 +98,10 @@ impl Kind {
 impl PyJoint {
     fn new(
         kind: Kind,
-        origin: &Bound<'_, PyAny>,
+        given: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let origin = given_pose(origin, "origin")?;
+        let origin = given_pose(given, "origin")?;
         let pose = origin.pose("origin")?;
         let joint = match kind {
             Kind::Revolute(axis) => Joint::revolute(pose, axis),
@@ -132,11 +117,17 @@ impl PyJoint {
             Some([low, high]) => joint.map_err(input_error)?.within(low..=high),
             None => joint.map_err(input_error)?,
         };
+        let (py, name) = (given.py(), Some(kind.name()));
+        let made = match kind {
+            Kind::Revolute(axis) | Kind::Prismatic(axis) => {
+                Recipe::new(py, name, (origin, axis, limits))
+            }
+            Kind::Fixed => Recipe::new(py, name, (origin,)),
+        };
         Ok(PyJoint {
             joint,
             kind,
-            origin,
-            limits,
+            made: made?,
         })
     }
 }
@@ -248,15 +239,14 @@ impl PyChain {
             .flat_map(|(_, (start, end))| [*start, *end])
             .filter_map(Remark::of_joint);
         warn(slf.py(), remarks.next(), 1)?;
-        PyLink {
-            chain: slf.unbind(),
+        let moves = Moves {
             link: index(link, "link")?,
             seen_from: None,
             start,
             end,
             duration,
-        }
-        .check_positions()
+        };
+        PyLink::new(slf.unbind(), moves)
     }
 }
 
@@ -270,6 +260,13 @@ type ChainParts = (Vec<Py<PyJoint>>, GivenPose);
 #[pyclass(name = "Link", module = "rigid_ccd", frozen)]
 pub(crate) struct PyLink {
     chain: Py<PyChain>,
+    moves: Moves,
+}
+
+/// Which link of a chain it is, and how the joints move.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
+struct Moves {
     link: usize,
     seen_from: Option<usize>,
     start: Vec<f64>,
@@ -284,15 +281,11 @@ impl PyLink {
     ///
     /// Witnesses and normals are in that frame, too: `chain.pose(other, ...)` takes them to the world.
     fn seen_from(&self, py: Python<'_>, link: i64) -> PyResult<Self> {
-        PyLink {
-            chain: self.chain.clone_ref(py),
-            link: self.link,
+        let moves = Moves {
             seen_from: Some(index(link, "link")?),
-            start: self.start.clone(),
-            end: self.end.clone(),
-            duration: self.duration,
-        }
-        .check_positions()
+            ..self.moves.clone()
+        };
+        PyLink::new(self.chain.clone_ref(py), moves)
     }
 
     /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
@@ -304,73 +297,58 @@ impl PyLink {
     /// The time at which the joints are at `end`.
     #[getter]
     pub(crate) fn duration(&self) -> f64 {
-        self.duration
+        self.moves.duration
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let link = slf.get();
-        let ends = (&link.start, &link.end, link.duration);
-        let parts = (&link.chain, link.link, link.seen_from, ends);
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let parts = (&slf.get().chain, slf.get().moves.clone());
         let make = slf.get_type().getattr("_of")?;
         Ok((make, parts.into_pyobject(slf.py())?))
     }
 
     /// Makes a link from its pickled form.
     #[classmethod]
-    fn _of(
-        _class: &Bound<'_, PyType>,
-        chain: Py<PyChain>,
-        link: usize,
-        seen_from: Option<usize>,
-        ends: (Vec<f64>, Vec<f64>, f64),
-    ) -> PyResult<Self> {
-        let (start, end, duration) = ends;
-        PyLink {
-            chain,
+    fn _of(_class: &Bound<'_, PyType>, chain: Py<PyChain>, moves: Moves) -> PyResult<Self> {
+        PyLink::new(chain, moves)
+    }
+
+    fn __repr__(&self) -> String {
+        let Moves {
             link,
             seen_from,
             start,
             end,
             duration,
-        }
-        .check_positions()
-    }
-
-    fn __repr__(&self) -> String {
-        let seen = self
-            .seen_from
-            .map_or_else(String::new, |link| format!(", seen_from={link}"));
-        format!(
-            "Link({}, start={:?}, end={:?}, duration={}{seen})",
-            self.link, self.start, self.end, self.duration
-        )
+        } = &self.moves;
+        let seen = seen_from.map_or_else(String::new, |link| format!(", seen_from={link}"));
+        format!("Link({link}, start={start:?}, end={end:?}, duration={duration}{seen})")
     }
 }
 
 impl PyLink {
-    /// Returns the link, or an error if a position is outside a joint's limits.
-    fn check_positions(self) -> PyResult<Self> {
-        let joints = self.chain.get().chain.joints().len();
-        for (what, positions) in [("start", &self.start), ("end", &self.end)] {
+    /// Makes a link, or an error if a position is outside a joint's limits.
+    fn new(chain: Py<PyChain>, moves: Moves) -> PyResult<Self> {
+        let joints = chain.get().chain.joints().len();
+        for (what, positions) in [("start", &moves.start), ("end", &moves.end)] {
             if positions.len() != joints {
                 let positions = positions.len();
                 let error = InputError::JointCount { positions, joints };
                 return Err(input_error(format!("{what}: {error}")));
             }
         }
-        self.link()?;
-        Ok(self)
+        let link = PyLink { chain, moves };
+        link.link()?;
+        Ok(link)
     }
 
     /// Returns the link's trajectory.
     pub(crate) fn link(&self) -> PyResult<Link<'_>> {
         let chain = &self.chain.get().chain;
+        let moves = &self.moves;
         let link = chain
-            .link(self.link, &self.start, &self.end, self.duration)
+            .link(moves.link, &moves.start, &moves.end, moves.duration)
             .map_err(input_error)?;
-        match self.seen_from {
+        match moves.seen_from {
             Some(from) => link.seen_from(from).map_err(input_error),
             None => Ok(link),
         }

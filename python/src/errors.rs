@@ -5,7 +5,7 @@ use pyo3::exceptions::{
     PyValueError,
 };
 use pyo3::prelude::*;
-use rigid_ccd::Remark;
+use rigid_ccd::{Remark, answer};
 use std::any::Any;
 use std::ffi::CString;
 use std::fmt::Display;
@@ -127,14 +127,14 @@ pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyEr
 }
 
 /// Makes an `Unresolved` for a question about contacts.
-pub(crate) fn unresolved_error(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
+pub(crate) fn unresolved_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
     let error = Unresolved::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
 /// Makes an `Unresolved` for a question about a distance.
-pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &rigid_ccd::Unresolved) -> PyErr {
+pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
     let error = Unresolved::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);

@@ -10,6 +10,7 @@ mod motion;
 mod movement;
 mod pages;
 mod path;
+mod pickle;
 mod queries;
 mod settings;
 mod table;

@@ -2,6 +2,7 @@
 
 use crate::arrays::{finite, shape};
 use crate::errors::{input_error, warn};
+use crate::pickle::{Recipe, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
@@ -26,23 +27,7 @@ const ORTHONORMAL: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
-    made: PickleData,
-}
-
-/// The data from which pickle makes the motion again, to the same bits.
-enum PickleData {
-    Moving {
-        start: GivenPose,
-        velocity: [f64; 3],
-        spin: [f64; 3],
-        center: [f64; 3],
-    },
-    Between {
-        start: GivenPose,
-        end: GivenPose,
-        duration: f64,
-        center: [f64; 3],
-    },
+    made: Recipe,
 }
 
 #[pymethods]
@@ -50,6 +35,7 @@ impl PyMotion {
     #[new]
     #[pyo3(signature = (position = None, rotation = None, velocity = None, spin = None, center = None))]
     fn new(
+        py: Python<'_>,
         position: Option<&Bound<'_, PyAny>>,
         rotation: Option<&Bound<'_, PyAny>>,
         velocity: Option<&Bound<'_, PyAny>>,
@@ -61,23 +47,17 @@ impl PyMotion {
             None => Ok([0.0; 3]),
         };
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
-        PyMotion::from_parts(PickleData::Moving {
-            start: GivenPose(given(position, "position")?, turned),
-            velocity: given(velocity, "velocity")?,
-            spin: given(spin, "spin")?,
-            center: given(center, "center")?,
-        })
+        let start = GivenPose(given(position, "position")?, turned);
+        let velocity = given(velocity, "velocity")?;
+        let (spin, center) = (given(spin, "spin")?, given(center, "center")?);
+        PyMotion::moving(py, start, velocity, spin, center)
     }
 
     /// Makes the motion of a body at rest; the pose has the forms of `Motion.between`.
     #[classmethod]
-    fn still(_class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
-        PyMotion::from_parts(PickleData::Moving {
-            start: given_pose(pose, "pose")?,
-            velocity: [0.0; 3],
-            spin: [0.0; 3],
-            center: [0.0; 3],
-        })
+    fn still(class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let start = given_pose(pose, "pose")?;
+        PyMotion::moving(class.py(), start, [0.0; 3], [0.0; 3], [0.0; 3])
     }
 
     /// Makes the motion from one pose to another: the centre moves in a straight line, and the body rotates the
@@ -87,17 +67,19 @@ impl PyMotion {
     #[classmethod]
     #[pyo3(signature = (start, end, duration = 1.0, center = None))]
     fn between(
-        _class: &Bound<'_, PyType>,
+        class: &Bound<'_, PyType>,
         start: &Bound<'_, PyAny>,
         end: &Bound<'_, PyAny>,
         duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyMotion::from_parts(PickleData::Between {
-            start: given_pose(start, "start")?,
-            end: given_pose(end, "end")?,
-            duration,
-            center: center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?,
+        let (start, end) = (given_pose(start, "start")?, given_pose(end, "end")?);
+        let center = center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?;
+        let motion = Motion::between(start.pose("start")?, end.pose("end")?, center, duration);
+        let parts = (start, end, duration, center);
+        Ok(PyMotion {
+            motion: motion.map_err(input_error)?,
+            made: Recipe::new(class.py(), Some("between"), parts)?,
         })
     }
 
@@ -106,30 +88,8 @@ impl PyMotion {
         matrix_of(py, &self.motion.pose(time))
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (py, class) = (slf.py(), slf.get_type().into_any());
-        Ok(match slf.get().made {
-            PickleData::Moving {
-                start: GivenPose(place, turned),
-                velocity,
-                spin,
-                center,
-            } => {
-                let parts = (place, wxyz(turned), velocity, spin, center);
-                (class, parts.into_pyobject(py)?)
-            }
-            PickleData::Between {
-                start,
-                end,
-                duration,
-                center,
-            } => {
-                let parts = (start, end, duration, center);
-                (class.getattr("between")?, parts.into_pyobject(py)?)
-            }
-        })
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        slf.get().made.reduced(slf.get_type())
     }
 
     fn __repr__(&self) -> String {
@@ -146,23 +106,20 @@ impl PyMotion {
 }
 
 impl PyMotion {
-    fn from_parts(made: PickleData) -> PyResult<Self> {
-        let motion = match &made {
-            PickleData::Moving {
-                start,
-                velocity,
-                spin,
-                center,
-            } => Motion::about(start.pose("pose")?, *velocity, *spin, *center),
-            PickleData::Between {
-                start,
-                end,
-                duration,
-                center,
-            } => Motion::between(start.pose("start")?, end.pose("end")?, *center, *duration),
-        };
-        let motion = motion.map_err(input_error)?;
-        Ok(PyMotion { motion, made })
+    fn moving(
+        py: Python<'_>,
+        start: GivenPose,
+        velocity: [f64; 3],
+        spin: [f64; 3],
+        center: [f64; 3],
+    ) -> PyResult<Self> {
+        let motion = Motion::about(start.pose("pose")?, velocity, spin, center);
+        let GivenPose(place, turned) = start;
+        let parts = (place, wxyz(turned), velocity, spin, center);
+        Ok(PyMotion {
+            motion: motion.map_err(input_error)?,
+            made: Recipe::new(py, None, parts)?,
+        })
     }
 }
 

@@ -5,8 +5,8 @@ use crate::errors::{input_error, wrong_type};
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
-use rigid_ccd::trajectory::{Link, Poses, Trajectory};
-use rigid_ccd::{Body, Motion, Moving, Remark};
+use rigid_ccd::trajectory::{Link, Moving, Poses, Trajectory};
+use rigid_ccd::{Body, Motion, Remark};
 
 /// The movement of a body as a Python argument gives it.
 pub(crate) enum GivenMovement<'c> {

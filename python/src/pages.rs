@@ -10,7 +10,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::batch::{Bodies, Question};
 use rigid_ccd::picture::{self, Claim, PageError, Pages, PagesError};
-use rigid_ccd::table::motions::TableError;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -43,14 +42,7 @@ pub(crate) fn write_pages(
     let work = |stop: &Arc<_>| write(asked, reader, &rows, &folder, stop);
     let (written, seen) = run_interruptibly(py, work, |_| Ok(()))?;
     seen?;
-    Ok(written?)
-}
-
-/// The error of a page that cannot be made.
-enum Fault {
-    Table(TableError),
-    Folder(PathBuf, std::io::Error),
-    Page(PagesError),
+    written
 }
 
 /// Writes a page for each of some rows of a table into a folder; returns the pages' paths, in the order of the rows.
@@ -60,7 +52,7 @@ fn write(
     rows: &HashSet<usize>,
     folder: &Path,
     stop: &Arc<AtomicBool>,
-) -> Result<Vec<PathBuf>, Fault> {
+) -> PyResult<Vec<PathBuf>> {
     let shown = picture::Asked {
         claim: Claim::First,
         margin: asked.settings.margin,
@@ -68,7 +60,7 @@ fn write(
     };
     let title = "Body A and body B".to_owned();
     let mut pages = Pages::create(asked.bodies, shown, title, folder)
-        .map_err(|error| Fault::Folder(folder.to_owned(), error))?;
+        .map_err(|error| file_error(&error, folder))?;
     let mut paths = Vec::new();
     let mut fault = None;
     answer_rows(asked, reader, rows, stop, |course, row| {
@@ -79,22 +71,12 @@ fn write(
             }
         }
     })
-    .map_err(Fault::Table)?;
+    .map_err(refuse)?;
     match fault {
-        Some(fault) => Err(Fault::Page(fault)),
-        None => Ok(paths),
-    }
-}
-
-impl From<Fault> for PyErr {
-    fn from(fault: Fault) -> Self {
-        match fault {
-            Fault::Table(error) => refuse(error),
-            Fault::Folder(path, error) => file_error(&error, &path),
-            Fault::Page(PagesError::Page(PageError::Write { path, source })) => {
-                file_error(&source, &path)
-            }
-            Fault::Page(error) => refuse(error),
+        Some(PagesError::Page(PageError::Write { path, source })) => {
+            Err(file_error(&source, &path))
         }
+        Some(fault) => Err(refuse(fault)),
+        None => Ok(paths),
     }
 }

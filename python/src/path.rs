@@ -3,8 +3,8 @@
 use crate::arrays::{any_numbers, finite, rows};
 use crate::errors::input_error;
 use crate::motion::{GivenPose, given_pose, matrix_of};
+use crate::pickle::{Recipe, Reduced};
 use pyo3::prelude::*;
-use pyo3::types::PyType;
 use rigid_ccd::trajectory::{Poses, Trajectory};
 
 /// A path through poses at given times, for example from a planner or a simulator's log.
@@ -30,18 +30,15 @@ use rigid_ccd::trajectory::{Poses, Trajectory};
 #[pyclass(name = "Path", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
     pub(crate) poses: Poses,
-    /// The arguments of the constructor, kept for pickle.
-    made: Parts,
+    made: Recipe,
 }
-
-/// The times, poses, centre and angular velocities of a path.
-type Parts = (Vec<f64>, Vec<GivenPose>, [f64; 3], Option<Vec<[f64; 3]>>);
 
 #[pymethods]
 impl PyPath {
     #[new]
     #[pyo3(signature = (times, poses, center = None, spins = None))]
     fn new(
+        py: Python<'_>,
         times: &Bound<'_, PyAny>,
         poses: &Bound<'_, PyAny>,
         center: Option<&Bound<'_, PyAny>>,
@@ -70,12 +67,12 @@ impl PyPath {
         }
         Ok(PyPath {
             poses,
-            made: (times, given, center, spins),
+            made: Recipe::new(py, None, (times, given, center, spins))?,
         })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, Parts) {
-        (slf.get_type(), slf.get().made.clone())
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        slf.get().made.reduced(slf.get_type())
     }
 
     /// The time of the last pose of the path.

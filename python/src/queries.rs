@@ -9,10 +9,10 @@ use crate::movement::{GivenMovement, Pair};
 use crate::settings::{APPROACH_SETTINGS, CONTACT_SETTINGS, DISTANCE_SETTINGS, read};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rigid_ccd::answer::{Limit, Unresolved};
 use rigid_ccd::batch::Question;
-use rigid_ccd::{
-    Answer, Hit, InputError, Limit, Moving, Outcome, Query, Settings, Solver, Unresolved,
-};
+use rigid_ccd::trajectory::Moving;
+use rigid_ccd::{Answer, Hit, InputError, Outcome, Query, Settings, Solver};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;

@@ -98,10 +98,7 @@ fn question_named(name: &str) -> PyResult<Question> {
         .into_iter()
         .find(|question| question.name() == name);
     found.ok_or_else(|| {
-        let names: Vec<String> = Question::ALL
-            .iter()
-            .map(|q| format!("{:?}", q.name()))
-            .collect();
+        let names = Question::ALL.map(|question| format!("{:?}", question.name()));
         refuse(format!("ask: {name:?} is none of {}", names.join(", ")))
     })
 }

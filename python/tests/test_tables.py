@@ -619,8 +619,7 @@ def knot(size: int) -> Body:
 def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
     body = knot(600)
     random = np.random.default_rng(1)
-    # The knot makes a hundred thousand turns, and barely misses each time: minutes of work. bench/interrupt.py measures
-    # how soon Ctrl-C ends it.
+    # The knot makes a hundred thousand turns, and barely misses each time: minutes of work.
     columns = {"a_px": random.uniform(3.2, 3.4, rows), "a_wx": np.full(rows, 6e5), "a_wy": np.full(rows, 6e5)}
     interrupt(0.5)
     with pytest.raises(Interrupted) as error:

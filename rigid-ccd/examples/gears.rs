@@ -1,18 +1,15 @@
 //! Computes the proven least clearance between the teeth of two involute gears over a full turn.
 //!
 //! ```sh
-//! cargo run --release -p rigid-ccd --example gears -- [OUT.svg]
+//! cargo run --release -p rigid-ccd --example gears
 //! ```
-//! The clearance is bracketed for each degree, so that nothing in between is missed. The picture shows the
-//! bracket of each window; by default it is written to `target/gears.svg`.
+//! The clearance is bracketed for each degree, so that nothing in between is missed.
 
-use plotters::prelude::*;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 use std::f64::consts::PI;
 use std::io::Write;
-use std::path::PathBuf;
 
 /// A spur gear in millimetres, with a pressure angle of 20 degrees.
 struct Gear {
@@ -134,55 +131,7 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Erro
     Ok(windows)
 }
 
-/// Returns the least lower bound and the greatest upper bound.
-fn range(windows: &[Window]) -> (f64, f64) {
-    let (mut least, mut most) = (f64::INFINITY, 0.0);
-    for &Window { lower, upper, .. } in windows {
-        if lower < least {
-            least = lower;
-        }
-        if upper > most {
-            most = upper;
-        }
-    }
-    (least, most)
-}
-
-fn draw(windows: &[Window], path: &std::path::Path) -> Result<(), Box<dyn std::error::Error>> {
-    let (least, most) = range(windows);
-    let area = SVGBackend::new(path, (800, 360)).into_drawing_area();
-    area.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&area)
-        .caption(
-            "Least clearance of two gears, in mm, per degree",
-            ("sans-serif", 18),
-        )
-        .margin(12)
-        .x_label_area_size(36)
-        .y_label_area_size(60)
-        .build_cartesian_2d(0.0..360.0, 0.9 * least..1.05 * most)?;
-    chart
-        .configure_mesh()
-        .x_desc("angle of the first gear, degrees")
-        .draw()?;
-    for bound in [
-        |window: &Window| window.lower,
-        |window: &Window| window.upper,
-    ] {
-        let steps = windows.iter().flat_map(|window| {
-            let ends = [window.angle, window.angle + WINDOW];
-            ends.map(|angle| (f64::from(angle), bound(window)))
-        });
-        chart.draw_series(LineSeries::new(steps, &BLUE))?;
-    }
-    area.present()?;
-    Ok(())
-}
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let out = std::env::args()
-        .nth(1)
-        .map_or_else(|| PathBuf::from("target/gears.svg"), PathBuf::from);
     let gear = |teeth| Gear {
         teeth,
         module: 1.0,
@@ -199,15 +148,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     {
         writeln!(print, "{angle:>7}  {lower:.4} to {upper:.4}")?;
     }
-    let (least, most) = range(&windows);
+    let least = windows.iter().map(|window| window.lower);
+    let least = least.min_by(f64::total_cmp).unwrap_or_default();
+    let most = windows.iter().map(|window| window.upper);
+    let most = most.max_by(f64::total_cmp).unwrap_or_default();
     writeln!(
         print,
         "windows of a degree: the least bound is {least:.4}, the largest {most:.4}"
     )?;
-    if let Some(folder) = out.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
-    draw(&windows, &out)?;
-    writeln!(print, "picture: {}", out.display())?;
     Ok(())
 }

@@ -15,12 +15,13 @@ pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{TimedAnswer, Timing, time};
+pub(crate) use timed::{Timing, time};
 
 use crate::ParallelSolver;
 use crate::table::courses::Course;
-use crate::table::results::Compared;
-use ccd_core::{Body, InputError, Query, Settings};
+use crate::table::motions::RowProblem;
+use crate::table::results::{Compared, ResultRow};
+use ccd_core::{Answer, Body, InputError, Query, Settings};
 use std::num::NonZeroUsize;
 
 /// The two bodies of a query; both may be the same.
@@ -52,6 +53,21 @@ impl<'q> Bodies<'q> {
         Query::new((a, course_a), (b, course_b), course.duration(), settings)
     }
 
+    /// Returns the row of the table of results for the answer or error of a query.
+    pub fn row(
+        self,
+        question: Question,
+        settings: &Settings,
+        course: &Course,
+        answer: &Result<TimedAnswer, RowProblem>,
+    ) -> ResultRow {
+        let compared = self.compared(settings.clearance);
+        match answer {
+            Ok(timed) => ResultRow::new(course, (question, &timed.answer), timed.micros, compared),
+            Err(problem) => ResultRow::error(course.id(), problem),
+        }
+    }
+
     /// Returns the clearance and the bodies' excess, against which the table of results compares distances.
     pub fn compared(self, clearance: Option<f64>) -> Compared {
         Compared {
@@ -59,6 +75,15 @@ impl<'q> Bodies<'q> {
             excess: self.a.excess() + self.b.excess(),
         }
     }
+}
+
+/// An answer, and the time that it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimedAnswer {
+    /// The answer to the question about one row.
+    pub answer: Answer,
+    /// The time to pose and solve the query, in microseconds.
+    pub micros: f64,
 }
 
 /// Creates one solver for each of `threads`, by default one for each core.

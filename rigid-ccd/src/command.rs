@@ -35,7 +35,7 @@ pub use table::Table;
 use crate::Remark;
 use crate::text::Printable;
 use audit::AuditArgs;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
 use man::ManArgs;
@@ -97,8 +97,11 @@ pub enum Exit {
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
-    exit_code(match Cli::parse().command {
-        Command::Query(args) => query::run(&args),
+    let given = Cli::command().get_matches();
+    let cli = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
+    let of_command = given.subcommand().map_or(&given, |(_, options)| options);
+    exit_code(match cli.command {
+        Command::Query(args) => query::run(&args, of_command),
         Command::Audit(args) => audit::run(&args),
         Command::View(args) => view::run(&args),
         Command::Scene(args) => scene::run(&args),

@@ -31,6 +31,7 @@
 //! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Query::contacts_at`] |
+//! | read an answer's bounds, limits and cost | [`answer`] |
 //! | choose or write a distance backend | [`Solver::with_oracle`], [`oracle`] |
 //!
 //! Vectors are arrays, or types that convert into them: those of [`glam`] and `nalgebra`. Lengths are in
@@ -57,7 +58,8 @@
 //! # Features
 //! - `meshes` (default): [`load`], and [`mesh`] for everything that `ccd-decomp` does with meshes.
 //! - `gltf`, `3mf`: meshes from files of these formats, too; `command` has both.
-//! - `tables`, `pages`: what the command and the Python package share; no stable interface.
+//! - `tables`, `pages`: what the command and the Python package share; no stable interface, and not in this
+//!   documentation.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
 //! - `scenes` (default): [`Scene`], many moving bodies.
 //! - `vmarch`: the distance backend [`oracle::Vmarch`].
@@ -93,24 +95,28 @@
 #![cfg_attr(feature = "vmarch", doc = "[`oracle::Vmarch`]: oracle::Vmarch")]
 #![cfg_attr(not(feature = "vmarch"), doc = "[`oracle::Vmarch`]: #features")]
 
+pub mod answer;
 #[cfg(feature = "tables")]
+#[doc(hidden)]
 pub mod batch;
 pub mod body;
 #[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod command;
-pub mod contacts;
 mod error;
 #[cfg(feature = "meshes")]
 mod load;
 pub mod oracle;
 mod parallel;
 #[cfg(feature = "pages")]
+#[doc(hidden)]
 pub mod picture;
 mod remark;
 #[cfg(feature = "scenes")]
 pub mod scene;
 mod solver;
 #[cfg(feature = "tables")]
+#[doc(hidden)]
 pub mod table;
 #[cfg(feature = "tables")]
 mod text;
@@ -119,8 +125,8 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, Clearance, Contact, Hit, HitKind, InputError, Instructions, Limit, Motion,
-    Movement, Moving, Outcome, Overlap, Pose, Query, Settings, StartPolicy, Stats, Unresolved,
+    Answer, Body, Hit, InputError, Instructions, Motion, Outcome, Pose, Query, Settings,
+    StartPolicy,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]
@@ -128,7 +134,7 @@ pub use ccd_decomp as mesh;
 pub use error::Error;
 #[cfg(feature = "meshes")]
 pub use load::{load, load_adjusted, load_in, load_parts};
-pub use parallel::{ParallelSolver, QueryError, first_contacts};
+pub use parallel::{ParallelSolver, first_contacts};
 pub use remark::Remark;
 #[cfg(feature = "scenes")]
 pub use scene::Scene;

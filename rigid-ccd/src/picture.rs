@@ -15,7 +15,7 @@ mod verdict;
 pub use ccd_view::{Group, Page, PageError};
 pub use course::course;
 pub use drawn::drawn;
-pub use gap::{GapOverTime, Reached, gap};
+pub use gap::{GapOverTime, gap};
 pub use pages::{Pages, PagesError};
 #[cfg(feature = "scenes")]
 pub(crate) use scene::{Shown, scene_verdict, scene_view};
@@ -115,11 +115,11 @@ impl<'a> Painter<'a> {
         let mut view = View::new(&name, "", duration);
         let (mut proven, mut nearest) = (None, 0.0);
         if row.status != Status::Error {
-            let reached = match (row.status, self.asked.claim) {
-                (Status::Free, Claim::First | Claim::Any) => Reached::Throughout(self.asked.margin),
-                _ => Reached::Nothing,
+            let floor = match (row.status, self.asked.claim) {
+                (Status::Free, Claim::First | Claim::Any) => self.asked.margin,
+                _ => 0.0,
             };
-            let found = gap(&mut self.solver, self.bodies, query, reached)?;
+            let found = gap(&mut self.solver, self.bodies, query, floor)?;
             view.ghosts = found.ghosts(duration);
             proven = found.least();
             nearest = found.nearest();
@@ -171,12 +171,8 @@ impl<'a> Painter<'a> {
         };
         let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
         let feature_corners = |k: usize, body: &Body, feature: &Option<String>| {
-            feature_corners(
-                body,
-                &poses[k],
-                feature.as_deref().unwrap_or_default(),
-                witnesses[k],
-            )
+            let feature = feature.as_deref().unwrap_or_default();
+            feature_corners(body, &poses[k], feature, witnesses[k])
         };
         Some(ShownContact {
             time,

@@ -207,7 +207,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// Those of [`Solver::first_contact`].
     ///
     /// ```
-    /// use rigid_ccd::{Body, Clearance, Motion, Pose, Settings, Solver};
+    /// use rigid_ccd::answer::Clearance;
+    /// use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
     /// let ball = Body::sphere(0.5)?;
     /// let passes = Motion::new(Pose::at([-3.0, 1.2, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
     /// let closest = Solver::new().closest_approach((&ball, passes), (&ball, Motion::STILL), 1.0)?;

@@ -11,16 +11,12 @@
 //! | is thrown | [`Ballistic`] |
 //! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`Turns`] |
 //! | is the link of an arm whose joints all move | [`Link`] of a [`Chain`] |
-//! | is carried by another one | [`Carried`] |
-//! | follows any of these at another pace | [`Timed`] |
 //! | moves in a way of your own | [`Smooth`], or [`Trajectory`] |
 //!
 //! [`worst_stray`] tests a trajectory of your own: it seeks the times and points at which it strays farther than
 //! it says.
 
 mod ballistic;
-mod bounded;
-mod carried;
 mod chain;
 mod checks;
 mod curve;
@@ -31,14 +27,13 @@ mod rotation;
 mod screw;
 mod segments;
 mod spline;
-mod timed;
 mod turns;
 mod worst_stray;
 
 pub use ballistic::Ballistic;
-pub use bounded::{Bounded, Speeds};
-pub use carried::{Carried, Steady};
-pub use ccd_core::{Acceleration, Accelerations, Motion, Smooth, Stray, Stretch, Trajectory};
+pub use ccd_core::{
+    Acceleration, Accelerations, Motion, Movement, Moving, Smooth, Stray, Stretch, Trajectory,
+};
 pub use chain::Chain;
 pub use curve::Curve;
 pub use joint::Joint;
@@ -46,7 +41,6 @@ pub use link::Link;
 pub use poses::Poses;
 pub use screw::screw;
 pub use spline::Spline;
-pub use timed::{Pace, Timed};
 pub use turns::Turns;
 pub use worst_stray::{Worst, worst_stray};
 

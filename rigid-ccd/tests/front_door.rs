@@ -1,12 +1,12 @@
 //! Tests that the public interface gives the same answers as the engine.
 
+use rigid_ccd::answer::{HitKind, Limit, Overlap};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::{Direct, DistanceOracle, Gjk};
 use rigid_ccd::schedule::BestFirst;
 use rigid_ccd::schedule::Schedule;
 use rigid_ccd::{
-    Answer, Body, Error, HitKind, InputError, Limit, Motion, Outcome, Overlap, Pose, Query,
-    Settings, Solver, first_contact,
+    Answer, Body, Error, InputError, Motion, Outcome, Pose, Query, Settings, Solver, first_contact,
 };
 
 fn capsule() -> Body {

@@ -6,7 +6,7 @@ use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Body, Motion, Outcome, Pose, Settings};
 use ccd_distance_gjk::Gjk;
 use rigid_ccd::Solver;
-use rigid_ccd::trajectory::{Chain, Curve, Joint, Spline, Steady, Trajectory, Turns};
+use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, Spline, Trajectory, Turns};
 use std::f64::consts::PI;
 
 /// Tests T6, a rod that rotates past a wall that its corners just do not reach. When a corner is nearest, the whole
@@ -41,7 +41,8 @@ fn a_rod_that_turns_past_a_wall_takes_few_steps() {
 fn a_ball_past_a_box_takes_few_steps() {
     let at = |z: f64| Pose::at([0.0, 0.0, z]).unwrap();
     let aside = Pose::at([-3.0, 0.0, 0.0]).unwrap();
-    let straight = Steady(Motion::new(aside, [6.0, 0.0, 0.0], [0.0; 3]).unwrap());
+    let flies = Motion::new(aside, [6.0, 0.0, 0.0], [0.0; 3]).unwrap();
+    let straight = Ballistic::new(flies, [0.0; 3]).unwrap();
     let curve = |heights: [f64; 4]| {
         let points: [[f64; 3]; 4] =
             std::array::from_fn(|k| [2.0 * k as f64 - 3.0, 0.0, heights[k]]);

@@ -4,12 +4,10 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use rigid_ccd::trajectory::{
-    Ballistic, Carried, Chain, Curve, Joint, Pace, Poses, Spline, Steady, Timed, Turns, screw,
-};
+use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, Poses, Spline, Turns, screw};
 
 /// The names of the kinds of trajectories.
-pub const KINDS: [&str; 13] = [
+pub const KINDS: [&str; 11] = [
     "motion",
     "still",
     "screw",
@@ -17,10 +15,8 @@ pub const KINDS: [&str; 13] = [
     "poses",
     "thrown",
     "Bézier curve, slerp",
-    "B-spline, squad",
+    "B-spline, slerp",
     "link",
-    "carried",
-    "timed",
     "smooth",
     "zigzag",
 ];
@@ -82,10 +78,10 @@ fn random_trajectory(
                     .about(vector(rng, 0.3 * reach))?,
             )
         }
-        "B-spline, squad" => {
+        "B-spline, slerp" => {
             let count = rng.random_range(4..9);
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
-            Box::new(Spline::new(curve, Turns::squad(&random_orientations(rng))?))
+            Box::new(Spline::new(curve, Turns::slerp(&random_orientations(rng))?))
         }
         "link" => {
             let count = rng.random_range(1..6);
@@ -96,17 +92,6 @@ fn random_trajectory(
                 chain: Chain::new(Pose::IDENTITY, joints?),
                 positions,
             })
-        }
-        "carried" => {
-            let carrier = Steady(motion(rng, reach)?);
-            let inner = Ballistic::new(motion(rng, reach)?, vector(rng, reach))?;
-            Box::new(Carried::new(carrier, inner))
-        }
-        "timed" => {
-            let thrown = Ballistic::new(motion(rng, reach)?, vector(rng, 4.0 * reach))?;
-            let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
-            let duration = rng.random_range(0.3..1.5);
-            Box::new(Timed::new(thrown, -0.2..0.8, duration, pace)?)
         }
         "smooth" => Box::new(Oscillation {
             place: vector(rng, reach),

@@ -7,7 +7,7 @@ use ccd_core::order::{greater, lesser};
 use parry3d_f64::math::Pose as At;
 use parry3d_f64::query::{contact, intersection_test};
 use parry3d_f64::shape::Shape;
-use rigid_ccd::{Motion, Moving};
+use rigid_ccd::trajectory::{Motion, Moving};
 
 /// The passages and penetration depths measured so far.
 #[derive(Default)]

@@ -1,17 +1,17 @@
 //! Answers the rows of a table on all cores.
 
-use super::batch::{Names, id_field};
+use super::batch::{Names, id_field, unreadable};
 use super::input::Reader;
 use super::pieces::{Piece, PieceSize, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
-use arrow_schema::ArrowError;
-use rigid_ccd::batch::{Bodies, Question, on_threads};
+use rigid_ccd::answer::Limit;
+use rigid_ccd::batch::{Bodies, Question, TimedAnswer, on_threads};
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{Course, CourseRow};
-use rigid_ccd::table::motions::{RowError, RowProblem, TableError};
+use rigid_ccd::table::motions::{RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
-use rigid_ccd::{Answer, InputError, Limit, Remark, Settings, Solver};
+use rigid_ccd::{InputError, Remark, Settings, Solver};
 use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -98,13 +98,13 @@ fn rows(
     stop: &AtomicBool,
 ) -> Vec<ResultRow> {
     let rows: Vec<CourseRow> = piece.courses(columns).collect();
-    let answered: Vec<RowAnswer<'_>> = (rows.iter())
+    let answered: Vec<RowAnswer> = (rows.iter())
         .take_while(|_| !stop.load(Ordering::Relaxed))
         .map_while(|row| answer_row(asked, row, solver))
         .collect();
-    answered
-        .iter()
-        .map(|answered| result(asked, answered))
+    rows.iter()
+        .zip(&answered)
+        .map(|(row, answer)| result(asked, row, answer))
         .collect()
 }
 
@@ -131,9 +131,9 @@ pub(crate) fn answer_rows(
             let is_wanted = wanted.contains(&number) && !stop.load(Ordering::Relaxed);
             if let Ok((_, course)) = &row
                 && is_wanted
-                && let Some(answered) = answer_row(asked, &row, &mut solver)
+                && let Some(answer) = answer_row(asked, &row, &mut solver)
             {
-                take(course, &result(asked, &answered));
+                take(course, &result(asked, &row, &answer));
             }
             number += 1;
         }
@@ -149,61 +149,47 @@ fn stopped_by(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
     }
 }
 
-fn unreadable(error: ArrowError) -> TableError {
-    TableError::Unreadable(error.to_string())
-}
-
-/// The answer of a valid row, or the error of an invalid one.
-type RowAnswer<'r> = Result<TimedRow<'r>, &'r RowError>;
-
-/// An answer and the time that it took.
-struct TimedRow<'r> {
-    course: &'r Course,
-    answer: Result<Answer, InputError>,
-    micros: f64,
-}
+/// The answer of a row, or what is wrong with it.
+type RowAnswer = Result<TimedAnswer, RowProblem>;
 
 /// Answers one row; `None` if the query was stopped by the flag.
-fn answer_row<'r>(
-    asked: TableQuestion<'_>,
-    row: &'r CourseRow,
-    solver: &mut Solver,
-) -> Option<RowAnswer<'r>> {
-    let course = match row {
-        Ok((_, course)) => course,
-        Err(error) => return Some(Err(error)),
+fn answer_row(asked: TableQuestion<'_>, row: &CourseRow, solver: &mut Solver) -> Option<RowAnswer> {
+    let answer = match row {
+        Ok((_, course)) => timed(asked, course, solver).map_err(RowProblem::from),
+        Err(error) => Err(error.problem.clone()),
     };
+    let is_stopped =
+        matches!(&answer, Ok(timed) if timed.answer.outcome.limit() == Some(Limit::Stopped));
+    (!is_stopped).then_some(answer)
+}
+
+fn timed(
+    asked: TableQuestion<'_>,
+    course: &Course,
+    solver: &mut Solver,
+) -> Result<TimedAnswer, InputError> {
     let start = Instant::now();
-    let query = asked.bodies.query(asked.question, course, asked.settings);
-    let answer = query.and_then(|query| solver.answer(asked.question, &query));
+    let query = asked.bodies.query(asked.question, course, asked.settings)?;
+    let answer = solver.answer(asked.question, &query)?;
     let micros = start.elapsed().as_secs_f64() * 1e6;
-    match &answer {
-        Ok(answer) if answer.outcome.limit() == Some(Limit::Stopped) => None,
-        _ => Some(Ok(TimedRow {
-            course,
-            answer,
-            micros,
-        })),
-    }
+    Ok(TimedAnswer { answer, micros })
 }
 
 /// Returns the row of the table of results for the answer or error of a row.
-fn result(asked: TableQuestion<'_>, answered: &RowAnswer<'_>) -> ResultRow {
-    let timed = match answered {
-        Ok(timed) => timed,
-        Err(error) => return ResultRow::error(&error.id, &error.problem),
+fn result(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> ResultRow {
+    let TableQuestion {
+        bodies,
+        question,
+        settings,
+        has_micros,
+        ..
+    } = asked;
+    let row = match row {
+        Ok((_, course)) => bodies.row(question, settings, course, answer),
+        Err(error) => ResultRow::error(&error.id, &error.problem),
     };
-    let compared = asked.bodies.compared(asked.settings.clearance);
-    match &timed.answer {
-        Ok(answer) => ResultRow {
-            micros: asked.has_micros.then_some(timed.micros),
-            ..ResultRow::new(
-                timed.course,
-                (asked.question, answer),
-                timed.micros,
-                compared,
-            )
-        },
-        Err(error) => ResultRow::error(timed.course.id(), &RowProblem::from(error.clone())),
+    ResultRow {
+        micros: row.micros.filter(|_| has_micros),
+        ..row
     }
 }

@@ -8,9 +8,8 @@ use arrow_cast::cast;
 use arrow_cast::display::{ArrayFormatter, FormatOptions};
 use arrow_schema::{ArrowError, DataType, Field, Fields, Schema, SchemaRef};
 use arrow_select::concat::concat_batches;
-use rigid_ccd::table::columns::Columns;
-use rigid_ccd::table::motions::{RowPosition, RowProblem, TableError};
-use rigid_ccd::table::records::{Cells, Record, Records};
+use rigid_ccd::table::motions::{RowPosition, TableError};
+use rigid_ccd::table::records::{Record, Records};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -132,7 +131,7 @@ fn is_name(kind: &DataType) -> bool {
     is_simple || kind.is_string() || is_bytes || is_time
 }
 
-fn unreadable(error: ArrowError) -> TableError {
+pub(crate) fn unreadable(error: ArrowError) -> TableError {
     TableError::Unreadable(error.to_string())
 }
 
@@ -214,12 +213,6 @@ fn inexact<T: ArrowPrimitiveType<Native: std::fmt::Display>>(
 }
 
 impl Record for Row {
-    type Cells<'r> = &'r Row;
-
-    fn cells(&self, _: &Columns) -> Result<&Row, RowProblem> {
-        Ok(self)
-    }
-
     fn text(&self, _: usize) -> Option<String> {
         let id = self.batch.id.as_ref()?;
         let is_null = id.is_null(self.at) || id.data_type().is_null();
@@ -230,9 +223,7 @@ impl Record for Row {
         let texts = ArrayFormatter::try_new(id.as_ref(), &options).ok()?;
         texts.value(self.at).try_to_string().ok()
     }
-}
 
-impl Cells for &Row {
     fn is_given(&self, cell: usize) -> bool {
         matches!(self.batch.columns.get(cell), Some(Some(column)) if column.values.is_valid(self.at))
     }

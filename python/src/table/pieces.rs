@@ -1,6 +1,6 @@
 //! Splits a table into pieces, each answered by one thread.
 
-use super::batch::{Batch, Batches, Names, Row, Rows, check_types, header, whole};
+use super::batch::{Batch, Batches, Names, Row, Rows, check_types, header, unreadable, whole};
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::Remark;
@@ -97,9 +97,7 @@ impl<'p> Pieces<'p> {
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
         let source = if columns.are_of_paths() {
-            let table = whole(reader, stop);
-            let table = table.map_err(|error| TableError::Unreadable(error.to_string()))?;
-            let rows = Rows::new(&table)?;
+            let rows = Rows::new(&whole(reader, stop).map_err(unreadable)?)?;
             let batch = rows.batch();
             Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
         } else {

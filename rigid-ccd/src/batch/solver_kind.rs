@@ -57,18 +57,12 @@ impl From<BoundKind> for Bound {
 impl ScheduleKind {
     /// Returns whether the schedule makes use of a [hull tree](ccd_core::Body::hull_tree).
     pub fn uses_hull_trees(self) -> bool {
-        match self {
-            ScheduleKind::Fast => true,
-            ScheduleKind::BestFirst | ScheduleKind::Naive => false,
-        }
+        self == ScheduleKind::Fast
     }
 
     /// Returns whether the schedule takes one step for all pairs, and so uses a [bound](BoundKind).
     pub fn uses_a_bound(self) -> bool {
-        match self {
-            ScheduleKind::Fast | ScheduleKind::Naive => true,
-            ScheduleKind::BestFirst => false,
-        }
+        self != ScheduleKind::BestFirst
     }
 }
 

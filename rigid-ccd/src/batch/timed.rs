@@ -1,10 +1,10 @@
 //! Queries answered and timed with a method chosen at run time.
 
-use super::{Bodies, Question, Solve, SolverKind, median};
+use super::{Bodies, Question, Solve, SolverKind, TimedAnswer, median};
 use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use crate::table::results::ResultRow;
-use ccd_core::{Answer, Settings};
+use ccd_core::Settings;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
@@ -21,6 +21,18 @@ pub(crate) struct Timing {
     pub(crate) repeat: NonZeroUsize,
 }
 
+impl Timing {
+    /// Returns the row of the table of results for the answer or error of a query.
+    pub(crate) fn row(
+        &self,
+        bodies: Bodies<'_>,
+        course: &Course,
+        answer: &Result<TimedAnswer, RowProblem>,
+    ) -> ResultRow {
+        bodies.row(self.question, &self.settings, course, answer)
+    }
+}
+
 impl Default for Timing {
     fn default() -> Self {
         Timing {
@@ -29,24 +41,6 @@ impl Default for Timing {
             settings: Settings::DEFAULT,
             repeat: NonZeroUsize::MIN,
         }
-    }
-}
-
-/// An answer, and the time that it took.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct TimedAnswer {
-    /// The answer to the question about one row.
-    pub(crate) answer: Answer,
-    /// The time to pose and solve the query, in microseconds.
-    pub(crate) micros: f64,
-}
-
-impl TimedAnswer {
-    /// Returns the row of the table of results for this answer.
-    pub(crate) fn row(&self, bodies: Bodies<'_>, course: &Course, timing: &Timing) -> ResultRow {
-        let asked = (timing.question, &self.answer);
-        let compared = bodies.compared(timing.settings.clearance);
-        ResultRow::new(course, asked, self.micros, compared)
     }
 }
 

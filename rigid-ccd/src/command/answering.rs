@@ -6,7 +6,7 @@ use super::progress::Progress;
 use crate::ParallelSolver;
 use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, Timing, on_threads, time};
 use crate::table::courses::{Course, CourseRow};
-use crate::table::motions::{RowError, RowPosition, RowProblem, TableError};
+use crate::table::motions::{RowPosition, RowProblem, TableError};
 use crate::table::results::ResultRow;
 use std::path::Path;
 use std::time::Instant;
@@ -86,17 +86,19 @@ impl<'a> BatchRun<'a> {
         &mut self,
         (asked, answer): &'b (CourseRow, Result<TimedAnswer, RowProblem>),
     ) -> AnsweredRow<'b> {
-        let (position, id, course) = match asked {
-            Ok((position, course)) => (*position, course.id(), Some(course)),
-            Err(error) => (error.position, error.id.as_str(), None),
-        };
-        let row = match (asked, answer) {
-            (Ok((_, course)), Ok(timed)) => timed.row(self.bodies, course, &self.timing),
-            (_, Err(problem)) | (Err(RowError { problem, .. }), _) => {
-                self.bad_rows.report(position, problem, &self.progress);
-                ResultRow::error(id, problem)
+        let (position, course, row) = match asked {
+            Ok((position, course)) => {
+                let row = self.timing.row(self.bodies, course, answer);
+                (*position, Some(course), row)
+            }
+            Err(error) => {
+                let row = ResultRow::error(&error.id, &error.problem);
+                (error.position, None, row)
             }
         };
+        if let Err(problem) = answer {
+            self.bad_rows.report(position, problem, &self.progress);
+        }
         AnsweredRow {
             position,
             course,

@@ -9,7 +9,7 @@ use super::pair::{BodiesArgs, Pair};
 use super::progress::Progress;
 use super::table::Table;
 use super::view::title;
-use super::{Exit, complain, print_remarks};
+use super::{Exit, complain};
 use crate::batch::{Question, SolverKind, Timing};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
 use crate::table::results::{COLUMNS, Line, Status, names};
@@ -104,11 +104,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     audit.all(&mut rows)?;
     let exit = audit.finish()?;
     if !args.quiet {
-        print_remarks(
-            pair.remark(args.tolerance)
-                .into_iter()
-                .chain(rows.remarks()),
-        );
+        pair.print_remarks(args.tolerance, &rows);
     }
     Ok(exit)
 }

@@ -25,11 +25,7 @@ Examples:
 pub(super) fn run(args: &CompletionsArgs) -> Result<Exit> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "ccd", &mut script);
-    io::stdout()
-        .write_all(&script)
-        .map_err(|source| CannotWrite {
-            place: "standard output".to_owned(),
-            source,
-        })?;
+    let written = io::stdout().write_all(&script);
+    written.map_err(CannotWrite::at_standard_output)?;
     Ok(Exit::AllAnswered)
 }

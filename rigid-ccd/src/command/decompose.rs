@@ -7,7 +7,6 @@ use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::named::{ORDERS, named_value_parser};
 use super::output::{CannotWrite, Output};
-use super::pieces::PiecesArgs;
 use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
@@ -32,8 +31,6 @@ pub(super) struct DecomposeArgs {
     mesh: OsString,
     #[command(flatten)]
     meshes: MeshArgs,
-    #[command(flatten)]
-    pieces: PiecesArgs,
     /// Order in which --pieces patches grow [default: cresting]
     #[arg(long, value_parser = named_value_parser(ORDERS))]
     order: Option<Order>,
@@ -130,12 +127,9 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let statistics = Statistics::new((name, unit), &model, &body, build_ms);
     let printed = match args.format {
         FormatArg::Text => writeln!(io::stdout(), "{statistics}"),
-        FormatArg::Json => print_json(&statistics),
+        FormatArg::Json => writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?),
     };
-    printed.map_err(|source| CannotWrite {
-        place: "standard output".to_owned(),
-        source,
-    })?;
+    printed.map_err(CannotWrite::at_standard_output)?;
     Ok(Exit::AllAnswered)
 }
 
@@ -159,7 +153,7 @@ fn check_mesh(mesh: &Path) -> Result<()> {
 
 impl DecomposeArgs {
     fn detail(&self) -> Result<Detail> {
-        match (self.pieces.detail()?, self.order) {
+        match (self.meshes.pieces.detail()?, self.order) {
             (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order)),
             (_, Some(_)) => bail!("--order needs --pieces patches"),
             (detail, None) => Ok(detail),
@@ -179,11 +173,6 @@ impl DecomposeArgs {
         model.hull_tree = Some(tree);
         Ok((model, body))
     }
-}
-
-fn print_json(statistics: &Statistics) -> io::Result<()> {
-    let text = serde_json::to_string(statistics)?;
-    writeln!(io::stdout(), "{text}")
 }
 
 impl Form {

@@ -1,12 +1,11 @@
-//! The options for reading mesh files, shared by the subcommands.
+//! The options for reading mesh files and for their pieces, shared by the subcommands.
 
-use super::named::{AXES, UNITS, name_of, named_value_parser};
-use super::pieces::NOT_GIVEN;
-use crate::text::Number;
+use super::named::{AXES, UNITS, named_value_parser};
+use super::pieces::PiecesArgs;
 use ccd_decomp::{Adjustments, Axis, Unit};
 use clap::Args;
 
-/// The options for reading mesh files.
+/// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
     /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
@@ -22,6 +21,8 @@ pub(super) struct MeshArgs {
     /// Take all mesh files as hollow surfaces, also closed ones; one of them: part.stl@surface
     #[arg(long, conflicts_with = "pieces")]
     surface: bool,
+    #[command(flatten)]
+    pub(super) pieces: PiecesArgs,
 }
 
 fn factor(text: &str) -> Result<f64, String> {
@@ -51,18 +52,5 @@ impl MeshArgs {
     /// Returns the unit of all lengths, if it is given.
     pub(super) fn unit(&self) -> Option<Unit> {
         self.unit
-    }
-
-    /// Returns the names and values of these options, as the journal records them.
-    pub(super) fn recorded_options(&self) -> [(&'static str, String); 4] {
-        let scale = self.scale.map(|factor| Number(factor).to_string());
-        let surface = self.surface.then(|| "given".to_owned());
-        [
-            ("--unit", self.unit.map(|unit| name_of(UNITS, &unit))),
-            ("--scale", scale),
-            ("--mirror", self.mirror.map(|axis| name_of(AXES, &axis))),
-            ("--surface", surface),
-        ]
-        .map(|(option, value)| (option, value.unwrap_or_else(|| NOT_GIVEN.to_owned())))
     }
 }

@@ -24,12 +24,6 @@ where
     })
 }
 
-/// Returns the command-line name of a value.
-pub(super) fn name_of<T: PartialEq>(all: &Named<T>, value: &T) -> String {
-    let found = all.iter().find(|(_, known, _)| known == value);
-    found.map_or_else(String::new, |&(name, ..)| name.to_owned())
-}
-
 /// The coordinate axes of `--mirror`.
 pub(super) const AXES: &Named<Axis> = &[
     ("x", Axis::X, "Change the signs of x"),

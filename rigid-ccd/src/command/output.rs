@@ -19,6 +19,10 @@ impl CannotWrite {
         let place = output_name(path);
         CannotWrite { place, source }
     }
+
+    pub(super) fn at_standard_output(source: io::Error) -> Self {
+        CannotWrite::at(Path::new("-"), source)
+    }
 }
 
 /// The file extension of a query's journal, which lies beside its results.

@@ -1,19 +1,17 @@
 //! The options that name the two bodies of a query, and the loading of these bodies.
 
 use super::meshes::MeshArgs;
-use super::pieces::PiecesArgs;
 use crate::Remark;
 use crate::batch::{Bodies, SolverKind};
-use crate::command::files::same_file;
+use crate::command::files::{Rows, same_file};
 use crate::command::progress::Progress;
 use crate::command::size::Size;
-use crate::command::{complain, print_line};
+use crate::command::{complain, print_line, print_remarks};
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
 use clap::Args;
-use std::fs::File;
-use std::io::{self, Write};
+use std::fs;
 use std::path::PathBuf;
 
 /// The options that name both bodies.
@@ -29,8 +27,6 @@ pub(super) struct BodiesArgs {
     pub(super) b: String,
     #[command(flatten)]
     pub(super) meshes: MeshArgs,
-    #[command(flatten)]
-    pub(super) pieces: PiecesArgs,
 }
 
 impl BodiesArgs {
@@ -81,7 +77,7 @@ impl BodiesArgs {
         method: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
-        let detail = self.pieces.detail()?;
+        let detail = self.meshes.pieces.detail()?;
         let progress = Progress::of(&format!("preparing {text}"), quiet);
         let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
         let Prepared {
@@ -115,10 +111,11 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// Returns a remark if the tolerance is large relative to the smaller body.
-    pub(super) fn remark(&self, tolerance: f64) -> Option<Remark> {
+    /// Prints a remark if the tolerance is large relative to the smaller body, and those about the rows of a table.
+    pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
         let Bodies { a, b } = self.bodies();
-        Remark::of_tolerance(tolerance, [a, b].map(Remark::size))
+        let remark = Remark::of_tolerance(tolerance, [a, b].map(Remark::size));
+        print_remarks(remark.into_iter().chain(rows.remarks()));
     }
 
     pub(super) fn bodies(&self) -> Bodies<'_> {
@@ -182,24 +179,11 @@ fn files(source: &BodySource) -> Vec<PathBuf> {
 
 /// Returns the checksum of all files of a body; 0 for a primitive or files that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
-    let mut sum = Crc(crc32fast::Hasher::new());
+    let mut sum = crc32fast::Hasher::new();
     let files = files(source);
-    let mut add = |path: &PathBuf| io::copy(&mut File::open(path)?, &mut sum);
-    match files.iter().try_for_each(|path| add(path).map(drop)) {
-        Ok(()) if !files.is_empty() => sum.0.finalize(),
+    let mut add = |path: &PathBuf| fs::read(path).map(|bytes| sum.update(&bytes));
+    match files.iter().try_for_each(&mut add) {
+        Ok(()) if !files.is_empty() => sum.finalize(),
         _ => 0,
-    }
-}
-
-struct Crc(crc32fast::Hasher);
-
-impl Write for Crc {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }

@@ -15,9 +15,6 @@ pub(super) struct PiecesArgs {
     hulls: Option<u32>,
 }
 
-/// The value that the journal records for an option that was not given.
-pub(super) const NOT_GIVEN: &str = "not given";
-
 const DEFAULT_HULLS: u32 = 32;
 const MOST_HULLS: i64 = 4096;
 
@@ -38,17 +35,6 @@ enum PiecesArg {
 }
 
 impl PiecesArgs {
-    /// Returns the options with their effective values.
-    pub(super) fn recorded_options(&self) -> [(&'static str, String); 2] {
-        let hulls = match self.pieces {
-            PiecesArg::Vhacd => self.hulls.unwrap_or(DEFAULT_HULLS).to_string(),
-            _ => NOT_GIVEN.to_owned(),
-        };
-        let pieces = self.pieces.to_possible_value();
-        let pieces = pieces.map_or_else(String::new, |value| value.get_name().to_owned());
-        [("--pieces", pieces), ("--hulls", hulls)]
-    }
-
     /// Returns the options as the library's description of the wanted pieces.
     pub(super) fn detail(&self) -> Result<Detail> {
         if self.hulls.is_some() && self.pieces != PiecesArg::Vhacd {

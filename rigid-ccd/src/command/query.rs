@@ -15,7 +15,7 @@ use super::answering::BatchRun;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows};
-use super::{Exit, complain, print_remarks};
+use super::{Exit, complain};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
@@ -23,6 +23,7 @@ use crate::picture::{Asked, Claim};
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
+use clap::ArgMatches;
 use journal::{CONTENT_PREFIX, Checkpoint, RecordedOptions};
 use outputs::{ClaimedFiles, OpenedTables};
 use run::Run;
@@ -31,7 +32,7 @@ use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
-pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
+pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
@@ -42,7 +43,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
     let (mut outputs, earlier) =
-        match OpenedTables::new(args, places, &recorded_options(args, &pair))? {
+        match OpenedTables::new(args, places, &recorded_options(args, given, &pair))? {
             OpenedTables::New(outputs) => (outputs, None),
             OpenedTables::Resumed(outputs, checkpoint) => (outputs, Some(checkpoint)),
             OpenedTables::Finished(end) => return resume::report_finished(args, &mut rows, end),
@@ -77,11 +78,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     }
     if !args.quiet {
         print_summary(args, &run.summary);
-        print_remarks(
-            pair.remark(args.tolerance)
-                .into_iter()
-                .chain(rows.remarks()),
-        );
+        pair.print_remarks(args.tolerance, &rows);
     }
     Ok(match (exit(args, end), shown) {
         (Exit::AllAnswered, shown) | (_, shown @ Exit::SomeRowsBad) => shown,
@@ -196,19 +193,16 @@ fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
 
 /// Refuses options for tables of motions if the table contains paths.
 fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
-    match rows {
-        Rows::Motions(_) => Ok(()),
-        Rows::Paths(_) if args.schedule != ScheduleKind::BestFirst => {
-            bail!(
-                "--schedule {} needs a table of motions, not of paths",
-                args.schedule
-            )
-        }
-        Rows::Paths(_) if leaves_start_contacts(args) => {
-            bail!("--start leave needs a table of motions, not of paths")
-        }
-        Rows::Paths(_) => Ok(()),
+    if rows.are_of_paths() && args.schedule != ScheduleKind::BestFirst {
+        bail!(
+            "--schedule {} needs a table of motions, not of paths",
+            args.schedule
+        );
     }
+    if rows.are_of_paths() && leaves_start_contacts(args) {
+        bail!("--start leave needs a table of motions, not of paths");
+    }
+    Ok(())
 }
 
 fn leaves_start_contacts(args: &QueryArgs) -> bool {
@@ -216,10 +210,9 @@ fn leaves_start_contacts(args: &QueryArgs) -> bool {
 }
 
 /// Returns all options and checksums that determine the tables of the run, except the motions.
-fn recorded_options(args: &QueryArgs, pair: &Pair) -> RecordedOptions {
-    let owned = |(option, value): (&str, String)| (option.to_owned(), value);
-    let mut recorded = vec![owned(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
-    recorded.extend(args.recorded_options().into_iter().map(owned));
+fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> RecordedOptions {
+    let mut recorded = vec![("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned())];
+    recorded.extend(args.recorded_options(given));
     for (option, checksum) in &pair.checksums {
         recorded.push((format!("{CONTENT_PREFIX}{option}"), checksum.clone()));
     }

@@ -3,7 +3,6 @@
 use super::meshes::MeshArgs;
 use super::numbers::{not_negative, tolerance};
 use super::output::Output;
-use super::pieces::PiecesArgs;
 use super::scene_table::{self, SceneArgs};
 use super::table::Table;
 use super::{Exit, complain};
@@ -26,8 +25,6 @@ pub(super) struct SceneCommandArgs {
     scene: PathBuf,
     #[command(flatten)]
     meshes: MeshArgs,
-    #[command(flatten)]
-    pieces: PiecesArgs,
     /// End of all motions [default: 1]
     #[arg(long, value_name = "TIME", value_parser = not_negative, allow_hyphen_values = true)]
     duration: Option<f64>,
@@ -76,7 +73,6 @@ const OMITTED_COLUMNS: &[&str] = &["id", "iterations", "oracle_calls", "micros"]
 pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     let how = SceneArgs {
         meshes: &args.meshes,
-        pieces: &args.pieces,
         duration: args.duration,
     };
     let table = scene_table::read(("the scene", &args.scene), how, &args.out)?;

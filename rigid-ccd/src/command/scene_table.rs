@@ -2,7 +2,6 @@
 
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
-use super::pieces::PiecesArgs;
 use super::{complain, print_line, print_remarks};
 use crate::picture::Shown;
 use crate::scene::{Impact, PairError};
@@ -26,7 +25,6 @@ const DEFAULT_DURATION: f64 = 1.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneArgs<'a> {
     pub(super) meshes: &'a MeshArgs,
-    pub(super) pieces: &'a PiecesArgs,
     /// The time at which all motions end; `None` for the default.
     pub(super) duration: Option<f64>,
 }
@@ -163,7 +161,7 @@ impl SceneTable {
             return Ok(());
         }
         let source: BodySource = text.parse()?;
-        let detail = how.pieces.detail()?;
+        let detail = how.meshes.pieces.detail()?;
         let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
         self.reports.push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);

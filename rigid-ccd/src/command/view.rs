@@ -7,14 +7,13 @@ use args::Subject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
-use super::files::{Rows, input_name, open_courses, refuse_overwriting};
+use super::files::{input_name, open_courses, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, complain, print_remarks};
-use crate::batch::{Bodies, Question, Solve, SolverKind, Timing, time};
+use super::{Exit, complain};
+use crate::batch::{Question, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
-use crate::table::courses::Course;
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Instructions, Settings};
@@ -52,10 +51,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
     let asked = Asked {
-        claim: match known {
-            Some(_) => Claim::Told,
-            None => Claim::First,
-        },
+        claim: known.as_ref().map_or(Claim::First, |_| Claim::Told),
         margin: args.margin,
         clearance: None,
     };
@@ -73,7 +69,10 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         }
         let row = match &mut known {
             Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
-            None => Some(answer_row(pair.bodies(), &course, &timing, solver.as_mut())),
+            None => {
+                let answer = time(pair.bodies(), &course, &timing, solver.as_mut());
+                Some(timing.row(pair.bodies(), &course, &answer))
+            }
         };
         if let Some(row) = row {
             chosen.add_if_wanted(&course, &row);
@@ -82,7 +81,9 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
             break;
         }
     }
-    remark(args, &pair, &rows);
+    if args.results.is_none() && !args.quiet {
+        pair.print_remarks(args.tolerance, &rows);
+    }
     if let (Some(results), true) = (&args.results, chosen.is_empty()) {
         bail!(
             "no row of {} is in {}",
@@ -96,14 +97,6 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         asked,
     };
     write_rows(subject, chosen, out, args.quiet)
-}
-
-/// Prints the remarks about the rows, unless a table of results is shown.
-fn remark(args: &ViewArgs, pair: &Pair, rows: &Rows) {
-    if args.results.is_none() && !args.quiet {
-        let of_tolerance = pair.remark(args.tolerance);
-        print_remarks(of_tolerance.into_iter().chain(rows.remarks()));
-    }
 }
 
 /// The two bodies, their title and their context, for a page of rows.
@@ -126,19 +119,6 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
     let unit = bodies.meshes.unit();
     let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
     format!("{} and {}{unit}", name(&bodies.a), name(&bodies.b))
-}
-
-/// Answers a row of motions or paths, and returns its row of results.
-fn answer_row(
-    bodies: Bodies<'_>,
-    course: &Course,
-    timing: &Timing,
-    solver: &mut dyn Solve,
-) -> ResultRow {
-    match time(bodies, course, timing, solver) {
-        Ok(timed) => timed.row(bodies, course, timing),
-        Err(problem) => ResultRow::error(course.id(), &problem),
-    }
 }
 
 /// Writes the page of the chosen rows. Without any there is none, which is told.

@@ -21,15 +21,6 @@ const BUDGET: u64 = 100_000;
 /// The factor by which a bound on a speed or a deviation is enlarged to cover rounding.
 const ROUNDED_UP: f64 = 1.0 + 1e-9;
 
-/// A lower bound of the distance that an answer proves for the whole duration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reached {
-    /// No distance is proven for the whole duration.
-    Nothing,
-    /// The bodies are at least this far apart at all times, in the scene's unit of length.
-    Throughout(f64),
-}
-
 /// The distance of two bodies over time, and the steps of conservative advancement.
 #[derive(Clone, Debug)]
 pub struct GapOverTime {
@@ -69,7 +60,7 @@ impl GapOverTime {
 }
 
 /// Samples the distance, most densely where the proven bound is loose. Between two samples the bound follows from a
-/// bound on the bodies' closing speed.
+/// bound on the bodies' closing speed, and is nowhere less than `floor`, which the answer proves for all times.
 ///
 /// # Errors
 /// If the motions are out of range.
@@ -77,12 +68,8 @@ pub fn gap(
     solver: &mut Solver,
     bodies: Bodies<'_>,
     course: &Course,
-    reached: Reached,
+    floor: f64,
 ) -> Result<GapOverTime, InputError> {
-    let floor = match reached {
-        Reached::Nothing => 0.0,
-        Reached::Throughout(gap) => greater(gap, 0.0),
-    };
     solver.set_settings(Settings {
         budget: BUDGET,
         ..Settings::DEFAULT
@@ -91,7 +78,7 @@ pub fn gap(
         solver,
         bodies,
         course,
-        floor,
+        floor: greater(floor, 0.0),
         time_limit: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;

@@ -2,8 +2,8 @@
 
 use super::drawn::{drawn, feature_corners};
 use super::verdict::number;
-use crate::HitKind;
 use crate::scene::{Impact, PairError};
+use ccd_core::HitKind;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Feature, Motion};
 use ccd_view::{Meshes, ShownBody, ShownContact, View};
@@ -85,24 +85,15 @@ pub(crate) fn scene_verdict(
         1 => "One body".to_owned(),
         count => format!("{count} bodies"),
     };
+    let end = format!("to the end at {}", number(duration));
     let mut words = match hits.first() {
-        None if !contacts.is_empty() => {
-            format!(
-                "{all}, no contact found, to the end at {}.",
-                number(duration)
-            )
-        }
-        None => format!(
-            "{all}, no contact, to the end at {}. Proven.",
-            number(duration)
-        ),
+        None if contacts.is_empty() => format!("{all}, no contact, {end}. Proven."),
+        None => format!("{all}, no contact found, {end}."),
         Some(first) => {
             let [a, b] = first.bodies.map(|k| bodies[k].name);
             format!(
-                "{all}, {} in contact, to the end at {}. The first at {}: {a} and {b}. Proven: no pair touches before its \
-                 time.",
+                "{all}, {} in contact, {end}. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
                 pairs(hits.len()),
-                number(duration),
                 number(first.hit.time),
             )
         }
@@ -137,26 +128,18 @@ fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
         let feature = feature.map_or_else(String::new, |feature| feature.to_string());
         feature_corners(shown.body, &pose, &feature, witness)
     };
+    let when = match hit.kind {
+        HitKind::Contact(_) => number(hit.time),
+        HitKind::Touching(_) => "at the start".to_owned(),
+        HitKind::Overlapping(_) => "overlapping at the start".to_owned(),
+    };
+    let (touching, witness_a, witness_b) = (hit.contact(), hit.witness_a(), hit.witness_b());
     ShownContact {
         time: hit.time,
-        words: match hit.kind {
-            HitKind::Contact(_) => format!("{}: {} and {}", number(hit.time), a.name, b.name),
-            HitKind::Touching(_) => format!("at the start: {} and {}", a.name, b.name),
-            HitKind::Overlapping(_) => {
-                format!("overlapping at the start: {} and {}", a.name, b.name)
-            }
-        },
-        lit_a: at(
-            a,
-            hit.contact().map(|contact| contact.feature_a),
-            hit.witness_a(),
-        ),
-        lit_b: at(
-            b,
-            hit.contact().map(|contact| contact.feature_b),
-            hit.witness_b(),
-        ),
-        witnesses: Some([hit.witness_a(), hit.witness_b()]),
-        normal: hit.contact().map(|contact| contact.separation.normal),
+        words: format!("{when}: {} and {}", a.name, b.name),
+        lit_a: at(a, touching.map(|contact| contact.feature_a), witness_a),
+        lit_b: at(b, touching.map(|contact| contact.feature_b), witness_b),
+        witnesses: Some([witness_a, witness_b]),
+        normal: touching.map(|contact| contact.separation.normal),
     }
 }

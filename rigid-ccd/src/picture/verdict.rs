@@ -42,39 +42,26 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
     match row.status {
         Status::Contact => later_contact(row, asked, &time),
         Status::Free => describe_free(asked, end, proven),
-        Status::Touching if asked.margin > 0.0 => {
-            format!(
-                "Within the margin at the start: {}.{}",
-                contact(row),
-                after_start_contact(row)
-            )
-        }
-        Status::Touching => format!(
-            "In contact at the start: {}.{}",
-            contact(row),
-            after_start_contact(row)
-        ),
-        Status::Overlapping => {
-            format!(
-                "Overlapping at the start: {}.{}",
-                contact(row),
-                after_start_contact(row)
-            )
+        Status::Touching | Status::Overlapping => {
+            let how = match row.status {
+                Status::Overlapping => "Overlapping",
+                _ if asked.margin > 0.0 => "Within the margin",
+                _ => "In contact",
+            };
+            let (contact, after) = (contact(row), after_start_contact(row));
+            format!("{how} at the start: {contact}.{after}")
         }
         Status::Measured if asked.claim == Claim::Then => {
             format!("At {time}: {}.", describe_distance(row))
         }
         Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
-        Status::Kept => match row.distance_upper {
-            Some(_) => format!(
-                "{clearance} is kept: nearest at {time}, {}.",
-                describe_distance(row)
-            ),
-            None => format!(
-                "{clearance} is kept, to the end at {time}: {}.",
-                describe_distance(row)
-            ),
-        },
+        Status::Kept => {
+            let when = match row.distance_upper {
+                Some(_) => format!(": nearest at {time},"),
+                None => format!(", to the end at {time}:"),
+            };
+            format!("{clearance} is kept{when} {}.", describe_distance(row))
+        }
         Status::Violated => match row.distance_upper {
             Some(upper) if !is_overlap(row) => {
                 let upper = number_up(upper);

@@ -1,9 +1,10 @@
 //! Tests that scenes agree with queries on every pair.
 
 use super::*;
+use crate::answer::{HitKind, Limit};
 use crate::body::{Pieces, Volume};
 use crate::trajectory::Ballistic;
-use crate::{Error, Hit, HitKind, Limit, Solver, StartPolicy};
+use crate::{Error, Hit, Solver, StartPolicy};
 use ccd_core::Trajectory;
 use ccd_core::Unresolved;
 use rand::{RngExt, SeedableRng};

@@ -1,4 +1,4 @@
-use crate::trajectory::{Ballistic, Pace, Poses, Timed};
+use crate::trajectory::{Ballistic, Curve, Poses, Spline, Turns};
 use crate::{Body, Motion, Pose, Settings, Solver};
 use ccd_core::Clearance;
 use ccd_core::Outcome;
@@ -64,7 +64,7 @@ fn a_body_that_begins_inside_is_never_said_to_be_outside() {
                     limit: reason,
                     ..
                 }) => {
-                    assert_eq!((safe_until, reason), (0.0, crate::Limit::Undecided));
+                    assert_eq!((safe_until, reason), (0.0, crate::answer::Limit::Undecided));
                 }
                 _ => panic!("{any:?}"),
             }
@@ -134,13 +134,14 @@ fn settings_at_their_limits_are_answered() {
 #[test]
 fn queries_after_the_end_of_a_trajectory_are_answered() {
     let (a, b) = (ball(0.5), ball(0.5));
-    let far = thrown([1e11, 1.3, 0.0], [-1.0, 0.0, 0.0], [0.0; 3]);
-    let stops = Timed::new(far, 0.0..1.0, 1.0, Pace::Even).unwrap();
+    let points = [[1e11, 1.3, 0.0], [1e11 - 1.0, 1.3, 0.0]];
+    let stops = Spline::new(Curve::bezier(&points, 1.0).unwrap(), Turns::NONE);
     let stands = Motion::still(Pose::at([1e11, 0.0, 0.0]).unwrap());
     let hit = Solver::new().first_contact((&a, &stops), (&b, &stands), 2.0);
     assert_eq!(hit.unwrap().hit(), Ok(None));
-    let twice = Timed::new(stops, 1.5..1.5, 1.0, Pace::Even).unwrap();
-    let hit = Solver::new().first_contact((&a, &twice), (&b, &stands), 2.0);
+    let rests = points.map(|at| Pose::at(at).unwrap());
+    let rests = Poses::new(vec![(0.0, rests[0]), (1.0, rests[1])]).unwrap();
+    let hit = Solver::new().first_contact((&a, &rests), (&b, &stands), 2.0);
     assert_eq!(hit.unwrap().hit(), Ok(None));
 }
 

@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
 use super::motions::{MotionRows, Motions};
-use super::paths::{Grouping, Path, PathRows};
+use super::paths::{Grouping, Path, Paths};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
@@ -81,13 +81,13 @@ impl Course {
     }
 }
 
-/// An iterator over the queries in a table of motions or paths.
+/// An iterator over the queries in a table: of motions, where each row is one, or of paths, where all rows with the same
+/// id are one.
 #[derive(Debug)]
-pub enum Courses<S> {
-    /// Each row is a query.
-    Motions(MotionRows<S>),
-    /// All rows with the same id form a query.
-    Paths(PathRows<S>),
+pub struct Courses<S> {
+    rows: MotionRows<S>,
+    /// `None` for a table of motions.
+    paths: Option<Paths>,
 }
 
 /// The motions or paths of a query with its position in the table, or the error of a bad row.
@@ -108,13 +108,18 @@ impl<S: Records> Courses<S> {
     ///
     /// # Errors
     /// The header has columns that cannot be used, or the first row cannot be read.
-    pub fn of(records: S, grouping: Grouping) -> Result<Self, TableError> {
+    pub fn of(mut records: S, grouping: Grouping) -> Result<Self, TableError> {
         let columns = Columns::of(&records.header()?)?;
-        Ok(if columns.are_of_paths() {
-            Courses::Paths(PathRows::after_header(records, columns, grouping)?)
-        } else {
-            Courses::Motions(MotionRows::after_header(records, columns))
-        })
+        let paths = columns.are_of_paths();
+        let paths = paths.then(|| Paths::new(&mut records, grouping));
+        let paths = paths.transpose()?;
+        let rows = MotionRows { records, columns };
+        Ok(Courses { rows, paths })
+    }
+
+    /// Returns whether it is a table of paths.
+    pub fn are_of_paths(&self) -> bool {
+        self.paths.is_some()
     }
 
     /// Skips rows without parsing them, and returns the number skipped.
@@ -122,34 +127,36 @@ impl<S: Records> Courses<S> {
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
     pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
-        match self {
-            Courses::Motions(table) => table.skip_rows(rows),
-            Courses::Paths(table) => table.skip_rows(rows),
+        match &mut self.paths {
+            None => self.rows.skip_rows(rows),
+            Some(paths) => paths.skip(&mut self.rows, rows),
         }
     }
 
     /// Returns the number of bytes of the input up to the end of the last row, or of the last path.
     pub fn bytes(&self) -> u64 {
-        match self {
-            Courses::Motions(table) => table.bytes(),
-            Courses::Paths(table) => table.bytes(),
-        }
+        let of_paths = self.paths.as_ref().map(|paths| paths.bytes);
+        of_paths.unwrap_or_else(|| self.rows.bytes())
     }
 
     /// Returns the remarks about the rows so far, one of each kind.
     pub fn remarks(&self) -> Vec<Remark> {
-        match self {
-            Courses::Motions(table) => table.remarks(),
-            Courses::Paths(table) => table.remarks(),
-        }
+        self.rows.remarks()
     }
 
     /// Returns a checksum of the header and of all rows so far.
     pub fn checksum(&self) -> u32 {
-        match self {
-            Courses::Motions(table) => table.checksum(),
-            Courses::Paths(table) => table.checksum(),
-        }
+        let of_paths = self.paths.as_ref().map(|paths| paths.checksum);
+        of_paths.unwrap_or_else(|| self.rows.checksum())
+    }
+
+    fn read(&mut self) -> Result<Option<CourseRow>, TableError> {
+        Ok(match &mut self.paths {
+            None => (self.rows.next().transpose()?)
+                .map(|row| row.map(|(position, motions)| (position, Course::Motions(motions)))),
+            Some(paths) => (paths.next(&mut self.rows)?)
+                .map(|row| row.map(|(position, path)| (position, Course::Path(path)))),
+        })
     }
 }
 
@@ -157,15 +164,6 @@ impl<S: Records> Iterator for Courses<S> {
     type Item = Result<CourseRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        fn valid<T>(
-            row: Result<(RowPosition, T), RowError>,
-            course: impl Fn(T) -> Course,
-        ) -> CourseRow {
-            row.map(|(position, row)| (position, course(row)))
-        }
-        match self {
-            Courses::Motions(table) => Some(table.next()?.map(|row| valid(row, Course::Motions))),
-            Courses::Paths(table) => Some(table.next()?.map(|row| valid(row, Course::Path))),
-        }
+        self.read().transpose()
     }
 }

@@ -6,7 +6,8 @@ use crate::table::foreign;
 use crate::table::lines::Lines;
 use crate::table::position::RowPosition;
 use crate::table::quotes::Quotes;
-use crate::table::records::{Cells, Record, Records};
+use crate::table::records::{Record, Records};
+use std::borrow::Cow;
 use std::io::{self, Read};
 
 /// A CSV table that is read record by record.
@@ -106,46 +107,47 @@ impl<R: Read> Records for CsvRecords<R> {
 }
 
 impl Record for csv::ByteRecord {
-    type Cells<'r> = Vec<&'r str>;
-
-    fn cells(&self, columns: &Columns) -> Result<Vec<&str>, RowProblem> {
+    fn check(&self, columns: &Columns) -> Result<(), RowProblem> {
         if self.len() != columns.len() {
             return Err(RowProblem::WrongLength {
                 cells: self.len(),
                 columns: columns.len(),
             });
         }
-        let text = |(index, cell)| match str::from_utf8(cell) {
-            Ok(text) => Ok(text.trim()),
-            Err(_) => Err(RowProblem::NotText {
-                column: columns.name_at(index).to_owned(),
+        match self.iter().position(|cell| str::from_utf8(cell).is_err()) {
+            Some(cell) => Err(RowProblem::NotText {
+                column: columns.name_at(cell).to_owned(),
             }),
-        };
-        self.iter().enumerate().map(text).collect()
-    }
-
-    fn text(&self, cell: usize) -> Option<String> {
-        let text = String::from_utf8_lossy(self.get(cell)?);
-        match text.trim() {
-            "" => None,
-            text => Some(text.to_owned()),
+            None => Ok(()),
         }
     }
-}
 
-impl Cells for Vec<&str> {
     fn is_given(&self, cell: usize) -> bool {
-        self.get(cell).is_some_and(|text| !text.is_empty())
+        !trimmed(self, cell).is_empty()
     }
 
     fn number(&self, cell: usize) -> Result<Option<f64>, String> {
-        match self.get(cell) {
-            None | Some(&"") => Ok(None),
-            Some(text) => match text.parse::<f64>() {
+        match trimmed(self, cell) {
+            text if text.is_empty() => Ok(None),
+            text => match text.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(Some(value)),
-                _ => Err((*text).to_owned()),
+                _ => Err(text.into_owned()),
             },
         }
+    }
+
+    fn text(&self, cell: usize) -> Option<String> {
+        let text = trimmed(self, cell);
+        (!text.is_empty()).then(|| text.into_owned())
+    }
+}
+
+/// Returns the text of a cell without the spaces around it.
+fn trimmed(record: &csv::ByteRecord, cell: usize) -> Cow<'_, str> {
+    let text = String::from_utf8_lossy(record.get(cell).unwrap_or_default());
+    match text {
+        Cow::Borrowed(text) => text.trim().into(),
+        Cow::Owned(text) => text.trim().to_owned().into(),
     }
 }
 

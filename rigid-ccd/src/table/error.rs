@@ -3,7 +3,6 @@
 use super::position::RowPosition;
 use crate::text::Number;
 use ccd_core::InputError;
-use std::fmt;
 
 /// An error that makes a whole table unusable.
 #[derive(Debug, thiserror::Error)]
@@ -22,7 +21,10 @@ pub enum TableError {
     #[error("is a Git LFS pointer, not the table itself; run `git lfs pull` to fetch the table")]
     LfsPointer,
     /// A quoted cell is not closed, and so extends to the end of the file.
-    #[error("{}(line {line}): a quote opens a cell here and is never closed; close it or remove it", RowOrHeader(.row))]
+    #[error(
+        "{} (line {line}): a quote opens a cell here and is never closed; close it or remove it",
+        .row.map_or("header".to_owned(), |row| format!("row {row}"))
+    )]
     UnclosedQuote {
         /// The row of the cell, from 0; `None` for the header.
         row: Option<usize>,
@@ -53,7 +55,10 @@ pub enum TableError {
         header: String,
     },
     /// The header has a column that is not known. To ignore it could silently drop a motion.
-    #[error("header: unknown column `{column}`; {}", Suggestion(.nearest.as_deref(), .known))]
+    #[error(
+        "header: unknown column `{column}`; {}",
+        .nearest.as_ref().map_or((*.known).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
+    )]
     UnknownColumn {
         /// The name of the column.
         column: String,
@@ -104,29 +109,6 @@ pub enum TableError {
 impl From<csv::Error> for TableError {
     fn from(error: csv::Error) -> Self {
         TableError::Unreadable(error.to_string())
-    }
-}
-
-struct RowOrHeader<'a>(&'a Option<usize>);
-
-impl fmt::Display for RowOrHeader<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(row) => write!(f, "row {row} "),
-            None => write!(f, "header "),
-        }
-    }
-}
-
-/// Displays the most similar column, or a list of all columns.
-struct Suggestion<'a>(Option<&'a str>, &'a str);
-
-impl fmt::Display for Suggestion<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(nearest) => write!(f, "did you mean `{nearest}`?"),
-            None => f.write_str(self.1),
-        }
     }
 }
 

@@ -70,8 +70,8 @@ impl MotionTable {
 /// but counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
 pub struct MotionRows<S> {
-    records: S,
-    columns: Columns,
+    pub(in crate::table) records: S,
+    pub(in crate::table) columns: Columns,
 }
 
 /// The motions of a valid row with its position, or the error of a bad row.
@@ -85,16 +85,11 @@ impl<R: io::Read> MotionRows<CsvRecords<R>> {
     pub fn new(input: R) -> Result<Self, TableError> {
         let records = CsvRecords::new(input)?;
         let columns = Columns::of_form(&records.header()?, Form::Motions)?;
-        Ok(MotionRows::after_header(records, columns))
+        Ok(MotionRows { records, columns })
     }
 }
 
 impl<S: Records> MotionRows<S> {
-    /// Creates the iterator after the header was read.
-    pub(in crate::table) fn after_header(records: S, columns: Columns) -> Self {
-        MotionRows { records, columns }
-    }
-
     /// Skips rows without parsing them, and returns the number skipped.
     ///
     /// # Errors

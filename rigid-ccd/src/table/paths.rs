@@ -5,10 +5,10 @@ mod tests;
 
 use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
+use super::motions::MotionRows;
 use super::motions::row::{self, BodyPose, Poses};
 use super::position::RowPosition;
 use super::records::Records;
-use crate::Remark;
 use crate::trajectory;
 use crate::trajectory::poses::{MOST_LEFTOVER, leftover};
 use ccd_core::glam::DVec3;
@@ -43,46 +43,38 @@ pub enum Grouping {
     EachRow,
 }
 
-/// An iterator over the paths of a table.
+/// What the reader of a table of paths knows between two paths.
 ///
 /// Columns go by name, in any order: `id`, `t`, poses and centres as in a table of motions, and angular velocities until
 /// the next row. Rows of one path follow each other, in the order of their times.
 #[derive(Debug)]
-pub struct PathRows<S> {
-    records: S,
-    columns: Columns,
+pub(super) struct Paths {
     grouping: Grouping,
     /// The number of paths read.
     paths: usize,
     /// The position of the current record, if it begins the next path.
     next: Option<RowPosition>,
     /// The checksum of the header and of all rows of the paths read.
-    checksum: u32,
+    pub(super) checksum: u32,
     /// The number of bytes of the input up to the end of the paths read.
-    bytes: u64,
+    pub(super) bytes: u64,
     /// The hashes of the ids of the paths read, to find ids that appear again.
     known: HashSet<u64>,
     hasher: RandomState,
 }
 
 /// The paths of a query with their position, or the error of a bad row.
-type PathRow = Result<(RowPosition, Path), RowError>;
+pub(super) type PathRow = Result<(RowPosition, Path), RowError>;
 
-impl<S: Records> PathRows<S> {
-    /// Creates the iterator after the header was read.
+impl Paths {
+    /// Starts to read the paths of a table after its header.
     ///
     /// # Errors
     /// The first row cannot be read.
-    pub(super) fn after_header(
-        mut records: S,
-        columns: Columns,
-        grouping: Grouping,
-    ) -> Result<Self, TableError> {
+    pub(super) fn new(records: &mut impl Records, grouping: Grouping) -> Result<Self, TableError> {
         let (checksum, bytes) = (records.checksum(), records.bytes());
-        Ok(PathRows {
+        Ok(Paths {
             next: records.advance()?,
-            records,
-            columns,
             grouping,
             paths: 0,
             checksum,
@@ -93,42 +85,29 @@ impl<S: Records> PathRows<S> {
     }
 
     /// Skips paths without parsing their poses, and returns the number skipped.
-    ///
-    /// # Errors
-    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
-    pub fn skip_rows(&mut self, paths: usize) -> Result<usize, TableError> {
+    pub(super) fn skip<S: Records>(
+        &mut self,
+        rows: &mut MotionRows<S>,
+        paths: usize,
+    ) -> Result<usize, TableError> {
         for skipped in 0..paths {
-            if self.read(|_, _, _| ())?.is_none() {
+            if self.read(rows, |_, _, _| ())?.is_none() {
                 return Ok(skipped);
             }
         }
         Ok(paths)
     }
 
-    /// Returns the number of bytes of the input up to the end of the last path.
-    pub fn bytes(&self) -> u64 {
-        self.bytes
-    }
-
-    /// Returns the remarks about the rows so far, one of each kind.
-    pub fn remarks(&self) -> Vec<Remark> {
-        self.columns.remarks()
-    }
-
-    /// Returns a checksum of the header and of all rows of the paths so far.
-    pub fn checksum(&self) -> u32 {
-        self.checksum
-    }
-
     /// Reads the rows of a path, and returns the path's id and the position of its first row; `None` at the end.
-    fn read(
+    fn read<S: Records>(
         &mut self,
+        MotionRows { records, columns }: &mut MotionRows<S>,
         mut row: impl FnMut(RowPosition, &Columns, &S::Record),
     ) -> Result<Option<FirstRow>, TableError> {
         let Some(position) = self.next.take() else {
             return Ok(None);
         };
-        let id = row::id(&self.columns, self.records.current());
+        let id = row::id(columns, records.current());
         let seen = match (self.grouping, &id) {
             (Grouping::ById, Some(id)) => !self.known.insert(self.hasher.hash_one(id)),
             // Consecutive rows without an id form one path.
@@ -136,16 +115,16 @@ impl<S: Records> PathRows<S> {
         };
         let mut at = position;
         loop {
-            row(at, &self.columns, self.records.current());
-            self.checksum = self.records.checksum();
-            self.bytes = self.records.bytes();
-            self.next = self.records.advance()?;
+            row(at, columns, records.current());
+            self.checksum = records.checksum();
+            self.bytes = records.bytes();
+            self.next = records.advance()?;
             let same = |next| match self.grouping {
-                Grouping::ById => row::id(&self.columns, next) == id,
+                Grouping::ById => row::id(columns, next) == id,
                 Grouping::EachRow => false,
             };
             match self.next {
-                Some(next) if same(self.records.current()) => at = next,
+                Some(next) if same(records.current()) => at = next,
                 _ => break,
             }
         }
@@ -158,10 +137,14 @@ impl<S: Records> PathRows<S> {
         }))
     }
 
-    fn path(&mut self) -> Result<Option<PathRow>, TableError> {
+    /// Reads the next path; `None` at the end.
+    pub(super) fn next<S: Records>(
+        &mut self,
+        rows: &mut MotionRows<S>,
+    ) -> Result<Option<PathRow>, TableError> {
         let mut poses: Vec<Poses> = Vec::new();
         let mut bad: Option<(RowPosition, RowProblem)> = None;
-        let read = self.read(|position, columns, record| {
+        let read = self.read(rows, |position, columns, record| {
             if bad.is_none() {
                 let found = row::poses(columns, record).and_then(|row| checked_after(&poses, row));
                 match found {
@@ -302,13 +285,5 @@ impl Path {
             late if late > self.end => self.end,
             within => within,
         }
-    }
-}
-
-impl<S: Records> Iterator for PathRows<S> {
-    type Item = Result<PathRow, TableError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.path().transpose()
     }
 }

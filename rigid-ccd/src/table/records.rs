@@ -7,7 +7,7 @@ use super::position::RowPosition;
 /// A table that is read row by row.
 pub trait Records {
     /// The type of a row before parsing.
-    type Record: Record + ?Sized;
+    type Record: Record;
 
     /// Returns the names of the columns; called before the first row is read.
     ///
@@ -37,23 +37,14 @@ pub trait Records {
 
 /// A row of a table before parsing.
 pub trait Record {
-    /// The type of the cells.
-    type Cells<'r>: Cells
-    where
-        Self: 'r;
-
-    /// Returns the cells of the row.
+    /// Checks that the row has the cells of the header, as text.
     ///
     /// # Errors
-    /// The row does not have the cells of the header, as text.
-    fn cells(&self, columns: &Columns) -> Result<Self::Cells<'_>, RowProblem>;
+    /// What is wrong with the row.
+    fn check(&self, _: &Columns) -> Result<(), RowProblem> {
+        Ok(())
+    }
 
-    /// Returns the text of a cell, even if others are unreadable; `None` if it is empty.
-    fn text(&self, cell: usize) -> Option<String>;
-}
-
-/// The cells of a row.
-pub trait Cells {
     /// Returns whether a cell has a value.
     fn is_given(&self, cell: usize) -> bool;
 
@@ -62,4 +53,7 @@ pub trait Cells {
     /// # Errors
     /// The content of a cell that is no finite number.
     fn number(&self, cell: usize) -> Result<Option<f64>, String>;
+
+    /// Returns the text of a cell, even if others are unreadable; `None` if it is empty.
+    fn text(&self, cell: usize) -> Option<String>;
 }

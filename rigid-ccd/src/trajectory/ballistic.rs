@@ -1,7 +1,6 @@
 //! The trajectory of a thrown body.
 
 use super::U;
-use super::bounded::{Bounded, Speeds};
 use super::checks::finite;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -86,17 +85,6 @@ impl Smooth for Ballistic {
         Stray {
             shift: 16.0 * U * (length(thrown.start().translation()) + way),
             turn: 8.0 * U * turned,
-        }
-    }
-}
-
-impl Bounded for Ballistic {
-    fn speeds(&self, from: f64, to: f64) -> Speeds {
-        let at = |time: f64| length(self.thrown.velocity() + time * self.acceleration);
-        Speeds {
-            // The length of a vector that changes linearly is largest at an end.
-            linear: greater(at(from), at(to)),
-            angular: length(self.thrown.spin()),
         }
     }
 }

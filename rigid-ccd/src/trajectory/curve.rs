@@ -120,11 +120,6 @@ impl Curve {
         })
     }
 
-    /// Bounds the speed along the curve between two times.
-    pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        self.derivative_bound(1, from, to)
-    }
-
     /// Bounds the magnitude of the derivative of an order on the segments between two times.
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         self.segments.greatest(from, to, |segment| {

@@ -1,7 +1,6 @@
 //! The motion of a link of a serial chain whose joints move between two positions.
 
 use super::U;
-use super::bounded::{Bounded, Speeds};
 use super::chain::Chain;
 use super::checks::check_duration;
 use super::joint::{Joint, Kind};
@@ -62,19 +61,7 @@ impl Chain {
         to: &'c [f64],
         duration: f64,
     ) -> Result<Link<'c>, InputError> {
-        Link::new(self, link, from, to, duration)
-    }
-}
-
-impl<'c> Link<'c> {
-    fn new(
-        chain: &'c Chain,
-        link: usize,
-        from: &'c [f64],
-        to: &'c [f64],
-        duration: f64,
-    ) -> Result<Self, InputError> {
-        let joints = chain.joints();
+        let joints = self.joints();
         if link > joints.len() {
             return Err(InputError::NoSuchLink {
                 link,
@@ -94,7 +81,7 @@ impl<'c> Link<'c> {
         }
         check_duration(duration)?;
         Ok(Link {
-            chain,
+            chain: self,
             seen_from: None,
             link,
             from,
@@ -102,7 +89,9 @@ impl<'c> Link<'c> {
             duration,
         })
     }
+}
 
+impl<'c> Link<'c> {
     /// Returns the trajectory in the frame of another link, nearer to the base or the same. A query asks for it
     /// against that link at rest, [`Motion::STILL`]: what moves both links costs nothing then.
     ///
@@ -214,12 +203,6 @@ impl Smooth for Link<'_> {
     }
 }
 
-impl Bounded for Link<'_> {
-    fn speeds(&self, from: f64, to: f64) -> Speeds {
-        self.link_bounds(from, to).speeds
-    }
-}
-
 /// The pose of a link and its derivatives at one time, accumulated joint by joint.
 struct State {
     pose: Pose,
@@ -285,6 +268,13 @@ struct LinkBounds {
     joints: f64,
     arms: f64,
     angles: f64,
+}
+
+/// Bounds on the speeds of a link, per unit of time.
+#[derive(Clone, Copy, Debug, Default)]
+struct Speeds {
+    linear: f64,
+    angular: f64,
 }
 
 /// Bounds on the position of a joint in an interval of time, in radians or as a length.

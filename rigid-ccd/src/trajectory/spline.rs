@@ -1,6 +1,5 @@
 //! The trajectory of a body that follows a curve and rotates.
 
-use super::bounded::{Bounded, Speeds};
 use super::checks::finite;
 use super::curve::Curve;
 use super::turns::Turns;
@@ -79,14 +78,5 @@ impl Smooth for Spline {
         self.turns
             .corner(from, to)
             .or_else(|| self.curve.corner(from, to))
-    }
-}
-
-impl Bounded for Spline {
-    fn speeds(&self, from: f64, to: f64) -> Speeds {
-        Speeds {
-            linear: self.curve.speed(from, to),
-            angular: self.turns.speed(from, to),
-        }
     }
 }

@@ -102,11 +102,6 @@ fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
     Chain::new(Pose::IDENTITY, joints.unwrap())
 }
 
-#[test]
-fn steady() {
-    check("steady", 0.0, |rng| Ok(Steady(motion(rng)?)));
-}
-
 /// Tests a thrown body, whose deviation is due to rounding alone.
 #[test]
 fn thrown() {
@@ -241,22 +236,6 @@ fn b_spline_and_slerp() {
     });
 }
 
-#[test]
-fn b_spline_and_squad() {
-    check("B-spline, squad", 0.05, |rng| {
-        let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
-        Spline::new(curve, Turns::squad(&keys(rng, 5))?).about(vector(rng, 1.0))
-    });
-}
-
-#[test]
-fn squad_alone() {
-    check("squad", 0.05, |rng| {
-        let point = Curve::bezier(&[[0.0; 3]], 2.0)?;
-        Ok(Spline::new(point, Turns::squad(&keys(rng, 4))?))
-    });
-}
-
 /// Tests that axes before a held joint are not treated as parallel to those after it, whatever the joint's origin.
 #[test]
 fn links_behind_joints_that_are_held() {
@@ -339,27 +318,6 @@ fn links_with_axes_across() {
     });
 }
 
-#[test]
-fn random_carried() {
-    check("carried", 0.3, |rng| {
-        Ok(Carried::new(ballistic(rng)?, ballistic(rng)?))
-    });
-}
-
-#[test]
-fn timed() {
-    check("timed", 0.3, |rng| {
-        let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
-        let first = rng.random_range(0.0..1.0);
-        Timed::new(
-            ballistic(rng)?,
-            first..first + 2.0,
-            rng.random_range(0.5..2.0),
-            pace,
-        )
-    });
-}
-
 /// Tests that the check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {
@@ -416,10 +374,10 @@ fn tangents_have_the_velocities_of_poses() {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
         let chain = arm(&mut rng, 5, Axes::Any);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
-        let squad = Turns::squad(&keys(&mut rng, 6)).unwrap();
-        let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), squad);
-        let carried = Carried::new(ballistic(&mut rng).unwrap(), ballistic(&mut rng).unwrap());
-        let all: [&dyn Smooth; 3] = [&link, &spline, &carried];
+        let turns = Turns::slerp(&keys(&mut rng, 6)).unwrap();
+        let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
+        let thrown = ballistic(&mut rng).unwrap();
+        let all: [&dyn Smooth; 3] = [&link, &spline, &thrown];
         let time = rng.random_range(0.1..1.9);
         for (number, smooth) in all.into_iter().enumerate() {
             let tangent = smooth.tangent(time).unwrap();

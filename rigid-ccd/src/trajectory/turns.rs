@@ -1,6 +1,4 @@
-//! Orientations over time: slerp and squad through given orientations.
-
-mod squad;
+//! Orientations over time: slerp through given orientations.
 
 use super::U;
 use super::checks::{check_later, out_of_range};
@@ -8,9 +6,7 @@ use super::rotation::logarithm;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::vector::length;
 use ccd_core::{InputError, Pose};
-use squad::Squad;
 
 /// A rotation through given orientations at given times, with a fixed origin. The body does not turn before the first
 /// and after the last.
@@ -30,15 +26,11 @@ pub struct Turns {
     ends: [DQuat; 2],
 }
 
-/// The rotation between two times.
+/// A rotation at a constant rate, starting at an orientation (slerp).
 #[derive(Clone, Debug, PartialEq)]
-enum Turn {
-    /// A rotation at a constant rate, starting at an orientation (slerp).
-    Slerp {
-        start: DQuat,
-        spin: DVec3,
-    },
-    Squad(Squad),
+struct Turn {
+    start: DQuat,
+    spin: DVec3,
 }
 
 impl Turns {
@@ -56,52 +48,16 @@ impl Turns {
     /// do not increase.
     pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
         let keys = aligned_quaternions(keys)?;
-        Ok(Turns::from_keys(&keys, |k| {
-            let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
-            Turn::Slerp {
-                start,
-                spin: logarithm(end * start.conjugate()) / (to - from),
-            }
-        }))
-    }
-
-    /// Rotates smoothly through all orientations by spherical quadrangles, whose angular velocities are continuous if
-    /// the times are evenly spaced.
-    ///
-    /// # Errors
-    /// Those of [`Turns::slerp`], and [`InputError::OutOfRange`] if orientations are so far apart, about a quarter
-    /// of a turn, that the quadrangle between them is too large.
-    pub fn squad(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
-        let keys = aligned_quaternions(keys)?;
-        let at = |k: usize| keys[k.min(keys.len() - 1)].1;
-        let inner =
-            |k: usize| squad::control_orientation(at(k.saturating_sub(1)), at(k), at(k + 1));
-        let mut squads = Vec::new();
-        for k in 0..keys.len().saturating_sub(1) {
-            let squad = Squad::new(
-                [at(k), at(k + 1)],
-                [inner(k), inner(k + 1)],
-                keys[k + 1].0 - keys[k].0,
-            );
-            squads.push(squad.ok_or(out_of_range(
-                "turn between orientations",
-                at(k).angle_between(at(k + 1)),
-                "small enough for a spherical quadrangle: give more orientations",
-            ))?);
-        }
-        Ok(Turns::from_keys(&keys, |k| Turn::Squad(squads[k].clone())))
-    }
-
-    fn from_keys(keys: &[(f64, DQuat)], turn: impl Fn(usize) -> Turn) -> Self {
-        let segment = |k: usize| Segment {
-            from: keys[k].0,
-            to: keys[k + 1].0,
-            course: turn(k),
+        let segment = |two: &[(f64, DQuat)]| {
+            let [(from, start), (to, end)] = [two[0], two[1]];
+            let spin = logarithm(end * start.conjugate()) / (to - from);
+            let course = Turn { start, spin };
+            Segment { from, to, course }
         };
-        Turns {
-            segments: Segments((0..keys.len() - 1).map(segment).collect()),
+        Ok(Turns {
+            segments: Segments(keys.windows(2).map(segment).collect()),
             ends: [keys[0].1, keys[keys.len() - 1].1],
-        }
+        })
     }
 
     /// Returns the orientation at a time, and the angular velocity in the world frame.
@@ -116,25 +72,8 @@ impl Turns {
     /// Bounds the magnitude of the angular acceleration between two times. A spin that jumps counts as one that changes
     /// in half of the time, by which the orientation strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
-        let smooth = self
-            .segments
-            .greatest(from, to, |segment| match &segment.course {
-                Turn::Slerp { .. } => 0.0,
-                Turn::Squad(squad) => squad.acceleration(),
-            });
-        let jumps = self
-            .segments
-            .jump_acceleration(from, to, |segment, time| segment.at(time).1);
-        smooth + jumps
-    }
-
-    /// Bounds the angular speed between two times.
-    pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
         self.segments
-            .greatest(from, to, |segment| match &segment.course {
-                Turn::Slerp { spin, .. } => length(*spin),
-                Turn::Squad(squad) => squad.speed(),
-            })
+            .jump_acceleration(from, to, |segment, time| segment.at(time).1)
     }
 
     /// Returns a knot strictly between two times, near the middle of them; `None` without one.
@@ -151,13 +90,9 @@ impl Turns {
 impl Segment<Turn> {
     fn at(&self, time: f64) -> (DQuat, DVec3) {
         let passed = greater(0.0, lesser(time, self.to) - self.from);
-        match &self.course {
-            Turn::Slerp { start, spin } => {
-                let turned = DQuat::from_scaled_axis(*spin * passed) * *start;
-                (turned.normalize(), *spin)
-            }
-            Turn::Squad(squad) => squad.at(passed),
-        }
+        let Turn { start, spin } = self.course;
+        let turned = DQuat::from_scaled_axis(spin * passed) * start;
+        (turned.normalize(), spin)
     }
 }
 

@@ -2,16 +2,14 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, name_of, named_value_parser};
+use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, named_value_parser};
 use crate::command::numbers::{not_negative, seconds, tolerance};
 use crate::command::pair::BodiesArgs;
-use crate::command::pieces::NOT_GIVEN;
 use crate::table::results::{self, Column};
-use crate::text::Number;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::schedule::Shortcut;
 use ccd_core::{Instructions, StartPolicy};
-use clap::Args;
+use clap::{ArgMatches, Args, Command};
 use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -122,76 +120,50 @@ impl QueryArgs {
             .collect()
     }
 
-    /// Returns the options that determine the tables, with their values.
-    pub(super) fn recorded_options(&self) -> Vec<(&'static str, String)> {
-        // The pattern is exhaustive: a new option does not compile until it is recorded or left out here.
-        let QueryArgs {
-            bodies:
-                BodiesArgs {
-                    a,
-                    b,
-                    meshes,
-                    pieces,
-                },
-            motions: _,
-            ask,
-            clearance,
-            oracle,
-            schedule,
-            bound,
-            tolerance,
-            margin,
-            start,
-            budget,
-            deadline,
-            threads: _,
-            instructions: _,
-            without,
-            rows,
-            repeat,
-            out: _,
-            contacts,
-            html: _,
-            html_ids: _,
-            counters,
-            no_micros,
-            resume: _,
-            check: _,
-            quiet: _,
-        } = self;
-        let flag = |given| if given { "given" } else { NOT_GIVEN }.to_owned();
-        let clearance = clearance.map(|length| Number(length).to_string());
-        let bound = bound.map(|bound| bound.to_string());
-        let deadline = deadline.map(|time| Number(time.as_secs_f64()).to_string());
-        let contacts = contacts.as_ref().map(|path| path.display().to_string());
-        let names: Vec<_> = without.iter().map(|it| name_of(SHORTCUTS, it)).collect();
-        let without = (!names.is_empty()).then(|| names.join(","));
-        let or_not = |value: Option<String>| value.unwrap_or_else(|| NOT_GIVEN.to_owned());
-        let mut recorded = vec![
-            ("--a", a.clone()),
-            ("--b", b.clone()),
-            ("--ask", ask.to_string()),
-            ("--clearance", or_not(clearance)),
-            ("--oracle", oracle.to_string()),
-            ("--schedule", schedule.to_string()),
-            ("--bound", or_not(bound)),
-            ("--tolerance", Number(*tolerance).to_string()),
-            ("--margin", Number(*margin).to_string()),
-            ("--start", name_of(STARTS, start)),
-            ("--budget", budget.to_string()),
-            ("--deadline", or_not(deadline)),
-            ("--without", or_not(without)),
-            ("--rows", rows.to_string()),
-            ("--repeat", repeat.to_string()),
-            ("--contacts", or_not(contacts)),
-            ("--counters", flag(*counters)),
-            ("--no-micros", flag(*no_micros)),
-        ];
-        recorded.extend(meshes.recorded_options());
-        recorded.extend(pieces.recorded_options());
+    /// Returns the options that determine the tables, with their values as given or by default.
+    pub(super) fn recorded_options(&self, given: &ArgMatches) -> Vec<(String, String)> {
+        let all = QueryArgs::augment_args(Command::new("query"));
+        let options = all.get_arguments().filter(|option| {
+            let id = option.get_id().as_str();
+            !NOT_RECORDED.contains(&id)
+        });
+        let recorded = options.map(|option| {
+            let values = given.get_raw(option.get_id().as_str());
+            let values = values
+                .into_iter()
+                .flatten()
+                .map(|value| value.to_string_lossy());
+            let values = values.collect::<Vec<_>>().join(",");
+            let value = if values.is_empty() {
+                "not given".to_owned()
+            } else {
+                values
+            };
+            (
+                format!("--{}", option.get_long().unwrap_or_default()),
+                value,
+            )
+        });
         recorded
+            .chain([("--rows".to_owned(), self.rows.to_string())])
+            .collect()
     }
 }
+
+/// The options that the journal does not record: those that change no byte of the tables, the motions, of which the
+/// journal has the checksum, and `--rows`, which has several forms.
+const NOT_RECORDED: [&str; 10] = [
+    "motions",
+    "threads",
+    "instructions",
+    "out",
+    "html",
+    "html_ids",
+    "resume",
+    "check",
+    "quiet",
+    "rows",
+];
 
 /// A range of rows of a table, numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::limits::LimitCounts;
+use super::limits::LIMITS;
 use crate::batch::TimedAnswer;
 use crate::command::counts::Counts;
 use crate::table::results::Status;
@@ -29,7 +29,8 @@ pub(super) struct Summary {
     pub(super) oracle_steps: u64,
     /// The tolerance given for the queries, in the scene's unit of length.
     tolerance: f64,
-    limits: LimitCounts,
+    /// The number of queries that each of the [`LIMITS`] ended.
+    limits: [usize; LIMITS.len()],
     /// The number of answers with a larger tolerance than the given one, because of rounding.
     pub(super) raised: usize,
     /// The largest tolerance of any answer, in the scene's unit of length.
@@ -48,7 +49,7 @@ impl Summary {
             advancements: 0,
             oracle_steps: 0,
             tolerance,
-            limits: LimitCounts::default(),
+            limits: [0; LIMITS.len()],
             raised: 0,
             largest_tolerance: tolerance,
         }
@@ -67,8 +68,8 @@ impl Summary {
     pub(super) fn add(&mut self, status: Status, timed: &TimedAnswer) {
         let answer = &timed.answer;
         self.counts.add(status);
-        if let Some(limit) = answer.outcome.limit() {
-            self.limits.add(limit);
+        for (count, (limit, _)) in self.limits.iter_mut().zip(LIMITS) {
+            *count += usize::from(answer.outcome.limit() == Some(limit));
         }
         self.iterations += answer.stats.iterations;
         self.oracle_calls += answer.stats.oracle_calls;
@@ -179,8 +180,10 @@ impl fmt::Display for Summary {
             self.iterations,
             self.oracle_calls
         )?;
-        for (count, advice) in self.limits.advice() {
-            write!(f, "\n{count} unresolved: {advice}")?;
+        for (count, (_, advice)) in self.limits.iter().zip(LIMITS) {
+            if *count > 0 {
+                write!(f, "\n{count} unresolved: {advice}")?;
+            }
         }
         if self.raised > 0 {
             write!(

@@ -3,7 +3,6 @@
 use crate::command::meshes::MeshArgs;
 use crate::command::numbers::{not_negative, tolerance};
 use crate::command::pair::BodiesArgs;
-use crate::command::pieces::PiecesArgs;
 use crate::command::scene_table::SceneArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
 use clap::Args;
@@ -21,8 +20,6 @@ pub(in crate::command) struct ViewArgs {
     b: Option<String>,
     #[command(flatten)]
     meshes: MeshArgs,
-    #[command(flatten)]
-    pieces: PiecesArgs,
     /// Table of motions or paths to show, CSV, as of `ccd query`; - reads standard input
     #[arg(
         long,
@@ -79,21 +76,14 @@ pub(super) enum Subject<'a> {
 impl ViewArgs {
     /// Returns what the page shows; `None` if no option says it, which the parser refuses.
     pub(super) fn subject(&self) -> Option<Subject<'_>> {
-        let ViewArgs { meshes, pieces, .. } = self;
         if let Some(scene) = &self.scene {
-            let duration = self.duration;
-            let how = SceneArgs {
-                meshes,
-                pieces,
-                duration,
-            };
-            return Some(Subject::Scene(scene, how));
+            let (meshes, duration) = (&self.meshes, self.duration);
+            return Some(Subject::Scene(scene, SceneArgs { meshes, duration }));
         }
         let bodies = BodiesArgs {
             a: self.a.clone()?,
             b: self.b.clone()?,
-            meshes: meshes.clone(),
-            pieces: pieces.clone(),
+            meshes: self.meshes.clone(),
         };
         Some(Subject::Rows(bodies, self.motions.as_deref()?))
     }

@@ -2,9 +2,10 @@
 
 use super::super::tests::{bodies, parts};
 use super::*;
+use crate::answer::HitKind;
 use crate::scene::tests::random_throw;
 use crate::trajectory::Ballistic;
-use crate::{Body, HitKind, Pose, Solver};
+use crate::{Body, Pose, Solver};
 use ccd_core::Outcome;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;

@@ -5,7 +5,7 @@ use super::Motions;
 use crate::table::columns::BODY;
 use crate::table::columns::{Columns, DURATION_COLUMN, ID_COLUMN, Quantity, Side, TIME_COLUMN};
 use crate::table::error::RowProblem;
-use crate::table::records::{Cells, Record};
+use crate::table::records::Record;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;
@@ -14,15 +14,12 @@ use std::ops::Range;
 ///
 /// # Errors
 /// What is wrong with the row.
-pub fn query<R: Record + ?Sized>(
+pub fn query<R: Record>(
     columns: &Columns,
     record: &R,
     index: usize,
 ) -> Result<Motions, RowProblem> {
-    let row = Row {
-        columns,
-        cells: record.cells(columns)?,
-    };
+    let row = Row::new(columns, record)?;
     // Normalise a negative zero.
     let duration = row.number(DURATION_COLUMN)?.unwrap_or(1.0) + 0.0;
     if duration < 0.0 {
@@ -59,16 +56,13 @@ pub(crate) struct BodyRow {
 
 /// Parses a row of the table of a scene, in which all motions end at `duration`; `index` is the default id.
 #[cfg(feature = "command")]
-pub(crate) fn body<R: Record + ?Sized>(
+pub(crate) fn body<R: Record>(
     columns: &Columns,
     record: &R,
     index: usize,
     duration: f64,
 ) -> Result<BodyRow, RowProblem> {
-    let row = Row {
-        columns,
-        cells: record.cells(columns)?,
-    };
+    let row = Row::new(columns, record)?;
     let motion = row.motion(Side::A, duration)?;
     columns.remark_collector().note_motion(&motion, duration);
     let text = columns.index(BODY).and_then(|cell| record.text(cell));
@@ -96,14 +90,11 @@ pub(in crate::table) struct BodyPose {
 }
 
 /// Parses a row of a table of paths.
-pub(in crate::table) fn poses<R: Record + ?Sized>(
+pub(in crate::table) fn poses<R: Record>(
     columns: &Columns,
     record: &R,
 ) -> Result<Poses, RowProblem> {
-    let row = Row {
-        columns,
-        cells: record.cells(columns)?,
-    };
+    let row = Row::new(columns, record)?;
     if columns.index(ID_COLUMN).is_some() && id(columns, record).is_none() {
         return Err(RowProblem::NoId);
     }
@@ -117,13 +108,13 @@ pub(in crate::table) fn poses<R: Record + ?Sized>(
 }
 
 /// Returns the id of a row, even if other cells are unreadable; `None` without one.
-pub(in crate::table) fn id<R: Record + ?Sized>(columns: &Columns, record: &R) -> Option<String> {
+pub(in crate::table) fn id<R: Record>(columns: &Columns, record: &R) -> Option<String> {
     record.text(columns.index(ID_COLUMN)?)
 }
 
-struct Row<'a, C> {
+struct Row<'a, R> {
     columns: &'a Columns,
-    cells: C,
+    record: &'a R,
 }
 
 /// The two ways in which a row gives the motion of a body.
@@ -132,7 +123,12 @@ enum MotionKind {
     Velocities,
 }
 
-impl<C: Cells> Row<'_, C> {
+impl<'a, R: Record> Row<'a, R> {
+    fn new(columns: &'a Columns, record: &'a R) -> Result<Self, RowProblem> {
+        record.check(columns)?;
+        Ok(Row { columns, record })
+    }
+
     /// Returns the pose of a body at the start.
     fn start(&self, side: Side) -> Result<Pose, RowProblem> {
         let position = self.vector(side, Quantity::Position)?;
@@ -176,7 +172,7 @@ impl<C: Cells> Row<'_, C> {
     fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::Spin];
-        let is_given = |cell| self.cells.is_given(cell);
+        let is_given = |cell| self.record.is_given(cell);
         match (
             self.column_where(side, end, is_given),
             self.column_where(side, velocities, is_given),
@@ -254,7 +250,7 @@ impl<C: Cells> Row<'_, C> {
         let Some(cell) = self.columns.index(slot) else {
             return Ok(None);
         };
-        match self.cells.number(cell) {
+        match self.record.number(cell) {
             Ok(Some(number)) => Ok(Some(number)),
             Ok(None) => Err(self.empty(slot)),
             Err(value) => Err(RowProblem::NotANumber {

@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 
 fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
     let rows = Courses::new(text.as_bytes(), grouping).expect("a header that can be used");
-    assert!(matches!(rows, Courses::Paths(_)));
+    assert!(rows.are_of_paths());
     rows.map(|row| row.expect("a table that can be read"))
         .collect()
 }

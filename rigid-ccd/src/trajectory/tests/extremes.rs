@@ -39,15 +39,11 @@ fn times_may_be_far_from_0() {
             (epoch + 0.01 * k as f64, at.to_array())
         };
         let keys: Vec<_> = (0..50).map(&mut key).collect();
-        let point = || Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
-        let slerp = Spline::new(point(), Turns::slerp(&keys).unwrap());
-        let squad = Spline::new(point(), Turns::squad(&keys).unwrap());
+        let point = Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
+        let slerp = Spline::new(point, Turns::slerp(&keys).unwrap());
         check_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
-        check_between("squad", &squad, epoch, epoch + 0.49, &mut rng);
         let thrown = ballistic(&mut rng).unwrap();
         check_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
-        let steady = Steady(motion(&mut rng).unwrap());
-        check_between("steady", &steady, -1e3, -999.0, &mut rng);
     }
 }
 
@@ -70,14 +66,16 @@ fn places_may_come_from_afar() {
 #[test]
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
-    let thrown = ballistic(&mut rng).unwrap();
-    let once = Timed::new(thrown, 0.0..1.0, 1.0, Pace::Even).unwrap();
-    let twice = Timed::new(once.clone(), 1.5..1.5, 1.0, Pace::Even).unwrap();
+    let curve = Curve::bezier(&points(&mut rng, 4), 1.0).unwrap();
+    let spline = Spline::new(curve, Turns::slerp(&keys(&mut rng, 3)).unwrap());
+    let stops = [0.0, 1.0].map(|time| (time, motion(&mut rng).unwrap().start()));
+    let poses = Poses::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
         let strays = [
-            once.stretch(time, time),
-            twice.stretch(time, time),
-            once.stretch(1.0, 1.0 + time),
+            spline.stretch(time, time),
+            poses.stretch(time, time),
+            spline.stretch(2.5, 2.5 + time),
+            poses.stretch(1.0, 1.0 + time),
         ];
         for stretch in strays {
             let Stray { shift, turn } = stretch.unwrap().stray;

@@ -1,0 +1,41 @@
+//! How pickle makes an object again, to the same bits: by the constructor and the arguments of which it was made.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyTuple, PyType};
+
+/// The constructor of an object and its arguments.
+pub(crate) struct Recipe {
+    /// The name of the class method; `None` for the class itself.
+    constructor: Option<&'static str>,
+    arguments: Py<PyTuple>,
+}
+
+/// A callable and its arguments, as `__reduce__` returns them.
+pub(crate) type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
+
+impl Recipe {
+    pub(crate) fn new<'py, A>(
+        py: Python<'py>,
+        constructor: Option<&'static str>,
+        arguments: A,
+    ) -> PyResult<Self>
+    where
+        A: IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>, Error: Into<PyErr>>,
+    {
+        let arguments = arguments.into_pyobject(py).map_err(Into::into)?.unbind();
+        Ok(Recipe {
+            constructor,
+            arguments,
+        })
+    }
+
+    /// Returns what `__reduce__` returns for an object of a class.
+    pub(crate) fn reduced<'py>(&self, class: Bound<'py, PyType>) -> PyResult<Reduced<'py>> {
+        let arguments = self.arguments.bind(class.py()).clone();
+        let constructor = match self.constructor {
+            Some(name) => class.getattr(name)?,
+            None => class.into_any(),
+        };
+        Ok((constructor, arguments))
+    }
+}

@@ -1,0 +1,8 @@
+//! What an [`Answer`](crate::Answer) is made of, and the features that [`Query::contacts_at`](crate::Query::contacts_at)
+//! lists.
+
+pub use crate::parallel::QueryError;
+pub use ccd_core::{
+    Clearance, Contact, ContactsError, Feature, FeaturePair, HitKind, Limit, Overlap, Stats,
+    Unresolved,
+};
