@@ -19,7 +19,7 @@ struct Gear {
     backlash: f64,
 }
 
-const PRESSURE: f64 = PI / 9.0;
+const PRESSURE_ANGLE: f64 = PI / 9.0;
 const WIDTH: f64 = 4.0;
 
 impl Gear {
@@ -30,13 +30,13 @@ impl Gear {
     /// Returns the outline as points, counterclockwise, starting at the root of the tooth at angle 0.
     fn outline(&self) -> Vec<[f64; 2]> {
         let pitch = self.pitch_radius();
-        let base = pitch * PRESSURE.cos();
+        let base = pitch * PRESSURE_ANGLE.cos();
         let (root, tip) = (pitch - 1.25 * self.module, pitch + self.module);
         // The angle by which an involute has turned at a pressure angle.
         let involute = |angle: f64| angle.tan() - angle;
         let half_at = |radius: f64| {
             let at_pitch = 0.25 * (2.0 * PI / f64::from(self.teeth) - self.backlash / pitch);
-            at_pitch + involute(PRESSURE) - involute((base / radius).clamp(0.0, 1.0).acos())
+            at_pitch + involute(PRESSURE_ANGLE) - involute((base / radius).clamp(0.0, 1.0).acos())
         };
         let first = if base > root { base } else { root };
         let radii = (0..=STEPS).map(|k| first + (tip - first) * f64::from(k) / f64::from(STEPS));
@@ -84,7 +84,7 @@ impl Gear {
 const STEPS: u32 = 8;
 
 /// The angle of rotation, in degrees of the first gear, over which one clearance is computed.
-const WINDOW: u32 = 1;
+const WINDOW_DEGREES: u32 = 1;
 
 /// Bounds on the least clearance over one interval of the rotation.
 struct Window {
@@ -105,8 +105,8 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Erro
         ..Settings::DEFAULT
     });
     let mut windows = Vec::new();
-    for angle in (0..360).step_by(WINDOW as usize) {
-        let [from, turn] = [angle, WINDOW].map(|degrees| f64::from(degrees).to_radians());
+    for angle in (0..360).step_by(WINDOW_DEGREES as usize) {
+        let [from, turn] = [angle, WINDOW_DEGREES].map(|degrees| f64::from(degrees).to_radians());
         // A tooth of the first gear points to a gap of the second one.
         let gap = PI + PI / f64::from(b.teeth);
         let turned = DQuat::from_rotation_z;

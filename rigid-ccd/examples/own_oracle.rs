@@ -8,9 +8,9 @@ use rigid_ccd::{Body, Motion, Pose, Solver};
 use std::error::Error;
 
 /// A distance backend for pieces of one or two points.
-struct Segments;
+struct SegmentOracle;
 
-impl DistanceOracle for Segments {
+impl DistanceOracle for SegmentOracle {
     type Cache = ();
 
     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
@@ -57,7 +57,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .first_contact(a, b, 1.0)?
             .hit()?
             .map(|hit| hit.time);
-        let mut solver = Solver::with_oracle(Segments.or_else(Gjk));
+        let mut solver = Solver::with_oracle(SegmentOracle.or_else(Gjk));
         let own = solver.first_contact(a, b, 1.0)?.hit()?.map(|hit| hit.time);
         println!("{name}: {own:.4?}, by the default {by_default:.4?}");
     }

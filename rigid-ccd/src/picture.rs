@@ -18,7 +18,7 @@ pub use drawn::drawn;
 pub use gap::{GapOverTime, gap};
 pub use pages::{Pages, PagesError};
 #[cfg(feature = "scenes")]
-pub(crate) use scene::{Shown, scene_verdict, scene_view};
+pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
 pub use verdict::{Asked, Claim};
 
 use crate::Solver;

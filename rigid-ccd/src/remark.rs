@@ -59,10 +59,10 @@ const COARSE_TOLERANCE: f64 = 0.1;
 
 /// The rotation in radians above which an angle may be meant in degrees. Four turns in radians are 25; as degrees, that
 /// is a small angle. Robots' joints and parts that are thrown or assembled turn less.
-const MANY_TURNS: f64 = 4.0 * TAU;
+const MIN_SUSPICIOUS_ROTATION: f64 = 4.0 * TAU;
 
 /// The largest angle, in degrees, that a mistaken input is assumed to mean: two turns. More is a shaft that spins.
-const MOST_DEGREES: f64 = 720.0;
+const MAX_SUSPICIOUS_DEGREES: f64 = 720.0;
 
 /// The angle in degrees of which typical angles are multiples. In radians, 50, 100, 200, 500 and multiples of π are
 /// none of them.
@@ -102,13 +102,13 @@ impl Remark {
         let turn = length(spin) * duration;
         let is_round = [spin, spin * duration]
             .into_iter()
-            .any(|rate| rate.to_array().into_iter().all(is_multiple));
+            .any(|rate| rate.to_array().into_iter().all(is_round_degrees));
         (may_be_degrees(turn) && is_round).then_some(Remark::SpinInDegrees { spin, turn })
     }
 
     /// Returns a remark if a joint's position is many turns and a round number of degrees.
     pub fn of_joint(position: f64) -> Option<Self> {
-        let is_odd = may_be_degrees(position.abs()) && is_multiple(position);
+        let is_odd = may_be_degrees(position.abs()) && is_round_degrees(position);
         is_odd.then_some(Remark::JointInDegrees { position })
     }
 
@@ -142,7 +142,7 @@ impl Remark {
     /// Returns whether a body rotates so often that its angular velocity may be meant in degrees, round or not.
     #[cfg(feature = "tables")]
     pub(crate) fn is_fast(spin: DVec3, duration: f64) -> bool {
-        length(spin) * duration > MANY_TURNS
+        length(spin) * duration > MIN_SUSPICIOUS_ROTATION
     }
 }
 
@@ -168,10 +168,10 @@ pub(crate) fn sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
 }
 
 fn may_be_degrees(angle: f64) -> bool {
-    angle > MANY_TURNS && angle <= MOST_DEGREES * (1.0 + ROUNDING)
+    angle > MIN_SUSPICIOUS_ROTATION && angle <= MAX_SUSPICIOUS_DEGREES * (1.0 + ROUNDING)
 }
 
-fn is_multiple(angle: f64) -> bool {
+fn is_round_degrees(angle: f64) -> bool {
     (angle - (angle / DEGREE_STEP).round() * DEGREE_STEP).abs() <= ROUNDING * angle.abs()
 }
 

@@ -18,7 +18,7 @@ use event::Event;
 pub use event::{Impact, PairError};
 use goal::Goal;
 pub use groups::Groups;
-use pair_queue::{PairQueue, Worker};
+use pair_queue::{PairQueue, WorkerMemory};
 use std::num::NonZeroUsize;
 pub use stops::Stop;
 
@@ -53,7 +53,7 @@ pub struct Scene<'a> {
     members: Vec<Member<'a>>,
     settings: Settings,
     asked: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
-    workers: ParallelSolver<Worker>,
+    workers: ParallelSolver<WorkerMemory>,
 }
 
 #[derive(Clone, Copy)]
@@ -82,7 +82,7 @@ pub struct FixedBody {
 
 /// The number of pairs for which it pays to start one more thread. To start one takes as long as a few tens of pairs
 /// do.
-const PAIRS_A_THREAD: usize = 32;
+const PAIRS_PER_THREAD: usize = 32;
 
 /// A box that meets the box of every valid motion: coordinates and displacements are at most 1e12.
 const EVERYWHERE_BOX: SweptBox = SweptBox {
@@ -93,15 +93,15 @@ const EVERYWHERE_BOX: SweptBox = SweptBox {
 impl<'a> Scene<'a> {
     /// Creates a scene without bodies, which uses all cores.
     pub fn new() -> Self {
-        Scene::from(ParallelSolver::new(Worker::default))
+        Scene::from(ParallelSolver::new(WorkerMemory::default))
     }
 
     /// Creates a scene that uses `threads` threads.
     pub fn with_threads(threads: NonZeroUsize) -> Self {
-        Scene::from(ParallelSolver::with_threads(threads, Worker::default))
+        Scene::from(ParallelSolver::with_threads(threads, WorkerMemory::default))
     }
 
-    fn from(workers: ParallelSolver<Worker>) -> Self {
+    fn from(workers: ParallelSolver<WorkerMemory>) -> Self {
         Scene {
             members: Vec::new(),
             settings: Settings::DEFAULT,
@@ -227,7 +227,7 @@ impl<'a> Scene<'a> {
         &mut self,
         duration: f64,
     ) -> Vec<Result<Option<Impact>, PairError>> {
-        let mut events = self.events(duration, &Goal::of_each(self.len()));
+        let mut events = self.events(duration, &Goal::first_of_each(self.len()));
         events.sort_unstable_by(Event::order);
         let mut firsts: Vec<Option<&Event>> = vec![None; self.len()];
         for event in &events {
@@ -267,7 +267,7 @@ impl<'a> Scene<'a> {
         let threads = self
             .workers
             .threads()
-            .min(pairs.len().div_ceil(PAIRS_A_THREAD));
+            .min(pairs.len().div_ceil(PAIRS_PER_THREAD));
         let events = self
             .workers
             .map(&vec![(); threads], |worker, ()| worker.run(&pair_queue));
@@ -282,7 +282,7 @@ impl<'a> Scene<'a> {
             swept.unwrap_or(EVERYWHERE_BOX)
         };
         let boxes: Vec<SweptBox> = self.members.iter().map(swept).collect();
-        pairs::meeting_pairs(&boxes, |[a, b]| {
+        pairs::overlapping_pairs(&boxes, |[a, b]| {
             let pair = [&self.members[a], &self.members[b]];
             pair.iter()
                 .any(|member| member.mobility == Mobility::Moving)

@@ -17,7 +17,7 @@ fn chart(folder: &Path) -> Run {
         "--cell",
         "0.1",
     ];
-    Run::bare(&options).args(&["--out", folder.to_str().unwrap()])
+    Run::with_args(&options).args(&["--out", folder.to_str().unwrap()])
 }
 
 #[test]
@@ -126,12 +126,13 @@ fn exported_scenes_are_read_again() {
     let scene = Scene::new("chart-export");
     let folder = scene.directory.join("scenes");
     let options = ["chart", "--scenes", "knot216", "--export"];
-    let run = Run::bare(&options).args(&[folder.to_str().unwrap()]);
+    let run = Run::with_args(&options).args(&[folder.to_str().unwrap()]);
     let output = run.output();
     assert!(output.status.success(), "{}", stderr(&output));
     let at = |name: &str| folder.join("knot216").join(name).display().to_string();
     let (a, b, motions) = (at("a.obj"), at("b.obj"), at("motions.csv"));
-    let rows = Run::bare(&["truth", "--a", &a, "--b", &b, "--motions", &motions]).succeeds();
+    let rows =
+        Run::with_args(&["truth", "--a", &a, "--b", &b, "--motions", &motions]).expect_rows();
     assert_eq!(rows.len(), 25);
     let hits = rows.iter().filter(|r| r.text("status") == "hit").count();
     assert!((8..25).contains(&hits), "{hits}");
@@ -140,7 +141,7 @@ fn exported_scenes_are_read_again() {
 #[test]
 fn unknown_names_are_answered_with_the_known_ones() {
     for (option, name) in [("--scenes", "knot216"), ("--methods", "C2A")] {
-        let output = Run::bare(&["chart", option, "atlantis"]).output();
+        let output = Run::with_args(&["chart", option, "atlantis"]).output();
         assert_eq!(output.status.code(), Some(2));
         let output_text = stderr(&output);
         assert!(
@@ -148,6 +149,6 @@ fn unknown_names_are_answered_with_the_known_ones() {
             "{output_text}"
         );
     }
-    let output = Run::bare(&["chart", "--tolerances", "-1"]).output();
+    let output = Run::with_args(&["chart", "--tolerances", "-1"]).output();
     assert_eq!(output.status.code(), Some(2));
 }

@@ -18,7 +18,7 @@ const TETRAHEDRON: &str =
 
 #[test]
 fn the_demo_needs_a_directory_that_exists() {
-    let output = Run::bare(&["demo", "--models", "no/such/models"])
+    let output = Run::with_args(&["demo", "--models", "no/such/models"])
         .stdin("")
         .output();
     assert_eq!(output.status.code(), Some(2));

@@ -14,7 +14,7 @@ fn brackets_hold_the_exact_first_contact() {
     let truth = scene.directory.join("truth.csv");
     let motions = scene.file("motions.csv", MOTIONS);
     let options = ["--motions", motions.to_str().unwrap(), "--threads", "2"];
-    let run = Run::bare(&["truth", "--a", mesh, "--b", mesh])
+    let run = Run::with_args(&["truth", "--a", mesh, "--b", mesh])
         .args(&options)
         .args(&["--out", truth.to_str().unwrap()]);
     let output = run.output();
@@ -43,7 +43,7 @@ fn good_rows_are_judged_and_bad_ones_reported() {
     let scene = Scene::new("truth-bad");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();
-    let run = Run::bare(&[
+    let run = Run::with_args(&[
         "truth",
         "--a",
         mesh,
@@ -79,7 +79,7 @@ fn impossible_requests_are_refused() {
     let nowhere = scene.directory.join("none").join("truth.csv");
     let run = |a: &str, out: &str| {
         let arguments = ["truth", "--a", a, "--b", mesh, "--motions", motions];
-        Run::bare(&arguments).args(&["--out", out]).output()
+        Run::with_args(&arguments).args(&["--out", out]).output()
     };
     assert_eq!(run("missing.obj", "-").status.code(), Some(2));
     assert_eq!(run(mesh, motions).status.code(), Some(2));

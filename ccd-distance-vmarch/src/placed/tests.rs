@@ -2,13 +2,13 @@ use super::{Placed, PlacedPair};
 use crate::polytope::Polytope;
 use crate::rational::{Exact3, exact};
 use crate::tolerance::PLACEMENT_ERROR;
-use crate::worst::{Tape, Worst, share};
+use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Frame, Piece};
 
 /// Draws three points, far from their origin or not.
-fn corners(tape: &mut Tape) -> [DVec3; 3] {
+fn corners(tape: &mut RandomCase) -> [DVec3; 3] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=4)), tape.size(-30..=0));
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }

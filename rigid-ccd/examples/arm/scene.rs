@@ -36,7 +36,7 @@ impl Scene {
             links,
             obstacles: Vec::new(),
         };
-        scene.pair_links()?;
+        scene.find_separate_links()?;
         while scene.obstacles.len() < obstacles {
             let size = [(); 3].map(|()| random.random_range(0.03..0.12));
             let at = [(); 3].map(|()| random.random_range(-1.6..1.6));
@@ -60,7 +60,7 @@ impl Scene {
     }
 
     /// Finds the pairs of links that are apart in the home position; neighbouring links always touch.
-    fn pair_links(&mut self) -> Result<(), Error> {
+    fn find_separate_links(&mut self) -> Result<(), Error> {
         let (home, mut solver) = (self.home(), Solver::new());
         for high in 0..self.links.len() {
             for low in 0..high.saturating_sub(1) {

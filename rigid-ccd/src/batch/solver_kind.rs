@@ -128,11 +128,11 @@ impl SolverKind {
     {
         match self.schedule {
             ScheduleKind::BestFirst => Box::new(CachePadded(Solver::with_oracle(oracle))),
-            ScheduleKind::Fast => Box::new(CachePadded(Pairing {
+            ScheduleKind::Fast => Box::new(CachePadded(ScheduleWithOracle {
                 schedule: Fast::<O>::new(self.bound.into()),
                 oracle,
             })),
-            ScheduleKind::Naive => Box::new(CachePadded(Pairing {
+            ScheduleKind::Naive => Box::new(CachePadded(ScheduleWithOracle {
                 schedule: Naive::<O>::new(self.bound.into()),
                 oracle,
             })),
@@ -154,12 +154,12 @@ where
     }
 }
 
-struct Pairing<S, O> {
+struct ScheduleWithOracle<S, O> {
     schedule: S,
     oracle: O,
 }
 
-impl<O, S> Solve for CachePadded<Pairing<S, O>>
+impl<O, S> Solve for CachePadded<ScheduleWithOracle<S, O>>
 where
     O: DistanceOracle + Send,
     S: Schedule<O> + Send,
@@ -169,7 +169,7 @@ where
         question: Question,
         query: &Query<'_>,
     ) -> Option<Result<Answer, InputError>> {
-        let Pairing { schedule, oracle } = &mut self.0;
+        let ScheduleWithOracle { schedule, oracle } = &mut self.0;
         (question == Question::FirstContact).then(|| schedule.first_contact(query, oracle))
     }
 }

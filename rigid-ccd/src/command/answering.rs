@@ -24,7 +24,7 @@ pub(super) struct BatchRun<'a> {
 /// Consecutive rows with their answers, and the error that ended the table after them, if any.
 pub(super) struct Batch {
     pub(super) rows: Vec<(CourseRow, Result<TimedAnswer, RowProblem>)>,
-    pub(super) broken: Option<TableError>,
+    pub(super) table_error: Option<TableError>,
 }
 
 /// A row of a table of motions, with its row in the table of results.
@@ -34,7 +34,7 @@ pub(super) struct AnsweredRow<'b> {
     pub(super) course: Option<&'b Course>,
     pub(super) row: ResultRow,
     /// The answer with its duration; `None` for a row with an error.
-    pub(super) timed: Option<&'b TimedAnswer>,
+    pub(super) timed_answer: Option<&'b TimedAnswer>,
 }
 
 impl<'a> BatchRun<'a> {
@@ -78,7 +78,10 @@ impl<'a> BatchRun<'a> {
         });
         self.batch.adapt(start.elapsed());
         let rows = batch.into_iter().zip(answers).collect();
-        Some(Batch { rows, broken })
+        Some(Batch {
+            rows,
+            table_error: broken,
+        })
     }
 
     /// Returns the row of results for a row of motions, and reports the row if it is bad.
@@ -103,7 +106,7 @@ impl<'a> BatchRun<'a> {
             position,
             course,
             row,
-            timed: answer.as_ref().ok(),
+            timed_answer: answer.as_ref().ok(),
         }
     }
 }

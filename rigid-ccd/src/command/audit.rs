@@ -96,7 +96,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     let (timing, progress) = (timing(args), Progress::of_rows(length, args.quiet));
     let mut audit = Audit {
         args,
-        answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
+        batch_run: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
         counts: Counts::default(),
@@ -147,7 +147,7 @@ fn pages<'a>(args: &AuditArgs, pair: &'a Pair) -> Result<Option<PageFolder<'a>>,
 
 struct Audit<'a> {
     args: &'a AuditArgs,
-    answering: BatchRun<'a>,
+    batch_run: BatchRun<'a>,
     out: Table,
     pages: Option<PageFolder<'a>>,
     counts: Counts,
@@ -156,15 +156,15 @@ struct Audit<'a> {
 impl Audit<'_> {
     fn all(&mut self, rows: &mut Rows) -> Result<()> {
         loop {
-            let Some(batch) = self.answering.next(rows, usize::MAX) else {
+            let Some(batch) = self.batch_run.next(rows, usize::MAX) else {
                 return Ok(());
             };
             for row in &batch.rows {
-                let answered = self.answering.answered_row(row);
+                let answered = self.batch_run.answered_row(row);
                 self.record_row(&answered)?;
             }
             self.out.flush()?;
-            if let Some(error) = batch.broken {
+            if let Some(error) = batch.table_error {
                 return Err(error).with_context(|| input_name(&self.args.motions));
             }
         }
@@ -193,9 +193,9 @@ impl Audit<'_> {
     }
 
     fn finish(self) -> Result<Exit> {
-        drop(self.answering.progress);
+        drop(self.batch_run.progress);
         self.out.finish()?;
-        self.answering.bad_rows.close();
+        self.batch_run.bad_rows.close();
         let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
             let others = self.counts.nonzero();

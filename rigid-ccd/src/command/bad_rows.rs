@@ -12,7 +12,7 @@ pub struct BadRows {
 }
 
 /// The maximum number of unreadable rows that are printed one by one.
-const MOST_PRINTED: usize = 5;
+const MAX_PRINTED_ROWS: usize = 5;
 
 impl BadRows {
     /// Creates a counter for the table named `input`.
@@ -23,7 +23,7 @@ impl BadRows {
     /// Counts a bad row, and prints it if it is among the first.
     pub fn report(&mut self, position: RowPosition, problem: &dyn Display, progress: &Progress) {
         self.count += 1;
-        if self.count <= MOST_PRINTED {
+        if self.count <= MAX_PRINTED_ROWS {
             let message = format!("{}, {position}: {problem}", self.input);
             progress.aside(|| complain(&message));
         }
@@ -31,7 +31,7 @@ impl BadRows {
 
     /// Prints the total number of bad rows, if not all of them were printed.
     pub fn close(&self) {
-        if self.count > MOST_PRINTED {
+        if self.count > MAX_PRINTED_ROWS {
             let BadRows { input, count } = self;
             complain(&format!(
                 "{input}: {count} bad rows in all; see column `reason` of the results"

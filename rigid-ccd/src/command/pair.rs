@@ -49,7 +49,7 @@ impl BodiesArgs {
         let source = |text: &str| text.parse::<BodySource>();
         let source_a = source(&self.a).context("--a")?;
         let source_b = source(&self.b).context("--b")?;
-        let load = |option, text, source| self.load_one((option, text), source, method, quiet);
+        let load = |option, text, source| self.load_body((option, text), source, method, quiet);
         let (a, unit_a) = load("--a", &self.a, &source_a)?;
         let b = if same_source(&source_a, &source_b) {
             None
@@ -70,7 +70,7 @@ impl BodiesArgs {
     }
 
     /// Loads one body, and returns it with the unit of length that its file states.
-    fn load_one(
+    fn load_body(
         &self,
         (option, text): (&str, &str),
         source: &BodySource,

@@ -11,12 +11,12 @@ pub(super) struct PiecesArgs {
     #[arg(long, value_enum, default_value_t)]
     pieces: PiecesArg,
     /// Maximum number of hulls of --pieces vhacd; more hulls fit the mesh more closely [default: 32]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_HULLS))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_HULLS))]
     hulls: Option<u32>,
 }
 
 const DEFAULT_HULLS: u32 = 32;
-const MOST_HULLS: i64 = 4096;
+const MAX_HULLS: i64 = 4096;
 
 /// The values of `--pieces`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

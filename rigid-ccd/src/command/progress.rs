@@ -20,8 +20,8 @@ pub struct Progress {
     bytes_of_step: AtomicU64,
     end: AtomicU64,
     /// The sender whose drop tells the displaying thread that the work is done.
-    working: Option<Sender<()>>,
-    showing: Option<JoinHandle<()>>,
+    done_signal: Option<Sender<()>>,
+    display_thread: Option<JoinHandle<()>>,
 }
 
 /// The total amount of work, as far as it is known.
@@ -38,7 +38,7 @@ pub enum Total {
 }
 
 /// The time from the start of the work until progress is first shown.
-const SHOWN_AFTER: Duration = Duration::from_secs(1);
+const SHOW_DELAY: Duration = Duration::from_secs(1);
 
 /// The time between two redraws of the bar on a terminal.
 const REDRAW_INTERVAL: Duration = Duration::from_millis(120);
@@ -64,7 +64,7 @@ impl Progress {
         let (working, done) = mpsc::channel();
         let show = move || {
             let still_working = |time| done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
-            if !still_working(SHOWN_AFTER) {
+            if !still_working(SHOW_DELAY) {
                 return;
             }
             if io::stderr().is_terminal() {
@@ -82,8 +82,8 @@ impl Progress {
             }
         };
         // Without a thread nothing is shown, but the work is done.
-        progress.showing = thread::Builder::new().spawn(show).ok();
-        progress.working = Some(working);
+        progress.display_thread = thread::Builder::new().spawn(show).ok();
+        progress.done_signal = Some(working);
         progress
     }
 
@@ -114,8 +114,8 @@ impl Progress {
             total: Total::Unknown,
             bytes_of_step: AtomicU64::new(0),
             end: AtomicU64::new(0),
-            working: None,
-            showing: None,
+            done_signal: None,
+            display_thread: None,
         }
     }
 
@@ -157,8 +157,8 @@ impl Progress {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        drop(self.working.take());
-        if let Some(showing) = self.showing.take() {
+        drop(self.done_signal.take());
+        if let Some(showing) = self.display_thread.take() {
             // The thread has no result and does not panic.
             let _ = showing.join();
         }

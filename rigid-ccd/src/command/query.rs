@@ -62,7 +62,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
         args,
         answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         outputs,
-        shown: args
+        page_rows: args
             .html
             .as_ref()
             .map(|_| ChosenRows::new(args.html_ids.clone())),
@@ -72,7 +72,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     run.outputs.finish(end)?;
     drop(run.answering.progress);
     run.answering.bad_rows.close();
-    let shown = write_page(args, &pair, run.shown.zip(html))?;
+    let shown = write_page(args, &pair, run.page_rows.zip(html))?;
     if run.summary.counts.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
     }
@@ -265,7 +265,7 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
         Some(BoundKind::Sound) | None => "",
     };
     let _ = writeln!(io::stderr(), "{prefix}{summary}");
-    if let (true, Some(means)) = (args.counters, summary.means()) {
+    if let (true, Some(means)) = (args.counters, summary.describe_means()) {
         let _ = writeln!(io::stderr(), "{means}");
     }
 }

@@ -3,7 +3,7 @@
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
 use super::{complain, print_line, print_remarks};
-use crate::picture::Shown;
+use crate::picture::DrawnBody;
 use crate::scene::{Impact, PairError};
 use crate::table::columns::{BODY_NAME, Columns, Form};
 use crate::table::csv_records::CsvRecords;
@@ -116,7 +116,7 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
             "all motions of a scene end together: give --duration in place of the column `{time}`"
         );
     }
-    let columns = Columns::of_form(&header, Form::Scene)?;
+    let columns = Columns::from_header(&header, Form::Scene)?;
     let mut rows: Vec<PlacedRow> = Vec::new();
     while let Some(position) = records.advance()? {
         let row = body(&columns, records.current(), position.row, duration);
@@ -187,10 +187,10 @@ impl SceneTable {
     }
 
     /// Returns the bodies to draw, in the order of their rows.
-    pub(super) fn bodies_to_draw(&self) -> Vec<Shown<'_>> {
+    pub(super) fn bodies_to_draw(&self) -> Vec<DrawnBody<'_>> {
         let shown = self.rows.iter().filter_map(|row| {
             let body = self.bodies.get(&row.text)?;
-            Some(Shown {
+            Some(DrawnBody {
                 name: &row.name,
                 body,
                 motion: row.motion,

@@ -23,7 +23,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// The maximum number of rows read from which some are chosen for the page.
-const MOST_ROWS_READ: usize = 10_000;
+const MAX_ROWS_READ: usize = 10_000;
 
 /// Runs `ccd view`: writes the page.
 pub(super) fn run(args: &ViewArgs) -> Result<Exit> {
@@ -56,11 +56,11 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
         clearance: None,
     };
     let mut solver = timing.method.solver(Instructions::Best);
-    for row in rows.by_ref().take(MOST_ROWS_READ) {
+    for row in rows.by_ref().take(MAX_ROWS_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
-                chosen.leave_out(fault.to_string());
+                chosen.count_omitted(fault.to_string());
                 continue;
             }
         };
@@ -137,7 +137,7 @@ pub(super) fn write_rows(
     for (course, row) in chosen.take_rows() {
         match painter.view(&course, &row) {
             Ok(view) => views.push(view),
-            Err(error) => chosen.leave_out(format!("row {}: {error}", row.id)),
+            Err(error) => chosen.count_omitted(format!("row {}: {error}", row.id)),
         }
     }
     if let Some(faults) = chosen.describe_faults() {

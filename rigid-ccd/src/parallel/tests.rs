@@ -13,7 +13,7 @@ fn capsule() -> Body {
 }
 
 /// Returns a rotating motion that comes nearer to the other body with each `k`.
-fn approaching(k: u32) -> Motion {
+fn approaching_motion(k: u32) -> Motion {
     let from = Pose::at([-3.0, 1.5 - 0.01 * f64::from(k), 0.1]).unwrap();
     Motion::new(from, [5.0, 0.0, 0.0], [0.3, 2.0, f64::from(k)]).unwrap()
 }
@@ -34,7 +34,11 @@ fn answers_are_the_same_bits_in_order_on_any_number_of_threads() {
     let queries: Vec<_> = (0..200)
         .map(|k| {
             let target = targets[k as usize % targets.len()];
-            ((&capsule, approaching(k)), (target, Motion::STILL), 1.0)
+            (
+                (&capsule, approaching_motion(k)),
+                (target, Motion::STILL),
+                1.0,
+            )
         })
         .collect();
     let mut one = Solver::new();
@@ -82,7 +86,13 @@ fn results_are_in_order_when_queries_take_unlike_times() {
 #[test]
 fn no_queries_and_more_threads_than_queries() {
     let capsule = capsule();
-    let query = |k| ((&capsule, approaching(k)), (&capsule, Motion::STILL), 1.0);
+    let query = |k| {
+        (
+            (&capsule, approaching_motion(k)),
+            (&capsule, Motion::STILL),
+            1.0,
+        )
+    };
     for threads in [1, 2, 5] {
         let queries = [query(130), query(0)];
         assert!(solver(threads).first_contacts(&queries[..0]).is_empty());
@@ -101,7 +111,7 @@ fn an_error_has_the_index_of_its_query() {
     let capsule = capsule();
     let query = |k, duration| {
         (
-            (&capsule, approaching(k)),
+            (&capsule, approaching_motion(k)),
             (&capsule, Motion::STILL),
             duration,
         )
@@ -136,7 +146,11 @@ fn limits_are_those_of_each_solver() {
         ..Settings::DEFAULT
     };
     let mut solver = ParallelSolver::new(|| Solver::new().with_settings(config.clone()));
-    let query = ((&capsule, approaching(130)), (&cuboid, Motion::STILL), 1.0);
+    let query = (
+        (&capsule, approaching_motion(130)),
+        (&cuboid, Motion::STILL),
+        1.0,
+    );
     for found in solver.first_contacts(&[query; 3]) {
         let outcome = found.unwrap().outcome;
         assert!(matches!(outcome, Outcome::Unresolved(_)), "{outcome:?}");

@@ -9,11 +9,11 @@ use ccd_view::{Gap, GapPoint};
 use std::time::{Duration, Instant};
 
 /// The maximum number of poses that are drawn as ghosts for one query, besides the start.
-const MOST_GHOSTS: f64 = 12.0;
+const MAX_GHOSTS: f64 = 12.0;
 /// The number of times at which the distance is measured.
-const MOST_MEASUREMENTS: usize = 96;
+const MAX_MEASUREMENTS: usize = 96;
 /// The maximum number of steps of conservative advancement.
-const MOST_STEPS: usize = 48;
+const MAX_ADVANCEMENT_STEPS: usize = 48;
 /// The time limit for all measurements of one query, checked after each measurement.
 const TIME_LIMIT: Duration = Duration::from_secs(1);
 /// The work limit of one measurement of a distance.
@@ -43,7 +43,7 @@ impl GapOverTime {
         for &step in &self.steps {
             if drawn
                 .last()
-                .is_none_or(|last| step - last > duration / MOST_GHOSTS)
+                .is_none_or(|last| step - last > duration / MAX_GHOSTS)
             {
                 drawn.push(step);
             }
@@ -79,7 +79,7 @@ pub fn gap(
         bodies,
         course,
         floor: greater(floor, 0.0),
-        time_limit: Instant::now() + TIME_LIMIT,
+        deadline: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;
     survey.refine(&mut points)?;
@@ -97,7 +97,7 @@ struct GapSampler<'a> {
     bodies: Bodies<'a>,
     course: &'a Course,
     floor: f64,
-    time_limit: Instant,
+    deadline: Instant,
 }
 
 /// The maximum closing speed of two bodies between two times, and a bound on their deviation from their motions.
@@ -112,7 +112,7 @@ impl GapSampler<'_> {
     fn advance(&mut self) -> Result<(Vec<GapPoint>, Vec<f64>), InputError> {
         let end = self.course.duration();
         let (mut time, mut points, mut steps) = (0.0, Vec::new(), Vec::new());
-        while points.len() < MOST_STEPS && Instant::now() < self.time_limit {
+        while points.len() < MAX_ADVANCEMENT_STEPS && Instant::now() < self.deadline {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
@@ -136,7 +136,7 @@ impl GapSampler<'_> {
         for k in 1..points.len() {
             worths.push(self.gain(points[k - 1], points[k])?);
         }
-        while points.len() < MOST_MEASUREMENTS && Instant::now() < self.time_limit {
+        while points.len() < MAX_MEASUREMENTS && Instant::now() < self.deadline {
             let worst = (0..worths.len()).max_by(|i, k| worths[*i].total_cmp(&worths[*k]));
             let Some(worst) = worst.filter(|worst| worths[*worst] > 0.0) else {
                 return Ok(());

@@ -16,7 +16,7 @@ const HUE_STEP: f64 = 137.508;
 
 /// A body of a scene to draw, with its name in the legend.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shown<'a> {
+pub(crate) struct DrawnBody<'a> {
     pub(crate) name: &'a str,
     pub(crate) body: &'a Body,
     pub(crate) motion: Motion,
@@ -26,7 +26,7 @@ pub(crate) struct Shown<'a> {
 /// drawn from one mesh.
 pub(crate) fn scene_view(
     name: &str,
-    bodies: &[Shown<'_>],
+    bodies: &[DrawnBody<'_>],
     contacts: &[Result<Impact, PairError>],
     duration: f64,
 ) -> (Meshes, View) {
@@ -73,7 +73,7 @@ pub(crate) fn scene_view(
 
 /// Describes in words which bodies touch.
 pub(crate) fn scene_verdict(
-    bodies: &[Shown<'_>],
+    bodies: &[DrawnBody<'_>],
     contacts: &[Result<Impact, PairError>],
     duration: f64,
 ) -> String {
@@ -117,13 +117,13 @@ fn pairs(count: usize) -> String {
     }
 }
 
-fn contact(bodies: &[Shown<'_>], impact: &Impact) -> ShownContact {
+fn contact(bodies: &[DrawnBody<'_>], impact: &Impact) -> ShownContact {
     let Impact {
         bodies: [a, b],
         hit,
     } = *impact;
     let (a, b) = (&bodies[a], &bodies[b]);
-    let at = |shown: &Shown<'_>, feature: Option<Feature>, witness: DVec3| {
+    let at = |shown: &DrawnBody<'_>, feature: Option<Feature>, witness: DVec3| {
         let pose = shown.motion.pose(hit.time);
         let feature = feature.map_or_else(String::new, |feature| feature.to_string());
         feature_corners(shown.body, &pose, &feature, witness)

@@ -64,7 +64,7 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         }
         Status::Violated => match row.distance_upper {
             Some(upper) if !is_overlap(row) => {
-                let upper = number_up(upper);
+                let upper = number_rounded_up(upper);
                 format!("{clearance} is violated: at {time} at most {upper} apart.")
             }
             _ => format!(
@@ -91,7 +91,7 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
 /// Describes what is proven after a contact at the start; empty if the question was about the first contact only.
 fn after_start_contact(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
-        format!(" Proven: not after {}.", number_up(last))
+        format!(" Proven: not after {}.", number_rounded_up(last))
     })
 }
 
@@ -116,7 +116,7 @@ fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
         (Claim::First, None) => format!("{first} at {time}: {touching}. Proven: {before}."),
         (Claim::First, Some(last)) => format!(
             "{first} at {time}: {touching}. Proven: {before}, nor after {}.",
-            number_up(last)
+            number_rounded_up(last)
         ),
         (Claim::FirstLater, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
@@ -175,15 +175,21 @@ fn describe_distance(row: &ResultRow) -> String {
     match (row.distance_lower, row.distance_upper) {
         (Some(lower), Some(_)) if lower < 0.0 => format!(
             "two pieces that a shift by {} would part; the bodies may overlap by more",
-            number_up(-lower)
+            number_rounded_up(-lower)
         ),
-        (Some(0.0), Some(upper)) => format!("at most {} apart: they may touch", number_up(upper)),
+        (Some(0.0), Some(upper)) => {
+            format!("at most {} apart: they may touch", number_rounded_up(upper))
+        }
         (Some(lower), Some(upper)) => {
-            format!("between {} and {} apart", number(lower), number_up(upper))
+            format!(
+                "between {} and {} apart",
+                number(lower),
+                number_rounded_up(upper)
+            )
         }
         (Some(lower), None) => format!("at least {} apart", number(lower)),
         // One body is inside the other, and the bodies exceed their shapes.
-        (None, Some(upper)) => format!("their shapes at most {} apart", number_up(upper)),
+        (None, Some(upper)) => format!("their shapes at most {} apart", number_rounded_up(upper)),
         _ => "at an unknown distance".to_owned(),
     }
 }
@@ -213,7 +219,7 @@ pub(super) fn number(value: f64) -> String {
 }
 
 /// Formats a number with at most seven digits, rounded up.
-fn number_up(value: f64) -> String {
+fn number_rounded_up(value: f64) -> String {
     let text = with_few_digits(value);
     match text.parse::<f64>() {
         Ok(read) if read < value => with_few_digits(value + last_digit(value)),

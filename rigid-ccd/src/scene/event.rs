@@ -66,7 +66,7 @@ impl Event {
     }
 
     /// Returns the event of a pair that was not examined because a limit was reached.
-    pub(super) fn not_examined(bodies: [usize; 2]) -> Self {
+    pub(super) fn unexamined_pair(bodies: [usize; 2]) -> Self {
         Event {
             time: 0.0,
             bodies,

@@ -5,27 +5,27 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Which contacts a query on a scene asks for, with the times of the earliest events so far.
 pub(super) enum Goal {
     /// The first contact of any two bodies.
-    First(Earliest),
+    First(EarliestTime),
     /// The first contact of each body with any other one.
-    OfEach(Vec<Earliest>),
+    FirstOfEach(Vec<EarliestTime>),
     /// The first contact of each pair of bodies.
     All,
 }
 
 impl Goal {
     pub(super) fn first() -> Self {
-        Goal::First(Earliest::default())
+        Goal::First(EarliestTime::default())
     }
 
-    pub(super) fn of_each(bodies: usize) -> Self {
-        Goal::OfEach((0..bodies).map(|_| Earliest::default()).collect())
+    pub(super) fn first_of_each(bodies: usize) -> Self {
+        Goal::FirstOfEach((0..bodies).map(|_| EarliestTime::default()).collect())
     }
 
     /// Returns the time after which an event of the pair cannot change the answer.
     pub(super) fn last_useful_time(&self, [a, b]: [usize; 2]) -> f64 {
         match self {
             Goal::First(earliest) => earliest.time(),
-            Goal::OfEach(earliest) => {
+            Goal::FirstOfEach(earliest) => {
                 let [a, b] = [earliest[a].time(), earliest[b].time()];
                 if a > b { a } else { b }
             }
@@ -36,7 +36,7 @@ impl Goal {
     pub(super) fn record(&self, [a, b]: [usize; 2], time: f64) {
         match self {
             Goal::First(earliest) => earliest.record(time),
-            Goal::OfEach(earliest) => [a, b].iter().for_each(|&k| earliest[k].record(time)),
+            Goal::FirstOfEach(earliest) => [a, b].iter().for_each(|&k| earliest[k].record(time)),
             Goal::All => {}
         }
     }
@@ -45,9 +45,9 @@ impl Goal {
 /// The earliest time that any thread has recorded; infinite without one.
 ///
 /// It only saves work: what a thread does not see yet is proven further than needed.
-pub(super) struct Earliest(AtomicU64);
+pub(super) struct EarliestTime(AtomicU64);
 
-impl Earliest {
+impl EarliestTime {
     fn time(&self) -> f64 {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
@@ -58,8 +58,8 @@ impl Earliest {
     }
 }
 
-impl Default for Earliest {
+impl Default for EarliestTime {
     fn default() -> Self {
-        Earliest(AtomicU64::new(f64::INFINITY.to_bits()))
+        EarliestTime(AtomicU64::new(f64::INFINITY.to_bits()))
     }
 }

@@ -12,10 +12,10 @@ use std::sync::{Mutex, PoisonError};
 
 /// The part of the duration by which a pair is advanced before another pair takes its turn. Shares so large that pairs
 /// are seldom put aside, and so small that little is proven beyond the answer.
-const SHARE_ADVANCED: f64 = 1.0 / 16.0;
+const ADVANCE_SHARE: f64 = 1.0 / 16.0;
 
 /// The maximum number of finished searches whose memory a worker keeps for reuse.
-const MOST_SPARE_SEARCHES: usize = 1024;
+const MAX_SPARE_SEARCHES: usize = 1024;
 
 /// The queue of pairs of bodies that threads advance together.
 pub(super) struct PairQueue<'r, 'a> {
@@ -65,10 +65,10 @@ impl<'r, 'a> PairQueue<'r, 'a> {
 
     /// Returns the time to which a pair at `time` is advanced next, which is at most `limit`.
     fn next_target(&self, time: f64, others: f64, limit: f64) -> f64 {
-        let slice = greater(others, time + SHARE_ADVANCED * self.duration);
+        let slice = greater(others, time + ADVANCE_SHARE * self.duration);
         let until = match self.goal {
             Goal::All => f64::INFINITY,
-            Goal::First(_) | Goal::OfEach(_) => lesser(slice, limit.next_up()),
+            Goal::First(_) | Goal::FirstOfEach(_) => lesser(slice, limit.next_up()),
         };
         // Durations may be too short for slices.
         if until > time { until } else { f64::INFINITY }
@@ -77,12 +77,12 @@ impl<'r, 'a> PairQueue<'r, 'a> {
 
 /// The memory that a thread reuses from pair to pair.
 #[derive(Default)]
-pub(super) struct Worker {
+pub(super) struct WorkerMemory {
     oracle: Direct,
     spare: Vec<BestFirst<Direct>>,
 }
 
-impl Worker {
+impl WorkerMemory {
     /// Advances one pair after another until the queue is empty, and returns their contacts and errors.
     pub(super) fn run(&mut self, pair_queue: &PairQueue<'_, '_>) -> Vec<Event> {
         let mut events = Vec::new();
@@ -140,7 +140,7 @@ impl Worker {
 
     fn keep_for_reuse(&mut self, search: Option<Search<'_>>) {
         if let Some(search) = search
-            && self.spare.len() < MOST_SPARE_SEARCHES
+            && self.spare.len() < MAX_SPARE_SEARCHES
         {
             self.spare.push(search.into_memory());
         }

@@ -9,7 +9,7 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 ///
 /// # Guarantee
 /// All pairs, whatever the tree is like: a box that it does not hold is compared with all others.
-pub(super) fn meeting_pairs(
+pub(super) fn overlapping_pairs(
     boxes: &[SweptBox],
     asked: impl Fn([usize; 2]) -> bool,
 ) -> Vec<[usize; 2]> {

@@ -5,7 +5,7 @@ use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::in_ascending_order;
 use super::queue_entry::QueueEntry;
-use super::shifted::Shifted;
+use super::shifted::TimeShifted;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
@@ -95,7 +95,7 @@ impl Scene<'_> {
     /// ```
     pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.clone();
-        self.settings = with_half_tolerance_kept(&given);
+        self.settings = with_half_tolerance_as_margin(&given);
         let clock = Clock::new(duration, &self.settings);
         let pairs = self.pairs(duration);
         let events = self.run_pair_queue(&pairs, &clock, &Goal::All);
@@ -107,7 +107,7 @@ impl Scene<'_> {
 
 /// Returns the settings with half of the tolerance moved into the margin, so that bodies at rest do not sink into each
 /// other over many steps.
-fn with_half_tolerance_kept(given: &Settings) -> Settings {
+fn with_half_tolerance_as_margin(given: &Settings) -> Settings {
     let half = 0.5 * given.tolerance;
     Settings {
         margin: lesser(given.margin + half, MAX_COORDINATE),
@@ -187,14 +187,14 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             }
             let stopped = event.bodies.into_iter().zip(moving);
             for (index, _) in stopped.filter(|&(_, moved)| moved) {
-                coming.extend(self.contacts_of(index));
+                coming.extend(self.future_contacts_of(index));
             }
         }
         Ok(self.stops)
     }
 
     /// Returns the contacts that others will have with a body that has just stopped.
-    fn contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
+    fn future_contacts_of(&mut self, index: usize) -> Vec<FutureContact> {
         let time = self.stops[index].time;
         let partners = std::mem::take(&mut self.partners[index]);
         let moving = partners.iter().filter(|&&other| self.moves(other));
@@ -213,7 +213,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let event = match self.answer(time, bodies) {
             Ok(answer) => Event::from_answer(bodies, &answer)?,
             // The pose of a body is out of range, so the body stops here.
-            Err(_) => Event::not_examined(bodies),
+            Err(_) => Event::unexamined_pair(bodies),
         };
         Some(self.future_contact(event, time))
     }
@@ -237,7 +237,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
-        let shifted = bodies.map(|index| Shifted {
+        let shifted = bodies.map(|index| TimeShifted {
             inner: self.scene.members[index].movement,
             from: time,
         });
@@ -246,7 +246,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let duration = self.clock.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
         let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
-        let stray = self.stray_at_stop(bodies[0])? + self.stray_at_stop(bodies[1])?;
+        let stray = self.deviation_at_stop(bodies[0])? + self.deviation_at_stop(bodies[1])?;
         let settings = Settings {
             margin: self.scene.settings.margin + rounding + stray,
             deadline: self.clock.left(),
@@ -259,7 +259,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     /// Returns the motion or trajectory of a body from a given time on.
     fn movement_from<'r>(
         &self,
-        shifted: &'r Shifted<'a>,
+        shifted: &'r TimeShifted<'a>,
         index: usize,
     ) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
@@ -273,7 +273,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 
     /// Bounds how far the points of a stopped body may be from those of its computed pose; 0 for a body that moves.
-    fn stray_at_stop(&self, index: usize) -> Result<f64, InputError> {
+    fn deviation_at_stop(&self, index: usize) -> Result<f64, InputError> {
         if self.moves(index) {
             return Ok(0.0);
         }

@@ -99,7 +99,7 @@ fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: &Settin
 }
 
 /// Queries every accepted pair by itself, and returns its time, indices and result.
-fn one_by_one(
+fn contacts_one_by_one(
     bodies: &[Body],
     parts: &[Part],
     config: &Settings,
@@ -146,7 +146,7 @@ fn one_by_one(
     found
 }
 
-fn same(
+fn is_same_result(
     found: &Result<Impact, PairError>,
     expected: &(f64, [usize; 2], Result<Hit, Limit>),
 ) -> bool {
@@ -184,7 +184,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
             ..Settings::DEFAULT
         };
         let duration = [1.0, 0.02, 1.0, 1.0][round % 4];
-        let expected = one_by_one(&bodies, &parts, &config, duration);
+        let expected = contacts_one_by_one(&bodies, &parts, &config, duration);
         for threads in [1, 2, 5] {
             let mut scene = scene(&bodies, &parts, threads, &config);
             // The second call must not depend on the first.
@@ -194,12 +194,14 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
                 assert!(
                     all.iter()
                         .zip(&expected)
-                        .all(|(found, expected)| same(found, expected)),
+                        .all(|(found, expected)| is_same_result(found, expected)),
                     "{round}"
                 );
 
                 match (scene.first_contact(duration).transpose(), expected.first()) {
-                    (Some(first), Some(expected)) => assert!(same(&first, expected), "{round}"),
+                    (Some(first), Some(expected)) => {
+                        assert!(is_same_result(&first, expected), "{round}")
+                    }
                     (first, expected) => assert!(first.is_none() && expected.is_none(), "{round}"),
                 }
 
@@ -214,7 +216,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
                 for (index, found) in each.into_iter().enumerate() {
                     match (found.transpose(), firsts.get(&index)) {
                         (Some(found), Some(expected)) => {
-                            assert!(same(&found, expected), "{round} {index}");
+                            assert!(is_same_result(&found, expected), "{round} {index}");
                         }
                         (found, expected) => {
                             assert!(found.is_none() && expected.is_none(), "{round} {index}");
@@ -330,7 +332,7 @@ fn deadlines_and_flags_end_scenes_with_safe_times() {
         deadline: Some(Duration::ZERO),
         ..Settings::DEFAULT
     };
-    let whole = one_by_one(&bodies, &parts, &Settings::DEFAULT, 1.0);
+    let whole = contacts_one_by_one(&bodies, &parts, &Settings::DEFAULT, 1.0);
     let first = whole[0].0;
     for error in scene(&bodies, &parts, 2, &config)
         .contacts(1.0)

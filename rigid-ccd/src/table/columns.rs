@@ -152,14 +152,14 @@ impl Columns {
         } else {
             Form::Motions
         };
-        Columns::of_form(header, form)
+        Columns::from_header(header, form)
     }
 
     /// Parses the header of a table of the given form.
     ///
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
-    pub(crate) fn of_form(header: &[String], form: Form) -> Result<Self, TableError> {
+    pub(crate) fn from_header(header: &[String], form: Form) -> Result<Self, TableError> {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
@@ -186,12 +186,12 @@ impl Columns {
             len: header.len(),
             remark_collector: RemarkCollector::default(),
         };
-        columns.check_whole()?;
+        columns.check_complete_groups()?;
         Ok(columns)
     }
 
     /// Refuses a header with some, but not all, columns of an orientation or of an end position.
-    fn check_whole(&self) -> Result<(), TableError> {
+    fn check_complete_groups(&self) -> Result<(), TableError> {
         let of_motions = [Quantity::EndPosition, Quantity::EndOrientation];
         let further = match self.form {
             Form::Motions | Form::Scene => &of_motions[..],
@@ -206,13 +206,13 @@ impl Columns {
                     return Err(self.missing(given, missing));
                 }
             }
-            self.check_spin(side)?;
+            self.check_angular_velocity(side)?;
         }
         Ok(())
     }
 
     /// Refuses angular velocities in a table of paths without orientations.
-    fn check_spin(&self, side: Side) -> Result<(), TableError> {
+    fn check_angular_velocity(&self, side: Side) -> Result<(), TableError> {
         let is_there = |&slot: &usize| self.cells[slot].is_some();
         let spin = self.column_range(side, Quantity::Spin).find(is_there);
         let orientation = self
@@ -352,6 +352,6 @@ pub(in crate::table) const TIME_COLUMN: usize = 1;
 const TIME_NAME: &str = "t";
 /// The index of the column `body` among those of a scene's table.
 #[cfg(feature = "command")]
-pub(crate) const BODY: usize = BODY_COLUMNS.len() + 1;
+pub(crate) const BODY_COLUMN: usize = BODY_COLUMNS.len() + 1;
 /// The name of the column that describes a body in a scene's table.
 pub(crate) const BODY_NAME: &str = "body";

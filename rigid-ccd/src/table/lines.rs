@@ -9,7 +9,7 @@ use std::io::{self, Read};
 #[derive(Debug)]
 pub struct Lines<R> {
     input: R,
-    after_return: bool,
+    after_carriage_return: bool,
     /// The number of bytes read from the input, and the number of those dropped: one for each `\r\n`.
     bytes: u64,
     left_out: u64,
@@ -20,7 +20,7 @@ impl<R: Read> Lines<R> {
     pub fn new(input: R) -> Self {
         Lines {
             input,
-            after_return: false,
+            after_carriage_return: false,
             bytes: 0,
             left_out: 0,
         }
@@ -33,8 +33,8 @@ impl<R: Read> Lines<R> {
 
     /// Reads some bytes of the input; the first call reads enough for a byte order mark.
     fn read_some(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        const MARK_LENGTH: usize = 3;
-        let (start, least) = (self.bytes == 0, out.len().min(MARK_LENGTH + 1));
+        const BOM_LENGTH: usize = 3;
+        let (start, least) = (self.bytes == 0, out.len().min(BOM_LENGTH + 1));
         let mut read = 0;
         loop {
             match self.input.read(&mut out[read..]) {
@@ -56,15 +56,19 @@ impl<R: Read> Read for Lines<R> {
             let read = self.read_some(out)?;
             self.bytes += read as u64;
             // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
-            if !self.after_return && !out[..read].contains(&b'\r') {
+            if !self.after_carriage_return && !out[..read].contains(&b'\r') {
                 return Ok(read);
             }
             let mut kept = 0;
             for k in 0..read {
-                let (byte, second) = (out[k], self.after_return && out[k] == b'\n');
-                self.after_return = byte == b'\r';
+                let (byte, second) = (out[k], self.after_carriage_return && out[k] == b'\n');
+                self.after_carriage_return = byte == b'\r';
                 if !second {
-                    out[kept] = if self.after_return { b'\n' } else { byte };
+                    out[kept] = if self.after_carriage_return {
+                        b'\n'
+                    } else {
+                        byte
+                    };
                     kept += 1;
                 }
             }

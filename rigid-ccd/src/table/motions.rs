@@ -84,7 +84,7 @@ impl<R: io::Read> MotionRows<CsvRecords<R>> {
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R) -> Result<Self, TableError> {
         let records = CsvRecords::new(input)?;
-        let columns = Columns::of_form(&records.header()?, Form::Motions)?;
+        let columns = Columns::from_header(&records.header()?, Form::Motions)?;
         Ok(MotionRows { records, columns })
     }
 }

@@ -6,11 +6,11 @@ mod tests;
 use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
 use super::motions::MotionRows;
-use super::motions::row::{self, BodyPose, Poses};
+use super::motions::row::{self, BodyPose, PosePair};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::trajectory;
-use crate::trajectory::poses::{MOST_LEFTOVER, leftover};
+use crate::trajectory::poses::{MAX_RESIDUAL_ROTATION, residual_rotation};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::length;
 use ccd_core::{InputError, Pose, Trajectory};
@@ -142,11 +142,11 @@ impl Paths {
         &mut self,
         rows: &mut MotionRows<S>,
     ) -> Result<Option<PathRow>, TableError> {
-        let mut poses: Vec<Poses> = Vec::new();
+        let mut poses: Vec<PosePair> = Vec::new();
         let mut bad: Option<(RowPosition, RowProblem)> = None;
         let read = self.read(rows, |position, columns, record| {
             if bad.is_none() {
-                let found = row::poses(columns, record).and_then(|row| checked_after(&poses, row));
+                let found = row::poses(columns, record).and_then(|row| check_later(&poses, row));
                 match found {
                     Ok(row) => poses.push(row),
                     Err(problem) => bad = Some((position, problem)),
@@ -184,7 +184,7 @@ struct FirstRow {
 }
 
 /// Returns `row`, or an error if it is not later than the row before, also after subtracting the first time.
-fn checked_after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
+fn check_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
@@ -216,9 +216,13 @@ fn check_orientation(
     if before.centre != row.centre {
         return Err(RowProblem::CentreMoves { body });
     }
-    let left = length(leftover([&before.pose, &row.pose], before.spin, duration));
+    let left = length(residual_rotation(
+        [&before.pose, &row.pose],
+        before.spin,
+        duration,
+    ));
     // Written so that NaN is refused.
-    if before.spin == DVec3::ZERO || left <= MOST_LEFTOVER {
+    if before.spin == DVec3::ZERO || left <= MAX_RESIDUAL_ROTATION {
         Ok(())
     } else {
         Err(RowProblem::LedElsewhere { body, left })
@@ -227,9 +231,9 @@ fn check_orientation(
 
 impl Path {
     /// Creates the paths of both bodies from at least one row.
-    fn new(id: &str, rows: &[Poses]) -> Result<Self, RowProblem> {
+    fn new(id: &str, rows: &[PosePair]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
-        let of = |body: fn(&Poses) -> BodyPose| {
+        let of = |body: fn(&PosePair) -> BodyPose| {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
             let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
@@ -265,15 +269,15 @@ impl Path {
 
     /// Converts a time measured from the start to the table's time, rounded down.
     pub fn earliest(&self, time: f64) -> f64 {
-        self.in_table(time, -1.0)
+        self.table_time(time, -1.0)
     }
 
     /// Converts a time measured from the start to the table's time, rounded up.
     pub fn latest(&self, time: f64) -> f64 {
-        self.in_table(time, 1.0)
+        self.table_time(time, 1.0)
     }
 
-    fn in_table(&self, time: f64, direction: f64) -> f64 {
+    fn table_time(&self, time: f64, direction: f64) -> f64 {
         if self.start == 0.0 {
             return time;
         }

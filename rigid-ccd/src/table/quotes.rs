@@ -13,9 +13,9 @@ pub struct Quotes<R> {
     /// The current line, counted from 1.
     line: u64,
     /// The line on which the last quoted cell began.
-    opened: u64,
+    quote_line: u64,
     /// The number of bytes of a byte order mark read so far; `None` once the mark or the first cell is read.
-    mark: Option<usize>,
+    bom_bytes: Option<usize>,
 }
 
 /// The state of the reader between two bytes.
@@ -31,7 +31,7 @@ enum State {
     Closing,
 }
 
-const MARK: [u8; 3] = *b"\xef\xbb\xbf";
+const BYTE_ORDER_MARK: [u8; 3] = *b"\xef\xbb\xbf";
 
 impl<R> Quotes<R> {
     /// Creates a reader of `input`.
@@ -40,8 +40,8 @@ impl<R> Quotes<R> {
             input,
             state: State::Start,
             line: 1,
-            opened: 0,
-            mark: Some(0),
+            quote_line: 0,
+            bom_bytes: Some(0),
         }
     }
 
@@ -55,24 +55,24 @@ impl<R> Quotes<R> {
     /// Such a record has closed its quotes. An open quote belongs to a later record, on a later line,
     /// unless the record ended with the table.
     pub fn unclosed(&self, line: u64) -> Option<u64> {
-        (self.state == State::Quoted && self.opened < line).then_some(self.opened)
+        (self.state == State::Quoted && self.quote_line < line).then_some(self.quote_line)
     }
 
     fn follow(&mut self, byte: u8) {
-        if let Some(seen) = self.mark {
-            let goes_on = MARK.get(seen) == Some(&byte);
-            self.mark = goes_on.then_some(seen + 1);
+        if let Some(seen) = self.bom_bytes {
+            let goes_on = BYTE_ORDER_MARK.get(seen) == Some(&byte);
+            self.bom_bytes = goes_on.then_some(seen + 1);
             if goes_on {
                 return;
             }
-            if (1..MARK.len()).contains(&seen) {
+            if (1..BYTE_ORDER_MARK.len()).contains(&seen) {
                 // A partial byte order mark is the start of a cell.
                 self.state = State::Plain;
             }
         }
         self.state = match (self.state, byte) {
             (State::Start, b'"') => {
-                self.opened = self.line;
+                self.quote_line = self.line;
                 State::Quoted
             }
             (State::Closing, b'"') => State::Quoted,
@@ -91,7 +91,7 @@ impl<R: Read> Read for Quotes<R> {
         let mut bytes = &out[..read];
         let within_quotes = matches!(self.state, State::Quoted | State::Closing);
         // Most tables have no quotes, and a search for them is many times as fast as tracking each byte.
-        if self.mark.is_none() && !within_quotes && !bytes.contains(&b'"') {
+        if self.bom_bytes.is_none() && !within_quotes && !bytes.contains(&b'"') {
             let Some((_, before)) = bytes.split_last() else {
                 return Ok(0);
             };

@@ -149,7 +149,7 @@ impl Segment {
 
     /// Returns the derivative of an order with respect to time, at a share of the segment's duration.
     fn derivative(&self, order: usize, share: f64) -> DVec3 {
-        let mut points = self.differences(order);
+        let mut points = self.derivative_control_points(order);
         // De Casteljau's algorithm.
         while points.len() > 1 {
             points = points.windows(2).map(|p| p[0].lerp(p[1], share)).collect();
@@ -158,7 +158,7 @@ impl Segment {
     }
 
     /// Returns the control points of the derivative of an order with respect to time; empty if it is zero.
-    fn differences(&self, order: usize) -> Vec<DVec3> {
+    fn derivative_control_points(&self, order: usize) -> Vec<DVec3> {
         let mut points = self.course.clone();
         for _ in 0..order {
             let factor = points.len().saturating_sub(1) as f64 / (self.to - self.from);
@@ -170,7 +170,7 @@ impl Segment {
     /// Bounds the magnitude of the derivative of an order between two times of the segment.
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
-            let points = self.differences(order).into_iter();
+            let points = self.derivative_control_points(order).into_iter();
             points.map(length).fold(0.0, greatest)
         };
         let half = 0.5 * (to - from);

@@ -145,7 +145,7 @@ impl<'c> Link<'c> {
         let starts = self.joints(0.0);
         for ((joint, start, rate), (first, last)) in starts.zip(self.positions(from, to)) {
             let largest = greater(first.abs(), last.abs());
-            let positions = Positions {
+            let positions = PositionBounds {
                 largest,
                 largest_with_start: greater(largest, start.abs()),
                 first,
@@ -278,7 +278,7 @@ struct Speeds {
 }
 
 /// Bounds on the position of a joint in an interval of time, in radians or as a length.
-struct Positions {
+struct PositionBounds {
     /// The largest absolute value of the position in the interval.
     largest: f64,
     /// The largest absolute value of the position in the interval and at time 0, from which all positions are computed.
@@ -290,7 +290,7 @@ struct Positions {
 
 impl LinkBounds {
     /// Replaces the bounds for the link before a joint by those for the link after it.
-    fn pass_joint(&mut self, joint: &Joint, positions: &Positions) {
+    fn pass_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
         self.joints += 1.0;
         let length = length(joint.origin().translation());
         self.arms += length;
@@ -298,7 +298,7 @@ impl LinkBounds {
         // Rotate into the joint's frame.
         let into = joint.origin().rotation().conjugate();
         self.axis = self.axis.map(|axis| into * axis);
-        let Positions { rate, .. } = *positions;
+        let PositionBounds { rate, .. } = *positions;
         match joint.kind() {
             Kind::Fixed => {}
             Kind::Prismatic(_) => {

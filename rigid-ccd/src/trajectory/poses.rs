@@ -2,7 +2,7 @@
 
 mod segment;
 
-pub(crate) use segment::{MOST_LEFTOVER, leftover};
+pub(crate) use segment::{MAX_RESIDUAL_ROTATION, residual_rotation};
 
 use super::U;
 use super::checks::{check_later, finite, out_of_range};
@@ -103,9 +103,9 @@ impl Poses {
         for (two, &spin) in self.poses.windows(2).zip(&spins) {
             let [(begin, from), (end, to)] = [two[0], two[1]];
             finite(spin, "angular velocity")?;
-            let left = length(leftover([&from, &to], spin, end - begin));
+            let left = length(residual_rotation([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
-            if spin != DVec3::ZERO && !(left <= MOST_LEFTOVER) {
+            if spin != DVec3::ZERO && !(left <= MAX_RESIDUAL_ROTATION) {
                 return Err(out_of_range(
                     "angle from where an angular velocity leads to the next pose",
                     left,

@@ -24,7 +24,7 @@ fn pose(rng: &mut Rng, size: f64) -> Pose {
 }
 
 /// Returns the number of draws for each kind of trajectory: `CCD_TEST_CASES` multiplies it; 200 makes a million.
-fn draws() -> u64 {
+fn draw_count() -> u64 {
     let cases = std::env::var("CCD_TEST_CASES").ok();
     5_000 * cases.map_or(1, |cases| cases.parse().unwrap())
 }
@@ -40,11 +40,12 @@ fn check<T: Trajectory>(
     let mut tightest = 0.0;
     for number in 0..TRAJECTORIES {
         let trajectory = make(&mut rng).unwrap();
-        let worst = worst_stray(&trajectory, 2.0, 1.5, draws() / TRAJECTORIES, number).unwrap();
+        let worst =
+            worst_stray(&trajectory, 2.0, 1.5, draw_count() / TRAJECTORIES, number).unwrap();
         assert!(worst.ratio <= 1.0, "{name} {number}: {worst:?}");
         tightest = ccd_core::order::greater(tightest, worst.ratio);
     }
-    let draws = draws();
+    let draws = draw_count();
     writeln!(std::io::stderr(), "{name}: {tightest:.4} in {draws} draws").unwrap();
     assert!(tightest >= at_least, "{name}: {tightest}");
 }
@@ -78,7 +79,7 @@ enum Axes {
     Any,
     Parallel,
     /// The axes are along x, y or z, so that some are parallel to each other.
-    Across,
+    CoordinateAxes,
 }
 
 fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
@@ -86,11 +87,11 @@ fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
         let axis = match axes {
             Axes::Any => vector(rng, 1.0),
             Axes::Parallel => DVec3::Z,
-            Axes::Across => DVec3::AXES[rng.random_range(0..3)],
+            Axes::CoordinateAxes => DVec3::AXES[rng.random_range(0..3)],
         };
         let origin = match axes {
             Axes::Any => pose(rng, 1.0),
-            Axes::Parallel | Axes::Across => Pose::at(vector(rng, 1.0)).unwrap(),
+            Axes::Parallel | Axes::CoordinateAxes => Pose::at(vector(rng, 1.0)).unwrap(),
         };
         match k % 4 {
             3 => Joint::prismatic(origin, vector(rng, 1.0)),
@@ -314,7 +315,7 @@ fn links_with_parallel_axes() {
 #[test]
 fn links_with_axes_across() {
     check("link, axes across", 0.5, |rng| {
-        OwnedLink::draw(rng, Axes::Across)
+        OwnedLink::draw(rng, Axes::CoordinateAxes)
     });
 }
 

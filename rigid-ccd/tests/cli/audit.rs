@@ -8,7 +8,7 @@ const SHOTS: &str =
     "id,a_px,a_py,a_vx\nbeside,-3,6,60\nfast,-3,0,60\nfast/2,-3,0,70\ntouching,0.501,0,0\n";
 
 fn audit() -> Run {
-    Run::bare(&["audit", "--motions", "-"]).args(&BALL_AND_PLATE)
+    Run::with_args(&["audit", "--motions", "-"]).args(&BALL_AND_PLATE)
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn each_has_a_page() {
 #[test]
 fn rows_without_an_answer_are_reported() {
     let rods = ["--a", "capsule:.01,2", "--b", "capsule:.01,2"];
-    let run = Run::bare(&["audit", "--motions", "-", "--budget", "1"]).args(&rods);
+    let run = Run::with_args(&["audit", "--motions", "-", "--budget", "1"]).args(&rods);
     let output = run
         .stdin("a_px,a_vx,a_wx,a_wy,a_wz\n-3,4,300,200,100\n")
         .ends(3);
@@ -95,7 +95,8 @@ fn unreadable_and_unwritable_files_are_refused() {
     assert_eq!(run.stdin(SHOTS).output().status.code(), Some(1));
     let motions = scene.file("motions.csv", SHOTS);
     let motions = motions.to_str().unwrap();
-    let run = Run::bare(&["audit", "--motions", motions, "--out", motions]).args(&BALL_AND_PLATE);
+    let run =
+        Run::with_args(&["audit", "--motions", motions, "--out", motions]).args(&BALL_AND_PLATE);
     let message = run.fails(2);
     assert_contains(&message, "would overwrite");
     audit().stdin("a_x\n1\n").ends(2);

@@ -12,7 +12,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    pub(crate) fn bare(args: &[&str]) -> Self {
+    pub(crate) fn with_args(args: &[&str]) -> Self {
         let run = Run {
             args: Vec::new(),
             stdin: String::new(),
@@ -69,7 +69,7 @@ impl Run {
     }
 
     #[track_caller]
-    pub(crate) fn succeeds(&self) -> Vec<Row> {
+    pub(crate) fn expect_rows(&self) -> Vec<Row> {
         parse(&self.ends(0).stdout)
     }
 }

@@ -4,9 +4,9 @@ use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
 use std::path::Path;
 
 /// The options for a cube and a slab as bodies A and B.
-const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+const CUBE_AND_SLAB: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 /// A table of motions of a cube onto the face of a slab, past its side, and away from it.
-const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
+const CUBE_MOTIONS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
 
 fn contacts_of(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {
     let output = run.args(&["--contacts", table.to_str().unwrap()]).ends(0);
@@ -17,7 +17,7 @@ fn contacts_of(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {
 fn every_contact_of_every_row_is_listed() {
     let scene = Scene::new("contacts");
     let table = scene.directory.join("contacts.csv");
-    let (results, contacts) = contacts_of(Run::query(&CUBES).stdin(DROPS), &table);
+    let (results, contacts) = contacts_of(Run::query(&CUBE_AND_SLAB).stdin(CUBE_MOTIONS), &table);
     let ids: Vec<&str> = contacts.iter().map(|row| row.text("id")).collect();
     assert_eq!(ids, [["face"; 4], ["side"; 4]].concat());
     for row in &contacts {
@@ -48,7 +48,7 @@ fn every_contact_of_every_row_is_listed() {
 fn contacts_at_the_start_and_on_standard_output() {
     let scene = Scene::new("contacts_at_the_start");
     let results = scene.directory.join("results.csv");
-    let output = Run::query(&CUBES)
+    let output = Run::query(&CUBE_AND_SLAB)
         .args(&["--out", results.to_str().unwrap(), "--contacts", "-"])
         .stdin("id,a_pz,a_vz\ntouching,1.5005,-4\noverlapping,1,0\n")
         .ends(0);
@@ -65,7 +65,7 @@ fn contacts_at_the_start_and_on_standard_output() {
 fn a_table_without_contacts_has_its_header() {
     let scene = Scene::new("no_contacts");
     let table = scene.directory.join("contacts.csv");
-    let (_, contacts) = contacts_of(Run::query(&CUBES).stdin("a_pz\n4\n"), &table);
+    let (_, contacts) = contacts_of(Run::query(&CUBE_AND_SLAB).stdin("a_pz\n4\n"), &table);
     assert!(contacts.is_empty());
     let text = std::fs::read_to_string(&table).unwrap();
     assert!(
@@ -77,7 +77,7 @@ fn a_table_without_contacts_has_its_header() {
 #[test]
 fn contacts_overwrite_nothing() {
     let scene = Scene::new("contacts_overwrite_nothing");
-    let motions = scene.file("motions.csv", DROPS);
+    let motions = scene.file("motions.csv", CUBE_MOTIONS);
     let (motions, dot) = (motions.to_str().unwrap(), scene.directory.join("."));
     let out = scene.directory.join("out.csv");
     let same = dot.join("out.csv");
@@ -96,8 +96,8 @@ fn contacts_overwrite_nothing() {
         ),
         (vec!["--contacts", "/no/such/directory/c.csv"], 1, "c.csv"),
     ] {
-        let output = Run::bare(&["query", "--motions", motions])
-            .args(&CUBES)
+        let output = Run::with_args(&["query", "--motions", motions])
+            .args(&CUBE_AND_SLAB)
             .args(&options)
             .output();
         assert_eq!(output.status.code(), Some(code), "{options:?}");
@@ -108,14 +108,14 @@ fn contacts_overwrite_nothing() {
         );
         assert_contains(&message, expected);
     }
-    assert_eq!(std::fs::read_to_string(motions).unwrap(), DROPS);
+    assert_eq!(std::fs::read_to_string(motions).unwrap(), CUBE_MOTIONS);
 }
 
 #[test]
 fn a_row_with_too_many_contacts_is_reported() {
     let scene = Scene::new("too_many_contacts");
     let table = scene.directory.join("contacts.csv");
-    let output = Run::query(&CUBES)
+    let output = Run::query(&CUBE_AND_SLAB)
         .args(&["--budget", "3", "--contacts", table.to_str().unwrap()])
         .stdin("id,a_pz,a_vz\nfirst,1.5005,-4\n")
         .ends(2);
@@ -127,7 +127,7 @@ fn a_row_with_too_many_contacts_is_reported() {
 
 #[test]
 fn counters_are_more_columns_and_a_line_of_means() {
-    let plain = Run::query(&CUBES).stdin(DROPS).output();
+    let plain = Run::query(&CUBE_AND_SLAB).stdin(CUBE_MOTIONS).output();
     assert!(!stderr(&plain).contains("means"));
     let header = |output: &[u8]| {
         let text = String::from_utf8(output.to_vec()).unwrap();
@@ -135,8 +135,8 @@ fn counters_are_more_columns_and_a_line_of_means() {
     };
     assert!(header(&plain.stdout).ends_with("iterations,oracle_calls,micros,reason"));
     for (schedule, steps) in [("best-first", false), ("naive", true)] {
-        let run = Run::query(&CUBES).args(&["--counters", "--schedule", schedule]);
-        let output = run.stdin(DROPS).ends(0);
+        let run = Run::query(&CUBE_AND_SLAB).args(&["--counters", "--schedule", schedule]);
+        let output = run.stdin(CUBE_MOTIONS).ends(0);
         assert_eq!(
             header(&output.stdout),
             header(&plain.stdout) + ",advancements,oracle_steps,cycles,fallbacks,front"
@@ -160,7 +160,10 @@ fn counters_are_more_columns_and_a_line_of_means() {
 #[test]
 fn times_without_certificate_are_reported_once() {
     let published = ["--schedule", "naive", "--bound", "published"];
-    let message = Run::query(&CUBES).args(&published).stdin(DROPS).fails(0);
+    let message = Run::query(&CUBE_AND_SLAB)
+        .args(&published)
+        .stdin(CUBE_MOTIONS)
+        .fails(0);
     assert_eq!(
         message.matches("times are not certified").count(),
         1,
@@ -171,7 +174,10 @@ fn times_without_certificate_are_reported_once() {
         &published[..2],
         &["--schedule", "naive", "--bound", "sound"],
     ] {
-        let output = Run::query(&CUBES).args(sound).stdin(DROPS).output();
+        let output = Run::query(&CUBE_AND_SLAB)
+            .args(sound)
+            .stdin(CUBE_MOTIONS)
+            .output();
         assert!(
             !stderr(&output).contains("not certified"),
             "{}",

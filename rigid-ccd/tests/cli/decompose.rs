@@ -10,7 +10,8 @@ use std::process::Output;
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 /// The OBJ text of a tetrahedron without its last face.
-const OPEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+const OPEN_TETRAHEDRON_OBJ: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
 
 /// Writes the mesh of a trefoil knot with 216 triangles, which is not convex.
 fn knot(scene: &Scene) -> PathBuf {
@@ -22,7 +23,9 @@ fn name(path: &Path) -> &str {
 }
 
 fn decompose(mesh: &Path, options: &[&str]) -> Output {
-    Run::bare(&["decompose", name(mesh)]).args(options).output()
+    Run::with_args(&["decompose", name(mesh)])
+        .args(options)
+        .output()
 }
 
 /// Returns the JSON object that `--format json` prints for a mesh.
@@ -135,13 +138,13 @@ fn pieces_are_written_as_groups() {
     assert!(again.faces().len() >= 216);
 }
 
-const FLIGHTS: &str = "id,a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wz\n\
+const MOTIONS_TABLE: &str = "id,a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wz\n\
     straight,4,0.1,0.2,-4,0,0,0,0\nturning,4,-0.3,0.1,-4,0,0,3,2\n\
     past,4,9,0,-4,0,0,1,1\nacross,0.2,4,1,0,-4,-0.5,0,5\n";
 
 fn answers(body: &Path, options: &[&str]) -> Vec<Row> {
     let run = Run::query(&["--a", name(body), "--b", name(body)]).args(options);
-    run.stdin(FLIGHTS).succeeds()
+    run.stdin(MOTIONS_TABLE).expect_rows()
 }
 
 #[rstest]
@@ -196,7 +199,7 @@ fn early_contacts_of_approximate_bodies_are_reported() {
     let mesh = knot(&scene);
     let run = |options: &[&str]| {
         let run = Run::query(&["--a", name(&mesh), "--b", name(&mesh)]).args(options);
-        run.stdin(FLIGHTS).output()
+        run.stdin(MOTIONS_TABLE).output()
     };
     let output = run(&["--pieces", "vhacd"]);
     assert!(output.status.success());
@@ -208,7 +211,7 @@ fn early_contacts_of_approximate_bodies_are_reported() {
 #[test]
 fn meshes_without_pieces_are_reported() {
     let scene = Scene::new("decompose-bad");
-    let open = scene.file("open.obj", OPEN);
+    let open = scene.file("open.obj", OPEN_TETRAHEDRON_OBJ);
     for (mesh, kind, expected) in [
         (open.clone(), "patches", "e0-2"),
         (open.clone(), "hull", "open.obj"),
@@ -293,7 +296,7 @@ fn unreadable_stored_bodies_are_reported() {
 #[test]
 fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "sticks_out")] {
-        let output = Run::bare(&["decompose", option]).ends(0);
+        let output = Run::with_args(&["decompose", option]).ends(0);
         let text = String::from_utf8(output.stdout).unwrap();
         assert_contains(&text, expected);
     }
@@ -305,7 +308,7 @@ fn a_missing_folder_is_reported_before_the_work() {
     let mesh = scene.file("t.obj", crate::TETRAHEDRON);
     for name in ["t.obj", "t.ccd"] {
         let out = scene.directory.join("gone").join(name);
-        let run = Run::bare(&["decompose", mesh.to_str().unwrap()]);
+        let run = Run::with_args(&["decompose", mesh.to_str().unwrap()]);
         let message = run
             .args(&["--out", out.to_str().unwrap()])
             .stdin("")

@@ -111,7 +111,7 @@ fn part(path: &Path, part: &str) -> String {
 }
 
 /// A table of motions in which a small ball falls at speed 1 from the height 4.
-const FALL: &str = "b_pz,b_vz,duration\n4,-1,4\n";
+const FALLING_BALL_MOTION: &str = "b_pz,b_vz,duration\n4,-1,4\n";
 const BALL: &str = "sphere:0.1";
 
 #[test]
@@ -120,8 +120,8 @@ fn a_part_is_chosen_by_name_or_number() {
     let file = scene.bytes("scene.glb", &glb());
     let top = |body: &str| {
         let rows = Run::query(&["--a", body, "--b", BALL])
-            .stdin(FALL)
-            .succeeds();
+            .stdin(FALLING_BALL_MOTION)
+            .expect_rows();
         assert_eq!(rows[0].text("status"), "contact", "{body}");
         3.9 - rows[0].number("time")
     };
@@ -146,7 +146,7 @@ fn features_are_numbered_in_the_part_and_go_on_in_the_whole() {
     let feature = |body: &str| {
         let rows = Run::query(&["--a", body, "--b", BALL])
             .stdin(corner)
-            .succeeds();
+            .expect_rows();
         rows[0].text("feature_a").to_owned()
     };
     assert_eq!(feature(&part(&file, "lid")), "v7");
@@ -160,8 +160,8 @@ fn an_unknown_part_lists_those_there_are() {
     for missing in ["top", "", "2"] {
         let body = part(&file, missing);
         for run in [
-            Run::query(&["--a", BALL, "--b", &body]).stdin(FALL),
-            Run::bare(&["decompose", &body]),
+            Run::query(&["--a", BALL, "--b", &body]).stdin(FALLING_BALL_MOTION),
+            Run::with_args(&["decompose", &body]),
         ] {
             let output = run.ends(2);
             let expected =
@@ -170,7 +170,7 @@ fn an_unknown_part_lists_those_there_are() {
         }
     }
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
-    let output = Run::bare(&["decompose", &part(&plain, "lid")]).output();
+    let output = Run::with_args(&["decompose", &part(&plain, "lid")]).output();
     assert_contains(&stderr(&output), "it has one, without a name: 0");
 }
 
@@ -182,7 +182,7 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
         let path = scene.file(file, crate::TETRAHEDRON);
         let rows = Run::query(&["--a", name(&path), "--b", BALL])
             .stdin("b_pz\n9\n")
-            .succeeds();
+            .expect_rows();
         assert_eq!(rows[0].text("status"), "free", "{file}");
     }
 }
@@ -208,8 +208,8 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
         let body = format!("{}{words}", name(&path));
         let rows = Run::query(&["--a", &body, "--b", BALL])
             .args(options)
-            .stdin(FALL)
-            .succeeds();
+            .stdin(FALLING_BALL_MOTION)
+            .expect_rows();
         let early = 4.0 - (top + 0.1) - rows[0].number("time");
         assert!(
             (-1e-9..=1.001e-3).contains(&early),
@@ -219,10 +219,10 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     for (word, option) in [("@scale=-1", "--scale=-1"), ("@mirror=w", "--mirror=w")] {
         let body = format!("{}{word}", name(&path));
         for run in [
-            Run::query(&["--a", &body, "--b", BALL]).stdin(FALL),
-            Run::query(&["--a", name(&path), "--b", BALL, option]).stdin(FALL),
-            Run::bare(&["decompose", &body]),
-            Run::bare(&["decompose", name(&path), option]),
+            Run::query(&["--a", &body, "--b", BALL]).stdin(FALLING_BALL_MOTION),
+            Run::query(&["--a", name(&path), "--b", BALL, option]).stdin(FALLING_BALL_MOTION),
+            Run::with_args(&["decompose", &body]),
+            Run::with_args(&["decompose", name(&path), option]),
         ] {
             run.ends(2);
         }
@@ -242,17 +242,18 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     ] {
         let run = Run::query(&["--a", body, "--b", "sphere:.01"]).args(option);
         assert_eq!(
-            run.stdin(inside).succeeds()[0].text("status"),
+            run.stdin(inside).expect_rows()[0].text("status"),
             status,
             "{body}"
         );
     }
     let out = scene.directory.join("hollow.ccd");
-    Run::bare(&["decompose", &hollow, "--out", name(&out)]).ends(0);
+    Run::with_args(&["decompose", &hollow, "--out", name(&out)]).ends(0);
     let rows = Run::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
-    assert_eq!(rows.succeeds()[0].text("status"), "free");
+    assert_eq!(rows.expect_rows()[0].text("status"), "free");
     // A prepared body is not adjusted.
-    let output = Run::query(&["--a", name(&out), "--b", BALL, "--scale", "2"]).stdin(FALL);
+    let output =
+        Run::query(&["--a", name(&out), "--b", BALL, "--scale", "2"]).stdin(FALLING_BALL_MOTION);
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
 
@@ -329,7 +330,7 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
         assert_eq!(message.contains("give --unit"), is_told, "{message}");
     }
     let output = Run::query(&["--a", BALL, "--b", BALL, "--unit", "mile"])
-        .stdin(FALL)
+        .stdin(FALLING_BALL_MOTION)
         .output();
     let message = stderr(&output);
     assert_contains(&message, "um, mm, cm, m, in, ft");
@@ -340,7 +341,7 @@ fn a_part_is_prepared_and_stored() {
     let scene = Scene::new("parts-stored");
     let file = scene.bytes("scene.glb", &glb());
     let stored = scene.directory.join("lid.ccd");
-    let output = Run::bare(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
+    let output = Run::with_args(&["decompose", &part(&file, "lid"), "--unit", "mm", "--out"])
         .args(&[name(&stored), "--format", "json"])
         .ends(0);
     let statistics: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -350,10 +351,10 @@ fn a_part_is_prepared_and_stored() {
     // The lid is a slab from 1875 to 2125 mm.
     let rows = Run::query(&["--a", name(&stored), "--b", "sphere:100", "--unit", "mm"])
         .stdin("b_pz,b_vz,duration\n4000,-1000,4\n")
-        .succeeds();
+        .expect_rows();
     let early = 1.775 - rows[0].number("time");
     assert!((0.0..=1.001e-6).contains(&early), "{early}");
-    let text = Run::bare(&["decompose", &part(&file, "lid")]).output();
+    let text = Run::with_args(&["decompose", &part(&file, "lid")]).output();
     let text = String::from_utf8(text.stdout).unwrap();
     assert_contains(&text, "\nunit          m\n");
 }
@@ -366,10 +367,10 @@ fn runs_know_their_unit_and_all_their_files() {
     json["buffers"][0]["uri"] = json!("scene.bin");
     let file = scene.file("scene.gltf", &json.to_string());
     let data = scene.bytes("scene.bin", &binary);
-    let motions = scene.file("motions.csv", FALL);
+    let motions = scene.file("motions.csv", FALLING_BALL_MOTION);
     let results = scene.directory.join("results.csv");
     let run = |unit: &str| {
-        Run::bare(&["query", "--a", name(&file), "--b", BALL, "--unit", unit])
+        Run::with_args(&["query", "--a", name(&file), "--b", BALL, "--unit", unit])
             .args(&[
                 "--motions",
                 name(&motions),
@@ -392,7 +393,7 @@ fn runs_know_their_unit_and_all_their_files() {
     assert_eq!(other.status.code(), Some(2));
     assert_contains(&stderr(&other), "--a");
     // Results must not replace a buffer either.
-    let output = Run::bare(&["query", "--a", name(&file), "--b", BALL])
+    let output = Run::with_args(&["query", "--a", name(&file), "--b", BALL])
         .args(&["--motions", name(&motions), "--out", name(&data)])
         .output();
     assert_contains(&stderr(&output), "--out would overwrite the file of --a");

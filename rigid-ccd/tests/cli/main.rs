@@ -20,8 +20,8 @@ use command::{Row, Run, Scene, assert_contains, parse, stderr};
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
 
 /// The options for a cube that falls at speed 4 onto a slab whose top is 2.5 below the cube.
-const FALLING_CUBE: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
-const DROP: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
+const CUBE_AND_SLAB_OPTIONS: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+const FALLING_CUBE_MOTION: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
 const DROP_TIME: f64 = 2.5 / 4.0;
 
 const TETRAHEDRON: &str =
@@ -30,7 +30,7 @@ const TETRAHEDRON: &str =
 impl Run {
     /// Returns a call of `ccd query` whose motions come from standard input.
     pub(crate) fn query(bodies: &[&str]) -> Self {
-        Run::bare(&["query", "--motions", "-"]).args(bodies)
+        Run::with_args(&["query", "--motions", "-"]).args(bodies)
     }
 }
 
@@ -52,8 +52,8 @@ impl Row {
 
 #[test]
 fn a_box_falls_onto_a_box() {
-    let run = Run::query(&FALLING_CUBE).stdin(DROP);
-    let rows = run.succeeds();
+    let run = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin(FALLING_CUBE_MOTION);
+    let rows = run.expect_rows();
     assert_eq!(rows.len(), 1);
     let row = &rows[0];
     assert_eq!((row.text("id"), row.text("status")), ("drop", "contact"));
@@ -80,10 +80,10 @@ fn every_schedule_and_oracle_gives_the_answer() {
                 "--tolerance",
                 "1e-6",
             ];
-            let rows = Run::query(&FALLING_CUBE)
+            let rows = Run::query(&CUBE_AND_SLAB_OPTIONS)
                 .args(&options)
-                .stdin(DROP)
-                .succeeds();
+                .stdin(FALLING_CUBE_MOTION)
+                .expect_rows();
             assert_eq!(rows[0].text("status"), "contact", "{schedule} {oracle}");
             let late = rows[0].number("time") - DROP_TIME;
             assert!(
@@ -98,7 +98,9 @@ fn every_schedule_and_oracle_gives_the_answer() {
 fn every_status_occurs() {
     let motions = "id,a_pz,a_vz,duration\n\
                    free,4,-4,0.25\ncontact,4,-4,1\ntouching,1.5005,-4,1\noverlapping,1,0,1\n";
-    let rows = Run::query(&FALLING_CUBE).stdin(motions).succeeds();
+    let rows = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        .stdin(motions)
+        .expect_rows();
     for row in &rows {
         assert_eq!(row.text("id"), row.text("status"));
     }
@@ -117,7 +119,7 @@ fn an_unresolved_row_is_a_result() {
     let motions = "a_px,a_vx,a_wz\n5,-5,9\n";
     let rows = Run::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
         .stdin(motions)
-        .succeeds();
+        .expect_rows();
     assert_eq!(rows[0].text("status"), "unresolved");
     assert_eq!(rows[0].text("reason"), "budget");
     assert!((0.0..0.9).contains(&rows[0].number("time")));
@@ -125,46 +127,48 @@ fn an_unresolved_row_is_a_result() {
 
 #[test]
 fn a_deadline_leaves_a_row_unresolved() {
-    let message = Run::query(&FALLING_CUBE)
+    let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "0"])
-        .stdin(DROP)
+        .stdin(FALLING_CUBE_MOTION)
         .fails(0);
     assert!(
         message.contains("1 unresolved") && message.contains("--deadline"),
         "{message}"
     );
     // A long deadline has no effect.
-    let rows = Run::query(&FALLING_CUBE)
+    let rows = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "3600"])
-        .stdin(DROP)
-        .succeeds();
+        .stdin(FALLING_CUBE_MOTION)
+        .expect_rows();
     assert_eq!(rows[0].text("status"), "contact");
 }
 
 #[test]
 fn margins_are_kept_and_leave_ignores_contacts_at_the_start() {
-    let with_margin = Run::query(&FALLING_CUBE)
+    let with_margin = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--margin", "0.5"])
-        .stdin(DROP)
-        .succeeds();
+        .stdin(FALLING_CUBE_MOTION)
+        .expect_rows();
     with_margin[0].assert_in_time(2.0 / 4.0, 4.0);
     let parting = "a_pz,a_vz\n1.5,1\n";
-    let reported = Run::query(&FALLING_CUBE).stdin(parting).succeeds();
+    let reported = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        .stdin(parting)
+        .expect_rows();
     assert_eq!(reported[0].text("status"), "touching");
-    let left = Run::query(&FALLING_CUBE)
+    let left = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--start", "leave"])
         .stdin(parting)
-        .succeeds();
+        .expect_rows();
     assert_eq!(left[0].text("status"), "free");
 }
 
 #[test]
 fn files_are_read_and_written() {
     let scene = Scene::new("files");
-    let motions = scene.file("motions.csv", DROP);
+    let motions = scene.file("motions.csv", FALLING_CUBE_MOTION);
     let results = scene.directory.join("results.csv");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
-    let run = Run::bare(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
+    let run = Run::with_args(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
         .args(&[
             "--motions",
             motions.to_str().unwrap(),
@@ -207,7 +211,10 @@ fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() 
         motions += &format!("3,{},-6,{k},2,{}\n", 0.06 * k - 1.9, 0.1 * k);
     }
     let answers = |options: &[&str]| -> Vec<Vec<String>> {
-        let rows = Run::query(&bodies).args(options).stdin(&motions).succeeds();
+        let rows = Run::query(&bodies)
+            .args(options)
+            .stdin(&motions)
+            .expect_rows();
         rows.into_iter().map(Row::without_micros).collect()
     };
     let one = answers(&[]);
@@ -228,7 +235,7 @@ fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() 
 #[test]
 fn raised_tolerances_are_reported() {
     let far = "a_px,b_px,a_pz,a_vz\n1e9,1e9,4,-4\n";
-    let output = Run::query(&FALLING_CUBE)
+    let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--tolerance", "1e-12"])
         .stdin(far)
         .ends(0);
@@ -248,7 +255,7 @@ fn results_never_overwrite_their_motions() {
         ["m.csv.partial", "--contacts", "m.csv"],
     ] {
         let (motions, target) = (named(motions), named(target));
-        std::fs::write(&motions, DROP).unwrap();
+        std::fs::write(&motions, FALLING_CUBE_MOTION).unwrap();
         for more in [&[][..], &["--resume"]] {
             let output = std::process::Command::new(PROGRAM)
                 .args(["query", "--a", "box:1,1,1", "--b", "box:1,1,1"])
@@ -259,7 +266,10 @@ fn results_never_overwrite_their_motions() {
             assert_eq!(output.status.code(), Some(2), "{motions} {target}");
             let message = stderr(&output);
             assert_contains(&message, "another file");
-            assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
+            assert_eq!(
+                std::fs::read_to_string(&motions).unwrap(),
+                FALLING_CUBE_MOTION
+            );
         }
     }
     std::fs::remove_dir_all(&folder).unwrap();
@@ -300,9 +310,9 @@ fn tables_do_not_overwrite_each_other_by_any_spelling() {
 #[test]
 fn tolerances_that_no_row_accepts_are_refused_at_once() {
     for tolerance in ["1e-300", "0", "-1", "1e13", "nan"] {
-        let output = Run::query(&FALLING_CUBE)
+        let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
             .args(&["--tolerance", tolerance])
-            .stdin(DROP)
+            .stdin(FALLING_CUBE_MOTION)
             .output();
         let message = stderr(&output);
         assert_contains(&message, "give a number from 1e-100 to 1e12");
@@ -311,11 +321,13 @@ fn tolerances_that_no_row_accepts_are_refused_at_once() {
 
 #[test]
 fn the_summary_counts_rows_and_quiet_omits_it() {
-    let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
+    let loud = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        .stdin(FALLING_CUBE_MOTION)
+        .output();
     assert_contains(&stderr(&loud), "1 row: 1 contact; median");
-    let quiet = Run::query(&FALLING_CUBE)
+    let quiet = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--quiet"])
-        .stdin(DROP)
+        .stdin(FALLING_CUBE_MOTION)
         .output();
     assert_eq!(stderr(&quiet), "");
     assert!(quiet.status.success());
@@ -323,7 +335,7 @@ fn the_summary_counts_rows_and_quiet_omits_it() {
 
 #[test]
 fn a_table_without_rows_gives_a_header() {
-    let output = Run::query(&FALLING_CUBE).stdin("id\n").ends(0);
+    let output = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin("id\n").ends(0);
     let header = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(
         header.starts_with("id,status,time,distance_lower,"),
@@ -338,7 +350,7 @@ fn a_table_without_rows_gives_a_header() {
 #[test]
 fn help_shows_examples() {
     for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
-        let output = Run::bare(args).stdin("").ends(0);
+        let output = Run::with_args(args).stdin("").ends(0);
         assert!(
             String::from_utf8(output.stdout)
                 .unwrap()

@@ -1,7 +1,7 @@
 //! Tests messages about input, and about bodies of different size.
 
 use crate::command::{Run, Scene, assert_contains, parse, stderr};
-use crate::{DROP, FALLING_CUBE};
+use crate::{CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION};
 
 const SPHERES: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
@@ -31,7 +31,7 @@ fn every_cause_is_reported_once() {
         (folder, "sphere:1", "is a folder"),
         ("-", folder, "is a folder; name a mesh in it"),
     ] {
-        let run = Run::bare(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
+        let run = Run::with_args(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
         let message = run.stdin("id\n1\n").fails(2);
         let lines: Vec<&str> = message
             .lines()
@@ -59,7 +59,7 @@ fn missing_files_are_reported_once() {
         (there, "sphere:1", "gone/out.csv"),
         (there, "sphere:1", "/dev/null/gone.csv"),
     ] {
-        let run = Run::bare(&["query", "--quiet", "--motions", motions, "--out", out]);
+        let run = Run::with_args(&["query", "--quiet", "--motions", motions, "--out", out]);
         let output = run.args(&["--a", a, "--b", "sphere:1"]).stdin("").output();
         assert!(!output.status.success());
         let message = stderr(&output);
@@ -77,7 +77,7 @@ fn missing_files_are_reported_once() {
 
 #[test]
 fn help_explains_row_numbers_and_half_turns() {
-    let output = Run::bare(&["query", "--help"]).stdin("").output();
+    let output = Run::with_args(&["query", "--help"]).stdin("").output();
     let text = String::from_utf8(output.stdout).unwrap();
     for words in [
         "Rows count from 0",
@@ -143,7 +143,7 @@ fn nothing_in_a_file_controls_the_terminal() {
     let motions = scene.file("\u{1b}[31mred.csv", table);
     let mesh = [crate::TETRAHEDRON, "\u{1b}[5m 1\n"].concat();
     let mesh = scene.file("part.obj", &mesh);
-    let message = Run::bare(&["query", "--b", "box:1,1,1"])
+    let message = Run::with_args(&["query", "--b", "box:1,1,1"])
         .args(&[
             "--a",
             mesh.to_str().unwrap(),
@@ -187,15 +187,23 @@ fn traps_are_remarked_upon_once() {
     let quaternions = "a_px,a_qw,a_qx,a_qy,a_qz\n1,1,1,0,0\n1,1,1,0,0\n".to_owned();
     let coarse = ["--a", "sphere:.0005", "--b", "box:9,9,1"];
     for (bodies, motions, words) in [
-        (FALLING_CUBE, spins("90 180 -45"), "makes 14.3 turns"),
-        (FALLING_CUBE, quaternions, "has the length 1.414"),
-        (coarse, DROP.to_owned(), "the tolerance is large against"),
+        (
+            CUBE_AND_SLAB_OPTIONS,
+            spins("90 180 -45"),
+            "makes 14.3 turns",
+        ),
+        (CUBE_AND_SLAB_OPTIONS, quaternions, "has the length 1.414"),
+        (
+            coarse,
+            FALLING_CUBE_MOTION.to_owned(),
+            "the tolerance is large against",
+        ),
     ] {
         for command in ["query", "audit"] {
             let tolerance = ["--tolerance", "0.001"];
             let bare = [command, "--motions", "-"];
             let run = || {
-                Run::bare(&bare)
+                Run::with_args(&bare)
                     .args(&bodies)
                     .args(&tolerance)
                     .stdin(&motions)
@@ -212,7 +220,9 @@ fn traps_are_remarked_upon_once() {
     }
     // A shaft at round numbers of radians, among them some that would be round in degrees.
     for rates in ["100", "6.283185307179586", "45 46", "0", "3.14 1.57"] {
-        let output = Run::query(&FALLING_CUBE).stdin(&spins(rates)).output();
+        let output = Run::query(&CUBE_AND_SLAB_OPTIONS)
+            .stdin(&spins(rates))
+            .output();
         assert!(!stderr(&output).contains("turns"), "{}", stderr(&output));
     }
 }
@@ -226,7 +236,7 @@ fn a_single_known_unit_is_reported_once() {
     let in_mm = format!("{plain}@mm");
     let large = format!("{plain}@scale=1000");
     let told = |options: &[&str]| {
-        let message = Run::query(options).stdin(DROP).fails(0);
+        let message = Run::query(options).stdin(FALLING_CUBE_MOTION).fails(0);
         let lines = message.lines().filter(|line| line.starts_with("ccd: "));
         lines.map(str::to_owned).collect::<Vec<_>>()
     };
@@ -278,7 +288,7 @@ fn angular_velocities_of_a_path_need_orientations() {
 fn a_page_of_rows_is_remarked_upon() {
     let scene = Scene::new("page-remarks");
     let motions = scene.file("motions.csv", "a_px,a_wz\n9,90\n");
-    let run = Run::bare(&[
+    let run = Run::with_args(&[
         "view",
         "--motions",
         motions.to_str().unwrap(),

@@ -10,7 +10,7 @@ use std::process::{Command, Output};
 const MOTIONS: &str = "id,a_pz,a_vz\nhit,4,-4\nfree,9,-1\n";
 
 /// Writes a ball of many triangles, and a table with a row for each of its many contacts with itself.
-fn inputs(scene: &Scene) {
+fn write_inputs(scene: &Scene) {
     let mut ball = String::new();
     for k in 0..=24 {
         for j in 0..48 {
@@ -39,7 +39,7 @@ fn inputs(scene: &Scene) {
 }
 
 /// All commands that write a file: the file, and the arguments of the command.
-const WRITERS: [(&str, &str); 8] = [
+const WRITING_COMMANDS: [(&str, &str); 8] = [
     (
         "r.csv",
         "query --a box:.5,.5,.5 --b box:9,9,1 --motions many.csv --out r.csv",
@@ -67,7 +67,7 @@ const WRITERS: [(&str, &str); 8] = [
 
 fn run(scene: &Scene, command: &str) -> Output {
     let args: Vec<&str> = command.split(' ').collect();
-    Run::bare(&args).folder(&scene.directory).output()
+    Run::with_args(&args).folder(&scene.directory).output()
 }
 
 fn names(scene: &Scene) -> Vec<String> {
@@ -82,9 +82,9 @@ fn names(scene: &Scene) -> Vec<String> {
 #[test]
 fn one_run_at_a_time_writes_a_file() {
     let scene = empty_folder("one-at-a-time");
-    inputs(&scene);
+    write_inputs(&scene);
     let before = names(&scene);
-    for (name, command) in WRITERS {
+    for (name, command) in WRITING_COMMANDS {
         let claim = Claim::new(path(&scene, name)).unwrap();
         fs::write(path(&scene, name), "good").unwrap();
         let output = run(&scene, command);
@@ -117,7 +117,7 @@ fn one_run_at_a_time_writes_a_file() {
     assert!(run(&scene, scenes).status.success());
     // Pages go to a folder.
     let claim = Claim::new(scene.directory.join(".pages")).unwrap();
-    let audit = format!("{} --pages .", WRITERS[3].1);
+    let audit = format!("{} --pages .", WRITING_COMMANDS[3].1);
     assert_eq!(run(&scene, &audit).status.code(), Some(2));
     drop(claim);
     assert_eq!(
@@ -312,8 +312,8 @@ mod full {
     #[test]
     fn a_full_disk_loses_no_older_file() {
         let scene = empty_folder("full-disk");
-        inputs(&scene);
-        for (name, command) in WRITERS {
+        write_inputs(&scene);
+        for (name, command) in WRITING_COMMANDS {
             fs::write(path(&scene, name), "good").unwrap();
             let output = run_with_full_disk(&scene, command);
             let message = stderr(&output);
@@ -328,7 +328,7 @@ mod full {
             ["b.ccd", "b.obj", "ball.obj", "q.html", "s.html", "v.html"]
         );
         // The existing part of a table is continued once there is space.
-        let output = run(&scene, &format!("{} --resume", WRITERS[0].1));
+        let output = run(&scene, &format!("{} --resume", WRITING_COMMANDS[0].1));
         assert!(output.status.success(), "{}", stderr(&output));
         let rows = read(&path(&scene, "r.csv"));
         let ids = rows
@@ -341,7 +341,7 @@ mod full {
     #[test]
     fn a_full_disk_loses_no_pages() {
         let scene = empty_folder("full-pages");
-        inputs(&scene);
+        write_inputs(&scene);
         scene.file("hit.html", "good");
         let audit =
             "audit --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --out a.csv --pages .";
@@ -357,7 +357,7 @@ mod full {
     #[test]
     fn open_files_are_written_on() {
         let scene = empty_folder("open-files");
-        inputs(&scene);
+        write_inputs(&scene);
         let query = "query --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --quiet --out";
         for out in ["-", "/dev/stdout", "/dev/fd/3"] {
             scene.file("all.csv", "before\n");

@@ -1,7 +1,7 @@
 //! Tests `ccd query --ask` for motions and for paths.
 
 use crate::command::{Row, Run, Scene, assert_contains, parse, stderr};
-use crate::{DROP, DROP_TIME, FALLING_CUBE};
+use crate::{CUBE_AND_SLAB_OPTIONS, DROP_TIME, FALLING_CUBE_MOTION};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
 use std::fs;
@@ -26,14 +26,14 @@ fn ask(question: &str, bodies: &[&str], table: &str) -> Run {
 }
 
 fn only_row(run: &Run) -> Row {
-    let mut rows = run.succeeds();
+    let mut rows = run.expect_rows();
     assert_eq!(rows.len(), 1);
     rows.remove(0)
 }
 
 #[test]
 fn a_contact_is_found_at_any_time() {
-    let row = only_row(&ask("is-free", &FALLING_CUBE, DROP));
+    let row = only_row(&ask("is-free", &CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!((DROP_TIME - 1e-3..=1.0).contains(&time), "{time}");
@@ -46,7 +46,7 @@ fn a_contact_is_found_at_any_time() {
 #[test]
 fn an_interval_holds_the_contact() {
     let through = "a_pz,a_vz,duration\n4,-4,3\n";
-    let row = only_row(&ask("contact-interval", &FALLING_CUBE, through));
+    let row = only_row(&ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, through));
     assert_eq!(row.text("status"), "contact");
     row.assert_in_time(DROP_TIME, 4.0);
     let late = row.number("last_time") - 5.5 / 4.0;
@@ -57,8 +57,8 @@ fn an_interval_holds_the_contact() {
 fn an_interval_begins_as_the_first_contact_does() {
     let starts =
         "id,a_px,a_pz,a_vz\ninto,0,1.4,-1\ndeep,0,0,0\non,0,1.5005,1\nin,0,1.4,1\nbeside,19,0,0\n";
-    let first = ask("first-contact", &FALLING_CUBE, starts).succeeds();
-    let interval = ask("contact-interval", &FALLING_CUBE, starts).succeeds();
+    let first = ask("first-contact", &CUBE_AND_SLAB_OPTIONS, starts).expect_rows();
+    let interval = ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, starts).expect_rows();
     for (first, interval) in first.iter().zip(&interval) {
         for column in ["id", "status", "time", "distance_lower", "witness_a_x"] {
             assert_eq!(first.text(column), interval.text(column), "{column}");
@@ -88,7 +88,12 @@ fn the_least_distance_is_bracketed_and_compared() {
         let run = ask("closest-approach", &BALLS, PASSING_MOTION).args(&["--clearance", clearance]);
         assert_eq!(only_row(&run).text("status"), status, "{clearance}");
     }
-    let run = ask("closest-approach", &FALLING_CUBE, DROP).args(&["--clearance", "0.002"]);
+    let run = ask(
+        "closest-approach",
+        &CUBE_AND_SLAB_OPTIONS,
+        FALLING_CUBE_MOTION,
+    )
+    .args(&["--clearance", "0.002"]);
     assert_eq!(only_row(&run).text("status"), "violated");
     let run = ask("closest-approach", &BALLS, PASSING_MOTION).args(&[
         "--clearance",
@@ -148,23 +153,27 @@ fn a_clearance_that_is_decided_ends_the_search() {
 
 #[test]
 fn the_distance_is_that_of_the_start() {
-    let row = only_row(&ask("distance", &FALLING_CUBE, DROP));
+    let row = only_row(&ask(
+        "distance",
+        &CUBE_AND_SLAB_OPTIONS,
+        FALLING_CUBE_MOTION,
+    ));
     assert_eq!((row.text("status"), row.text("time")), ("measured", "0.0"));
     assert!((row.number("distance_lower") - 2.5).abs() < 1e-3);
     assert!((row.number("distance_upper") - 2.5).abs() < 1e-12);
     assert!((row.number("witness_b_z") - 1.0).abs() < 1e-12);
     let inside = "a_px\n0.1\n";
-    let row = only_row(&ask("distance", &FALLING_CUBE, inside));
+    let row = only_row(&ask("distance", &CUBE_AND_SLAB_OPTIONS, inside));
     assert_eq!(row.text("status"), "overlapping");
 }
 
 #[test]
 fn paths_answer_every_question() {
-    let row = only_row(&ask("first-contact", &FALLING_CUBE, VISIT_PATH));
+    let row = only_row(&ask("first-contact", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
     assert_eq!((row.text("id"), row.text("status")), ("visit", "contact"));
     row.assert_in_time(VISIT_BEGINS, 1.0);
 
-    let row = only_row(&ask("is-free", &FALLING_CUBE, VISIT_PATH));
+    let row = only_row(&ask("is-free", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!(
@@ -172,13 +181,13 @@ fn paths_answer_every_question() {
         "{time}"
     );
 
-    let row = only_row(&ask("contact-interval", &FALLING_CUBE, VISIT_PATH));
+    let row = only_row(&ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
     row.assert_in_time(VISIT_BEGINS, 1.0);
     let late = row.number("last_time") - VISIT_ENDS;
     assert!((-1e-9..=2e-3).contains(&late), "{late} late");
 
     let over = VISIT_PATH.replace(",1\n", ",2\n");
-    let row = only_row(&ask("closest-approach", &FALLING_CUBE, &over));
+    let row = only_row(&ask("closest-approach", &CUBE_AND_SLAB_OPTIONS, &over));
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(
         lower <= 0.5 && 0.5 <= upper && upper - lower <= 1e-3,
@@ -186,13 +195,13 @@ fn paths_answer_every_question() {
     );
     let time = row.number("time");
     assert!((12.9..=14.1).contains(&time), "{time}");
-    let row = only_row(&ask("first-contact", &FALLING_CUBE, &over));
+    let row = only_row(&ask("first-contact", &CUBE_AND_SLAB_OPTIONS, &over));
     assert_eq!((row.text("status"), row.text("time")), ("free", "18.0"));
 }
 
 #[test]
 fn distances_are_those_of_every_row_of_a_path() {
-    let rows = ask("distance", &FALLING_CUBE, VISIT_PATH).succeeds();
+    let rows = ask("distance", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH).expect_rows();
     let times: Vec<f64> = rows.iter().map(|row| row.number("time")).collect();
     assert_eq!(times, [10.0, 13.0, 14.0, 18.0]);
     let statuses: Vec<&str> = rows.iter().map(|row| row.text("status")).collect();
@@ -210,7 +219,8 @@ fn contacts_of_a_path_are_listed() {
     let scene = Scene::new("contacts-of-a-path");
     let contacts = scene.directory.join("contacts.csv");
     let contacts_name = contacts.to_str().unwrap();
-    let run = ask("first-contact", &FALLING_CUBE, VISIT_PATH).args(&["--contacts", contacts_name]);
+    let run = ask("first-contact", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH)
+        .args(&["--contacts", contacts_name]);
     let found = only_row(&run);
     let rows = parse(&fs::read(&contacts).unwrap());
     assert_eq!(rows.len(), 4, "the corners of the cube");
@@ -229,7 +239,7 @@ fn paths_are_resumed_and_cut_into_rows() {
         .collect();
     let table = format!("id,t,a_px,a_pz\n{table}");
     let run = |more: &[&str]| {
-        ask("is-free", &FALLING_CUBE, &table)
+        ask("is-free", &CUBE_AND_SLAB_OPTIONS, &table)
             .args(&["--no-micros"])
             .args(more)
     };
@@ -256,7 +266,7 @@ fn paths_are_resumed_and_cut_into_rows() {
     };
     assert_eq!(lines(&part)[1..], lines(&whole)[11..31]);
     let out_name = out.to_str().unwrap();
-    run(&["--out", out_name]).succeeds();
+    run(&["--out", out_name]).expect_rows();
     let again = run(&["--out", out_name, "--resume"]).output();
     assert_contains(&stderr(&again), "already has all rows");
     assert_eq!(fs::read(&out).unwrap(), whole);
@@ -298,7 +308,7 @@ fn options_without_a_use_are_refused() {
             "first-contact, is-free, contact-interval, closest-approach, distance",
         ),
     ] {
-        let message = Run::query(&FALLING_CUBE)
+        let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
             .args(options)
             .stdin(VISIT_PATH)
             .fails(2);
@@ -366,11 +376,11 @@ fn a_check_fails_unless_every_row_is_proven() {
 #[test]
 fn a_finished_check_fails_again() {
     let scene = Scene::new("check-again");
-    let motions = scene.file("motions.csv", DROP);
+    let motions = scene.file("motions.csv", FALLING_CUBE_MOTION);
     let out = scene.directory.join("results.csv");
     let query = ["query", "--motions", motions.to_str().unwrap(), "--check"];
-    let run = Run::bare(&query)
-        .args(&FALLING_CUBE)
+    let run = Run::with_args(&query)
+        .args(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--out", out.to_str().unwrap()]);
     assert_eq!(run.output().status.code(), Some(3));
     run.args(&["--resume"]).ends(3);

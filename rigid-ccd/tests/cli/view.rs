@@ -9,7 +9,7 @@ const DROPS: &str =
 const CUBE_AND_SLAB: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 
 fn view(folder: &Path, more: &[&str]) -> Value {
-    Run::bare(&["view"]).args(more).folder(folder).ends(0);
+    Run::with_args(&["view"]).args(more).folder(folder).ends(0);
     data(&folder.join("view.html"))
 }
 
@@ -94,7 +94,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         &["--motions", &motions, "--ids", "never,hit,gone"],
     ]
     .concat();
-    let message = Run::bare(&["view"])
+    let message = Run::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
         .fails(2);
@@ -108,7 +108,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
         &["--motions", &motions, "--ids", "gone"],
     ]
     .concat();
-    let message = Run::bare(&["view"])
+    let message = Run::with_args(&["view"])
         .args(&nothing)
         .folder(&scene.directory)
         .fails(2);
@@ -131,7 +131,7 @@ fn results_are_shown_as_they_are() {
         ],
     ]
     .concat();
-    Run::bare(&["query"])
+    Run::with_args(&["query"])
         .args(&query)
         .folder(&scene.directory)
         .ends(0);
@@ -171,7 +171,7 @@ fn results_are_shown_as_they_are() {
         &["--motions", &motions, "--results", &motions],
     ]
     .concat();
-    let message = Run::bare(&["view"])
+    let message = Run::with_args(&["view"])
         .args(&wrong)
         .folder(&scene.directory)
         .fails(2);
@@ -188,7 +188,7 @@ fn results_of_other_bodies_are_not_shown() {
     ]
     .concat();
     assert!(
-        Run::bare(&query)
+        Run::with_args(&query)
             .folder(&scene.directory)
             .output()
             .status
@@ -203,7 +203,7 @@ fn results_of_other_bodies_are_not_shown() {
         "--motions",
         &motions,
     ];
-    let output = Run::bare(&view)
+    let output = Run::with_args(&view)
         .args(&["--results", "results.csv"])
         .folder(&scene.directory)
         .ends(2);
@@ -215,7 +215,7 @@ fn results_of_other_bodies_are_not_shown() {
         &CUBE_AND_SLAB[..],
     ]
     .concat();
-    let output = Run::bare(&view).folder(&scene.directory).output();
+    let output = Run::with_args(&view).folder(&scene.directory).output();
     assert_contains(&stderr(&output), "no row of");
 }
 
@@ -228,7 +228,7 @@ fn verdict(scene: &Scene, more: &[&str]) -> String {
         more,
     ]
     .concat();
-    Run::bare(&["query"])
+    Run::with_args(&["query"])
         .args(&args)
         .folder(&scene.directory)
         .ends(0);
@@ -304,7 +304,7 @@ fn an_unwritable_page_is_an_error_before_the_work() {
         ]
         .concat(),
     ] {
-        let message = Run::bare(&args).folder(&scene.directory).fails(1);
+        let message = Run::with_args(&args).folder(&scene.directory).fails(1);
         assert_contains(&message, "create it first");
         assert!(!scene.directory.join("x.csv").exists());
     }
@@ -319,7 +319,7 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
         "id,a_pz,a_vz\nbad,x,0\nhit,4,-4\nfar,1e13,0\n",
     );
     let args = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
-    let message = Run::bare(&["view"])
+    let message = Run::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
         .fails(2);
@@ -396,7 +396,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
         ("body,pz\n", "no bodies"),
     ] {
         let bodies = file(&scene, "wrong.csv", table);
-        let message = Run::bare(&["view", "--scene", &bodies])
+        let message = Run::with_args(&["view", "--scene", &bodies])
             .folder(&scene.directory)
             .fails(2);
         assert_contains(&message, says);
@@ -415,7 +415,7 @@ fn a_page_overwrites_nothing_that_is_read() {
         [&["query", "--out", "x.csv", "--html", "./x.csv"], &both[..]].concat(),
         vec!["view", "--scene", &bodies, "--out", &bodies],
     ] {
-        Run::bare(&args).folder(&scene.directory).ends(2);
+        Run::with_args(&args).folder(&scene.directory).ends(2);
         assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS);
     }
     for args in [
@@ -423,6 +423,6 @@ fn a_page_overwrites_nothing_that_is_read() {
         &["view", "--a", "sphere:1"],
         &["view", "--scene", &bodies, "--a", "sphere:1"],
     ] {
-        Run::bare(args).folder(&scene.directory).ends(2);
+        Run::with_args(args).folder(&scene.directory).ends(2);
     }
 }

@@ -4,14 +4,14 @@ use super::{Extent, OrientedBox};
 use crate::rational::{Exact3, exact};
 use crate::search::element::Element;
 use crate::tolerance::box_rounding;
-use crate::worst::{Tape, Worst, share};
+use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use dashu_ratio::Relaxed;
 
 /// Draws a box around a triangle, and three points; all may be far from the origin.
-fn setting(tape: &mut Tape) -> (OrientedBox, [DVec3; 3]) {
+fn setting(tape: &mut RandomCase) -> (OrientedBox, [DVec3; 3]) {
     let scale = tape.size(-300..=39);
     let middle = DVec3::from(tape.vector(-8..=0));
     let small = tape.size(-50..=0);

@@ -1,11 +1,11 @@
 use super::{TOUCHING_ULPS, VOLUME_ULPS};
 use crate::rational::{Exact3, error_of, exact};
-use crate::worst::{Tape, Worst, share};
+use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 /// Draws four corners, flat or not, near the origin or not.
-fn corners(tape: &mut Tape) -> [DVec3; 4] {
+fn corners(tape: &mut RandomCase) -> [DVec3; 4] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=0)), tape.size(-30..=4));
     [(); 4].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
 }

@@ -122,7 +122,7 @@ fn with_checksum(mut line: String, sum: &mut Hasher) -> String {
 
 /// What the journal of an earlier run tells.
 pub(super) struct EarlierRun {
-    recorded: String,
+    recorded_options: String,
     /// The number of rows that the earlier run answered.
     pub(super) rows: usize,
     /// The last checkpoint in the journal.
@@ -158,7 +158,7 @@ impl EarlierRun {
         let first = lines.next().ok_or(JournalLost)??;
         let checkpoint = lines.try_fold(first, |_, next| next)?;
         Ok(Some(EarlierRun {
-            recorded: recorded.to_owned(),
+            recorded_options: recorded.to_owned(),
             rows: checkpoint.rows.saturating_sub(first.rows),
             checkpoint,
             bytes: (recorded.len() + CHECKPOINTS.len() + complete.len()) as u64,
@@ -168,7 +168,7 @@ impl EarlierRun {
 
     /// Describes the options that differ from those of the earlier run.
     pub(super) fn changes(&self, recorded: &RecordedOptions) -> Option<String> {
-        recorded.changes(&self.recorded)
+        recorded.changes(&self.recorded_options)
     }
 
     /// Opens the journal to append to it.

@@ -21,7 +21,7 @@ pub(super) struct Run<'a> {
     pub(super) answering: BatchRun<'a>,
     pub(super) outputs: Outputs,
     /// The rows chosen for the page of `--html`; `None` without this option.
-    pub(super) shown: Option<ChosenRows>,
+    pub(super) page_rows: Option<ChosenRows>,
     pub(super) summary: Summary,
 }
 
@@ -45,7 +45,7 @@ impl Run<'_> {
                 ..done
             };
             self.outputs.save(done)?;
-            if let Some(error) = batch.broken {
+            if let Some(error) = batch.table_error {
                 return Err(error).with_context(|| input_name(&self.args.motions));
             }
         }
@@ -59,14 +59,14 @@ impl Run<'_> {
                 position,
                 course,
                 mut row,
-                timed,
+                timed_answer: timed,
             } = self.answering.answered_row(row);
             match timed {
                 Some(timed) => self.summary.add(row.status, timed),
                 None => self.summary.add_error(),
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);
-            if let (Some(shown), Some(course)) = (&mut self.shown, course) {
+            if let (Some(shown), Some(course)) = (&mut self.page_rows, course) {
                 shown.add_if_wanted(course, &row);
             }
             self.outputs.results.row(&Line(&columns, &row))?;

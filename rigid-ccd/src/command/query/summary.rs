@@ -18,7 +18,7 @@ pub(super) struct Summary {
     pub(super) counts: Counts,
     /// The number of rows that an earlier run answered; only their status is known.
     earlier: usize,
-    times: Times,
+    times: TimeHistogram,
     /// The number of pairs of nodes visited in all queries.
     pub(super) iterations: u64,
     /// The number of calls of the distance backend in all queries.
@@ -32,7 +32,7 @@ pub(super) struct Summary {
     /// The number of queries that each of the [`LIMITS`] ended.
     limits: [usize; LIMITS.len()],
     /// The number of answers with a larger tolerance than the given one, because of rounding.
-    pub(super) raised: usize,
+    pub(super) raised_tolerances: usize,
     /// The largest tolerance of any answer, in the scene's unit of length.
     pub(super) largest_tolerance: f64,
 }
@@ -43,14 +43,14 @@ impl Summary {
         Summary {
             counts: Counts::default(),
             earlier: 0,
-            times: Times::default(),
+            times: TimeHistogram::default(),
             iterations: 0,
             oracle_calls: 0,
             advancements: 0,
             oracle_steps: 0,
             tolerance,
             limits: [0; LIMITS.len()],
-            raised: 0,
+            raised_tolerances: 0,
             largest_tolerance: tolerance,
         }
     }
@@ -75,7 +75,7 @@ impl Summary {
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
         self.oracle_steps += answer.stats.effort.steps;
-        self.raised += usize::from(answer.tolerance > self.tolerance);
+        self.raised_tolerances += usize::from(answer.tolerance > self.tolerance);
         self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
         self.times.add(timed.micros);
     }
@@ -101,7 +101,7 @@ impl Summary {
     }
 
     /// Returns the means of the counters as one line; `None` without answers.
-    pub(super) fn means(&self) -> Option<String> {
+    pub(super) fn describe_means(&self) -> Option<String> {
         let mean = |total: u64| total as f64 / self.answered_rows() as f64;
         (self.answered_rows() > 0).then(|| {
             format!(
@@ -116,7 +116,7 @@ impl Summary {
 
 /// A histogram of times with a relative resolution of a thousandth; its size does not grow with the number of times.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Times {
+struct TimeHistogram {
     /// The counts by the leading bits of the time, which sort as the times do.
     counts: BTreeMap<u64, u64>,
     count: u64,
@@ -126,7 +126,7 @@ struct Times {
 /// The number of low bits dropped from a time: all except the leading 10 of its fraction.
 const DROPPED_BITS: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
-impl Times {
+impl TimeHistogram {
     fn add(&mut self, micros: f64) {
         *self
             .counts
@@ -185,12 +185,12 @@ impl fmt::Display for Summary {
                 write!(f, "\n{count} unresolved: {advice}")?;
             }
         }
-        if self.raised > 0 {
+        if self.raised_tolerances > 0 {
             write!(
                 f,
                 "\n--tolerance {:e} cannot be certified at these coordinates: raised for {} rows, to \
                  at most {:.2e}",
-                self.tolerance, self.raised, self.largest_tolerance
+                self.tolerance, self.raised_tolerances, self.largest_tolerance
             )?;
         }
         Ok(())

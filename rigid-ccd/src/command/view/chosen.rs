@@ -4,7 +4,7 @@ use crate::table::courses::Course;
 use crate::table::results::{ResultRow, Status};
 
 /// The maximum number of rows of each status on a page, if no ids are given.
-const MOST_OF_EACH_STATUS: usize = 4;
+const MAX_ROWS_PER_STATUS: usize = 4;
 /// The maximum number of rows on a page in total.
 const MOST_ROWS: usize = 100;
 
@@ -15,7 +15,7 @@ pub(in crate::command) struct ChosenRows {
     ids: Vec<String>,
     rows: Vec<(Course, ResultRow)>,
     /// The number of chosen rows that cannot be drawn, and the message about the first.
-    left_out: usize,
+    omitted_count: usize,
     first_fault: Option<String>,
 }
 
@@ -25,7 +25,7 @@ impl ChosenRows {
         ChosenRows {
             ids,
             rows: Vec::new(),
-            left_out: 0,
+            omitted_count: 0,
             first_fault: None,
         }
     }
@@ -46,12 +46,12 @@ impl ChosenRows {
                 .rows
                 .iter()
                 .filter(|(_, known)| known.status == row.status);
-            alike.count() < MOST_OF_EACH_STATUS
+            alike.count() < MAX_ROWS_PER_STATUS
         });
         if row.status == Status::Error {
             if self.is_requested(&row.id) != Some(false) {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
-                self.leave_out(format!("row {}: {reason}", row.id));
+                self.count_omitted(format!("row {}: {reason}", row.id));
             }
         } else if wanted && !self.is_full() {
             self.rows.push((course.clone(), row.clone()));
@@ -78,25 +78,25 @@ impl ChosenRows {
     }
 
     /// Counts a chosen row that cannot be drawn, with the reason.
-    pub(super) fn leave_out(&mut self, fault: String) {
-        self.left_out += 1;
+    pub(super) fn count_omitted(&mut self, fault: String) {
+        self.omitted_count += 1;
         self.first_fault.get_or_insert(fault);
     }
 
     /// Returns whether no row was added or left out.
     pub(super) fn is_empty(&self) -> bool {
-        self.rows.is_empty() && self.left_out == 0
+        self.rows.is_empty() && self.omitted_count == 0
     }
 
     /// Returns whether all chosen rows could be drawn.
     pub(super) fn is_complete(&self) -> bool {
-        self.left_out == 0
+        self.omitted_count == 0
     }
 
     /// Describes the chosen rows that could not be drawn; `None` if there are none.
     pub(super) fn describe_faults(&self) -> Option<String> {
         let fault = self.first_fault.as_ref()?;
-        Some(match self.left_out {
+        Some(match self.omitted_count {
             1 => format!("one row is no valid query, and is not shown: {fault}"),
             count => {
                 format!("{count} rows are no valid queries, and are not shown; the first: {fault}")

@@ -5,7 +5,7 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-fn every(boxes: &[SweptBox]) -> Vec<[usize; 2]> {
+fn every_overlapping_pair(boxes: &[SweptBox]) -> Vec<[usize; 2]> {
     let pairs = (0..boxes.len()).flat_map(|a| (a + 1..boxes.len()).map(move |b| [a, b]));
     pairs.filter(|&[a, b]| boxes[a].meets(&boxes[b])).collect()
 }
@@ -38,8 +38,8 @@ fn pairs_are_those_of_the_twin() {
             };
             boxes[2] = boxes[0];
         }
-        let pairs = meeting_pairs(&boxes, |_| true);
-        assert_eq!(pairs, every(&boxes), "{round}");
+        let pairs = overlapping_pairs(&boxes, |_| true);
+        assert_eq!(pairs, every_overlapping_pair(&boxes), "{round}");
         meet += pairs.len();
         asked += count * count.saturating_sub(1) / 2;
     }
@@ -61,7 +61,7 @@ fn boxes_that_touch_meet() {
         unit(3.0_f64.next_up(), 3.0),
     ];
     let asked = |pair: [usize; 2]| pair != [1, 2];
-    assert_eq!(meeting_pairs(&boxes, asked), [[0, 1], [0, 2], [2, 3]]);
+    assert_eq!(overlapping_pairs(&boxes, asked), [[0, 1], [0, 2], [2, 3]]);
 }
 
 #[test]

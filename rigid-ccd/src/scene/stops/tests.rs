@@ -382,12 +382,12 @@ fn bodies_on_trajectories_that_stop_never_overlap() {
 }
 
 /// A motion whose true poses are known up to a shift only.
-struct Blurred {
+struct UncertainMotion {
     motion: Motion,
     shift: f64,
 }
 
-impl Trajectory for Blurred {
+impl Trajectory for UncertainMotion {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let mut stretch = self.motion.stretch(from, to)?;
         stretch.stray.shift += self.shift;
@@ -405,7 +405,7 @@ fn stopped_bodies_are_as_blurred_as_moving_ones() {
     let moving = |from: [f64; 3], velocity: [f64; 3]| {
         Motion::new(Pose::at(from).unwrap(), velocity, [0.0; 3]).unwrap()
     };
-    let blurred = Blurred {
+    let blurred = UncertainMotion {
         motion: moving([0.0; 3], [4.0, 0.0, 0.0]),
         shift: 0.05,
     };

@@ -44,14 +44,14 @@ impl Pair {
     }
 
     /// Returns the motions of a cylinder that passes, and of one at rest.
-    fn ways(&self) -> [Motion; 2] {
+    fn motions(&self) -> [Motion; 2] {
         let passes = Motion::new(self.places[0], [0.0, 2.0, 0.0], [0.0; 3]).unwrap();
         [passes, Motion::still(self.places[2])]
     }
 
     /// Returns the least distance for motions, along an equal trajectory, and at rest where it is least.
     fn closest(&self, solver: &mut Solver) -> [Answer; 3] {
-        let [passes, stands] = self.ways();
+        let [passes, stands] = self.motions();
         let (a, b) = (&self.body, &self.body);
         let rotation = self.places[0].rotation();
         let start = Pose::new([0.0, -1.0, 0.0], rotation).unwrap();

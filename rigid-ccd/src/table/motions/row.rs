@@ -2,7 +2,7 @@
 
 use super::Motions;
 #[cfg(feature = "command")]
-use crate::table::columns::BODY;
+use crate::table::columns::BODY_COLUMN;
 use crate::table::columns::{Columns, DURATION_COLUMN, ID_COLUMN, Quantity, Side, TIME_COLUMN};
 use crate::table::error::RowProblem;
 use crate::table::records::Record;
@@ -65,7 +65,9 @@ pub(crate) fn body<R: Record>(
     let row = Row::new(columns, record)?;
     let motion = row.motion(Side::A, duration)?;
     columns.remark_collector().note_motion(&motion, duration);
-    let text = columns.index(BODY).and_then(|cell| record.text(cell));
+    let text = columns
+        .index(BODY_COLUMN)
+        .and_then(|cell| record.text(cell));
     Ok(BodyRow {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
         text: text.unwrap_or_default(),
@@ -74,7 +76,7 @@ pub(crate) fn body<R: Record>(
 }
 
 /// The poses of both bodies in one row of a table of paths.
-pub(in crate::table) struct Poses {
+pub(in crate::table) struct PosePair {
     pub(in crate::table) time: f64,
     pub(in crate::table) a: BodyPose,
     pub(in crate::table) b: BodyPose,
@@ -93,12 +95,12 @@ pub(in crate::table) struct BodyPose {
 pub(in crate::table) fn poses<R: Record>(
     columns: &Columns,
     record: &R,
-) -> Result<Poses, RowProblem> {
+) -> Result<PosePair, RowProblem> {
     let row = Row::new(columns, record)?;
     if columns.index(ID_COLUMN).is_some() && id(columns, record).is_none() {
         return Err(RowProblem::NoId);
     }
-    Ok(Poses {
+    Ok(PosePair {
         time: row
             .number(TIME_COLUMN)?
             .ok_or_else(|| row.empty(TIME_COLUMN))?,

@@ -14,11 +14,11 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) struct Segment {
     motion: Motion,
     /// The rotation vector `e` that is left over, divided by the duration.
-    leftover_spin: DVec3,
+    residual_angular_velocity: DVec3,
 }
 
 /// The largest allowed leftover rotation in radians: half a turn would leave the number of turns ambiguous.
-pub(crate) const MOST_LEFTOVER: f64 = FRAC_PI_2;
+pub(crate) const MAX_RESIDUAL_ROTATION: f64 = FRAC_PI_2;
 
 impl Segment {
     /// Creates the segment with the shortest rotation, or with the number of turns nearest to a given angular velocity.
@@ -31,13 +31,13 @@ impl Segment {
         if spin == DVec3::ZERO {
             return Ok(Segment {
                 motion: Motion::between(from, to, centre, duration)?,
-                leftover_spin: DVec3::ZERO,
+                residual_angular_velocity: DVec3::ZERO,
             });
         }
         let way = to.transform_point(centre) - from.transform_point(centre);
         Ok(Segment {
             motion: Motion::about(from, way / duration, spin, centre)?,
-            leftover_spin: leftover([&from, &to], spin, duration) / duration,
+            residual_angular_velocity: residual_rotation([&from, &to], spin, duration) / duration,
         })
     }
 
@@ -45,7 +45,7 @@ impl Segment {
     pub(super) fn at(&self, time: f64) -> Result<Motion, InputError> {
         let Segment {
             motion,
-            leftover_spin,
+            residual_angular_velocity: leftover_spin,
         } = self;
         if time == 0.0 && *leftover_spin == DVec3::ZERO {
             return Ok(*motion);
@@ -67,13 +67,13 @@ impl Segment {
 
     /// Bounds the angular acceleration: the angular velocity is `e + exp(s e) w`, per unit of time.
     pub(super) fn angular_acceleration(&self) -> f64 {
-        length(self.leftover_spin) * length(self.motion.spin())
+        length(self.residual_angular_velocity) * length(self.motion.spin())
     }
 }
 
 /// Returns the shortest rotation vector from the orientation that an angular velocity leads to, to that of the next
 /// pose.
-pub(crate) fn leftover([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
+pub(crate) fn residual_rotation([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
     logarithm(to.rotation() * led.conjugate())
 }

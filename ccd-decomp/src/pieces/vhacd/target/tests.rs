@@ -5,7 +5,7 @@ use crate::mesh::TriangleMesh;
 use crate::rational::{Exact3, exact};
 use crate::solid::topology::Topology;
 use crate::work::Work;
-use crate::worst::{Tape, Worst, share};
+use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
@@ -39,7 +39,7 @@ fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
 }
 
 /// Draws a triangle of any aspect ratio, and a point that may be near it.
-fn setting(tape: &mut Tape) -> ([DVec3; 3], DVec3) {
+fn setting(tape: &mut RandomCase) -> ([DVec3; 3], DVec3) {
     let (scale, offset) = (tape.size(-60..=30), DVec3::from(tape.vector(-8..=10)));
     let [u, v] = [(); 2].map(|()| DVec3::from(tape.vector(-4..=0)));
     let (narrow, share) = (tape.size(-60..=0), tape.any(-3..=0));

@@ -3,12 +3,12 @@
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
 use crate::tolerance::{clip_rounding, on_edge_distance};
-use crate::worst::{Tape, Worst, share};
+use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 /// Draws an edge, which may be far from the origin.
-fn edge(tape: &mut Tape) -> [DVec3; 2] {
+fn edge(tape: &mut RandomCase) -> [DVec3; 2] {
     let scale = tape.size(-200..=39);
     let middle = DVec3::from(tape.vector(-8..=0));
     let small = tape.size(-50..=0);
@@ -29,7 +29,7 @@ fn off_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
 }
 
 /// Cuts an edge by a plane between its ends, and leaves the part from the cut to one end.
-fn cut(tape: &mut Tape, polygon: &mut Vec<DVec3>) -> Option<()> {
+fn cut(tape: &mut RandomCase, polygon: &mut Vec<DVec3>) -> Option<()> {
     let (axis, keep) = (tape.pick(3), tape.pick(2) == 0);
     let (p, q) = (polygon[0][axis], polygon[1][axis]);
     let plane = p + (q - p) * tape.fraction();

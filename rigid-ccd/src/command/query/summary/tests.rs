@@ -64,7 +64,10 @@ fn the_median_of_an_odd_number_is_the_middle_one() {
 fn raised_tolerances_are_counted() {
     let answers = [timed(1.0, 1e-9), timed(1.0, 4e-8), timed(1.0, 3e-8)];
     let summary = sum(&answers, 1e-9);
-    assert_eq!((summary.raised, summary.largest_tolerance), (2, 4e-8));
+    assert_eq!(
+        (summary.raised_tolerances, summary.largest_tolerance),
+        (2, 4e-8)
+    );
     let text = summary.to_string();
     assert!(
         text.contains("raised for 2 rows, to at most 4.00e-8"),
@@ -76,10 +79,10 @@ fn raised_tolerances_are_counted() {
 fn means_are_per_row() {
     let answers = [timed(1.0, 1e-3), timed(2.0, 1e-3)];
     assert_eq!(
-        sum(&answers, 1e-3).means().as_deref(),
+        sum(&answers, 1e-3).describe_means().as_deref(),
         Some("means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps")
     );
-    assert_eq!(sum([], 1e-3).means(), None);
+    assert_eq!(sum([], 1e-3).describe_means(), None);
 }
 
 #[test]
@@ -108,14 +111,14 @@ fn rows_of_earlier_runs_are_counted_separately() {
         summary.to_string(),
         "2 rows: 1 free, 1 error; 0 in this run"
     );
-    assert_eq!(summary.means(), None);
+    assert_eq!(summary.describe_means(), None);
     summary.add(Status::Free, &timed(5.0, 1e-3));
     assert_eq!((summary.counts.rows(), summary.median_micros()), (3, 5.0));
     let text = summary.to_string();
     let begin = "3 rows: 2 free, 1 error; 1 in this run; median 5.0";
     assert!(text.starts_with(begin), "{text}");
     let means = "means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps";
-    assert_eq!(summary.means().as_deref(), Some(means));
+    assert_eq!(summary.describe_means().as_deref(), Some(means));
 }
 
 #[test]
