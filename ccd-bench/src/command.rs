@@ -6,13 +6,13 @@ mod judge;
 mod stability;
 mod truth;
 
-use crate::show::tables::TextTable;
 use answer::AnswerArgs;
 use chart::{ChartArgs, CommonArgs};
 use clap::{Parser, Subcommand};
 use judge::JudgeArgs;
 use rigid_ccd::command::{CannotWrite, exit_code};
 use stability::StabilityArgs;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use truth::TruthArgs;
@@ -64,10 +64,9 @@ pub fn main() -> ExitCode {
     )
 }
 
-/// Prints a summary table.
-fn print_summary(table: &TextTable) -> Result<(), CannotWrite> {
-    let text = table.for_terminal();
-    writeln!(io::stdout(), "{}\n{text}", table.title).map_err(|source| CannotWrite {
+/// Prints what was found.
+fn print_summary(text: &impl Display) -> Result<(), CannotWrite> {
+    writeln!(io::stdout(), "{text}").map_err(|source| CannotWrite {
         place: "the summary".to_owned(),
         source,
     })

@@ -7,15 +7,12 @@ use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
 use crate::run::evaluation::{Evaluated, Plan};
-use crate::run::joined::{self, ForeignTrial};
+use crate::run::export::export;
 use crate::scene::listings;
-use crate::show::presentation::Presentation;
-use crate::show::splice::splice;
+use crate::show::presentation;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use rigid_ccd::command::{CannotWrite, Exit};
-use std::fmt::Display;
-use std::io::{self, Write};
+use rigid_ccd::command::Exit;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -45,12 +42,6 @@ pub(super) struct ChartArgs {
     patience: Option<f64>,
     #[command(flatten)]
     programs: Programs,
-    /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
-    #[arg(long, value_name = "FILE.csv")]
-    join: Vec<PathBuf>,
-    /// Insert the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
-    #[arg(long, value_name = "FILE.md")]
-    splice: Vec<PathBuf>,
     /// Draw the measurements that the folder holds, and measure nothing
     #[arg(long, conflicts_with_all = ["full", "export"])]
     redraw: bool,
@@ -71,9 +62,6 @@ pub(super) struct CommonArgs {
     /// repeated
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
-    /// Print the tables, too: a row for each method on each scene
-    #[arg(long)]
-    tables: bool,
 }
 
 const REPORT: &str = "target/ccd-report";
@@ -83,7 +71,6 @@ impl Default for CommonArgs {
         CommonArgs {
             models: None,
             out: REPORT.into(),
-            tables: false,
         }
     }
 }
@@ -144,60 +131,28 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         plan.allowance.patience = duration("--patience", seconds)?;
     }
     if let Some(folder) = &args.export {
-        joined::export(&plan.listings, plan.models, folder)?;
+        export(&plan.listings, plan.models, folder)?;
         return Ok(Exit::AllAnswered);
-    }
-    // An invalid table should be detected before the work.
-    let mut foreign = Vec::new();
-    for file in &args.join {
-        let trials = joined::read_trials(file);
-        foreign.extend(trials.with_context(|| format!("joining {}", file.display()))?);
     }
     let evaluated = if args.redraw {
         plan.recall()?
     } else {
         plan.run()?
     };
-    present(&args.common, evaluated, foreign, &args.splice)
+    present(&args.common, &evaluated)
 }
 
 pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
     let plan = plan(args, false)?;
-    present(args, plan.run()?, Vec::new(), &[])
+    present(args, &plan.run()?)
 }
 
-/// Writes tables, charts and the page, and prints the findings.
-fn present(
-    common: &CommonArgs,
-    mut evaluated: Evaluated,
-    joined: Vec<ForeignTrial>,
-    readmes: &[PathBuf],
-) -> Result<Exit> {
-    joined::join(&mut evaluated, joined)?;
-    let presentation = Presentation::new(&evaluated);
-    let page = presentation.write(&common.out)?;
-    for readme in readmes {
-        splice(readme, &presentation.comparisons)
-            .with_context(|| format!("splicing {}", readme.display()))?;
-    }
-    if common.tables {
-        for table in &presentation.summary {
-            print_summary(table)?;
-        }
-    }
-    let mut out = io::stdout().lock();
-    let mut print = |text: &dyn Display| {
-        writeln!(out, "{text}").map_err(|source| CannotWrite {
-            place: "what was seen".to_owned(),
-            source,
-        })
-    };
-    for sentence in &presentation.sentences {
-        print(sentence)?;
-    }
-    print(&format_args!(
-        "The report, with scenes in motion, charts and tables: {}",
-        page.display()
+/// Writes tables, charts and the page, and prints how many answers were wrong.
+fn present(common: &CommonArgs, evaluated: &Evaluated) -> Result<Exit> {
+    let (safety, page) = presentation::present(evaluated, &common.out)?;
+    let page = page.display();
+    print_summary(&format_args!(
+        "{safety}\n\nThe report, with scenes in motion, charts and tables: {page}"
     ))?;
     Ok(Exit::AllAnswered)
 }

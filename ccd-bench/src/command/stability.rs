@@ -96,10 +96,9 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         "{} holds no answers to draw",
         args.out.display()
     );
-    let limits = limits(&findings);
     let reach = reach_map(&findings).draw()?;
     let growth = growth_map(&findings).draw()?;
-    let limits = format!("{}\n\n{}\n", limits.title, limits.as_markdown());
+    let limits = format!("{}\n", limits(&findings));
     let files = [
         ("limits.md", &limits),
         ("stability.svg", &reach.svg),

@@ -1,17 +1,11 @@
 //! The table of cells, which the charts show, and the table of trials, which it summarises.
 
-#[cfg(test)]
-mod tests;
-
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::Claim;
 use crate::run::contest::verdict::Judged;
 use anyhow::{Context, Result};
-use rigid_ccd::table::Lines;
-use rigid_ccd::table::Quotes;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
@@ -137,25 +131,6 @@ pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
         writer.flush()
     };
     ccd_file::write(path, write).with_context(|| path.display().to_string())
-}
-
-/// Reads the rows of a CSV table with a header.
-///
-/// # Errors
-/// If the file cannot be read, or a row does not fit the table.
-pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Error> {
-    // Errors give the line, which is counted correctly if all lines end alike.
-    let mut reader =
-        csv::Reader::from_reader(Quotes::new(Lines::new(File::open(path)?)).chain(&b"\n"[..]));
-    let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
-    let end = reader.position().line();
-    match reader.get_ref().get_ref().0.unclosed(end) {
-        Some(line) => Err(csv::Error::from(io::Error::new(
-            io::ErrorKind::InvalidData,
-            format!("line {line}: a quote opens a cell here and nothing closes it"),
-        ))),
-        None => rows,
-    }
 }
 
 /// Serialises NaN as an empty cell.

@@ -7,16 +7,15 @@ use crate::method::Method;
 use crate::run::contest::Verdict;
 use crate::run::measured::{Cell, Trial};
 use crate::show::comparable::Reference;
-use comfy_table::presets::{ASCII_MARKDOWN, UTF8_BORDERS_ONLY};
-use comfy_table::{CellAlignment, Table, TableStyle};
+use comfy_table::presets::ASCII_MARKDOWN;
+use comfy_table::{CellAlignment, Table};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
+use std::fmt;
 
-/// A table of texts, for a terminal or a README.
+/// A table of texts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable {
-    /// The name that a marker `<!-- ccd chart: NAME -->` in a README gives for this table.
-    pub name: String,
     /// The title above the table.
     pub title: String,
     /// The names of the columns.
@@ -38,34 +37,18 @@ impl TextTable {
     /// Creates a table without a name and without rows.
     pub fn new(title: &str, header: impl IntoIterator<Item = impl Into<String>>) -> Self {
         TextTable {
-            name: String::new(),
             title: title.to_owned(),
             header: header.into_iter().map(Into::into).collect(),
             rows: Vec::new(),
         }
     }
+}
 
-    /// Returns the same table with a name.
-    pub fn named(self, name: &str) -> Self {
-        TextTable {
-            name: name.to_owned(),
-            ..self
-        }
-    }
-
-    /// Returns the text of the table for a terminal, with aligned columns.
-    pub fn for_terminal(&self) -> String {
-        self.with_layout(UTF8_BORDERS_ONLY)
-    }
-
-    /// Returns the text of the table for a README, in Markdown.
-    pub fn as_markdown(&self) -> String {
-        self.with_layout(ASCII_MARKDOWN)
-    }
-
-    fn with_layout(&self, style: TableStyle) -> String {
+impl fmt::Display for TextTable {
+    /// Writes the title and the table, in Markdown.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = Table::new();
-        table.load_style(style).set_header(&self.header);
+        table.load_style(ASCII_MARKDOWN).set_header(&self.header);
         for (index, column) in table.column_iter_mut().enumerate() {
             // Words are aligned left, numbers right.
             let is_words = |row: &Vec<String>| {
@@ -76,10 +59,8 @@ impl TextTable {
                 column.set_cell_alignment(CellAlignment::Right);
             }
         }
-        for row in &self.rows {
-            table.add_row(row);
-        }
-        table.to_string()
+        table.add_rows(&self.rows);
+        write!(f, "{}\n\n{table}", self.title)
     }
 }
 
@@ -245,7 +226,7 @@ pub fn methods(cells: &[Cell]) -> Vec<&str> {
             methods.push(&cell.method);
         }
     }
-    // Methods joined from elsewhere come last, in the order in which they were joined.
+    // Methods that a script runs come last.
     methods.sort_by_key(|name| order.iter().position(|o| o == name).unwrap_or(order.len()));
     methods
 }

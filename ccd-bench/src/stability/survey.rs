@@ -56,7 +56,7 @@ impl Survey {
         for &method in &self.methods {
             self.programs.check(method)?;
         }
-        let journal = Mutex::new(Journal::open(&self.folder, &stamp(), &[])?);
+        let journal = Mutex::new(Journal::open(&self.folder, &stamp())?);
         let steps = self.families.iter().map(|f| self.values(f).len());
         let steps: usize = steps.sum();
         let progress = Progress::new(Total::Steps(steps * self.methods.len()));

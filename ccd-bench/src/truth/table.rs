@@ -2,7 +2,7 @@
 
 use super::Truth;
 use clap::ValueEnum;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The columns of the table, in order. The last one holds the reason why a row of motions cannot be judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
@@ -11,7 +11,7 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 ///
 /// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
 /// touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the duration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TruthRow {
     /// The name of the query in the table of motions.
     pub id: String,
@@ -22,7 +22,7 @@ pub struct TruthRow {
 }
 
 /// Which kind of [`Truth`] a row has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The row is a [`Truth::Hit`].
@@ -56,18 +56,6 @@ impl TruthRow {
             self.hi - self.lo
         } else {
             0.0
-        }
-    }
-
-    /// Returns the exact answer in the row.
-    pub fn truth(&self) -> Truth {
-        let (lo, hi) = (self.lo, self.hi);
-        match self.status {
-            Status::Hit => Truth::Hit { lo, hi },
-            Status::Free => Truth::Free,
-            Status::Initial => Truth::Start,
-            Status::Graze => Truth::Graze { lo },
-            Status::Undecided => Truth::Undecided { lo },
         }
     }
 }

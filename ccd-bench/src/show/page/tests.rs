@@ -12,7 +12,6 @@ fn page() -> String {
         svg: "<svg></svg>".to_owned(),
     };
     let table = TextTable {
-        name: "usual".to_owned(),
         title: "A <table>".to_owned(),
         header: vec!["name & kind".to_owned()],
         rows: vec![vec!["{{style}}".to_owned()]],

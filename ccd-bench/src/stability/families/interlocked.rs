@@ -87,8 +87,8 @@ fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free_step(
         Step::new(
-            sheet(1.0)?,
-            stacked_squares(&sheet(1.0)?, [-gap, gap].into_iter())?,
+            sheet(4)?,
+            stacked_squares(&sheet(4)?, [-gap, gap].into_iter())?,
         ),
         gap,
         sliding,

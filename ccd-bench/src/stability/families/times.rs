@@ -65,6 +65,6 @@ fn after_the_end(after: f64) -> Result<Step> {
 /// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
 fn sheets(way: f64) -> Result<Step> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(sheet(1.0)?, sheet(1.0)?).with_tolerance(greater(0.1 * way, 1e-11));
+    let step = Step::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
     step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
 }
