@@ -13,7 +13,7 @@ use anyhow::Result;
 use glue::pose;
 use judge::{StoppedMotion, Tally};
 use rigid_ccd::trajectory::Trajectory;
-use rigid_ccd::{Motion, Scene};
+use rigid_ccd::{Motion, Pose, Scene};
 use std::io::Write;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -81,7 +81,9 @@ fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Du
     let (mut tally, mut time) = (Tally::default(), Duration::ZERO);
     for step in 0..steps {
         (world.act)(&mut world, step);
-        let starts = poses(&world)?;
+        let bodies = world.bodies.iter();
+        let starts = bodies.map(|body| pose(&world.physics.bodies[body.handle]));
+        let starts: Vec<Pose> = starts.collect::<Result<_>>()?;
         let begun = Instant::now();
         let stops = if method == Method::Certified {
             Some(glue::step(&mut world.physics, &mut scene, &moving)?)
@@ -105,19 +107,8 @@ fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Du
     Ok((tally, moving.len() * steps as usize, time))
 }
 
-fn poses(world: &World) -> Result<Vec<rigid_ccd::Pose>> {
-    let bodies = world.bodies.iter();
-    bodies
-        .map(|body| pose(&world.physics.bodies[body.handle]))
-        .collect()
-}
-
 /// Returns the motion that each body has had since it was at its start.
-fn unstopped_motions(
-    world: &World,
-    starts: &[rigid_ccd::Pose],
-    duration: f64,
-) -> Result<Vec<StoppedMotion>> {
+fn unstopped_motions(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<StoppedMotion>> {
     let bodies = world.bodies.iter().zip(starts);
     bodies
         .map(|(body, &start)| {

@@ -1,4 +1,4 @@
-//! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
+//! The command `ccd-bench chart`: it plans the measurements and presents them.
 
 use super::print_summary;
 use crate::method::Method;
@@ -6,11 +6,11 @@ use crate::method::USUAL_TOLERANCE;
 use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
-use crate::run::evaluation::{Evaluated, Plan};
+use crate::run::evaluation::Plan;
 use crate::run::export::export;
 use crate::scene::listings;
-use crate::show::presentation;
-use anyhow::{Context, Result, ensure};
+use crate::show::presentation::present;
+use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::command::Exit;
 use std::path::PathBuf;
@@ -23,8 +23,14 @@ pub(super) struct ChartArgs {
     /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
     #[arg(long)]
     full: bool,
-    #[command(flatten)]
-    common: CommonArgs,
+    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead
+    /// of the models made by code
+    #[arg(long, value_name = "DIR")]
+    models: Option<PathBuf>,
+    /// Write tables, charts and the page to this folder; measurements that it holds already are not
+    /// repeated
+    #[arg(long, value_name = "DIR", default_value = "target/ccd-report")]
+    out: PathBuf,
     /// Only these scenes
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     scenes: Vec<String>,
@@ -35,11 +41,11 @@ pub(super) struct ChartArgs {
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
     /// Seconds for each method on each scene at each tolerance; after that, no more rows are started
-    #[arg(long, value_name = "SECONDS")]
-    cell: Option<f64>,
+    #[arg(long, value_name = "SECONDS", value_parser = duration)]
+    cell: Option<Duration>,
     /// Seconds after which a peer is stopped in the middle of a row
-    #[arg(long, value_name = "SECONDS")]
-    patience: Option<f64>,
+    #[arg(long, value_name = "SECONDS", value_parser = duration)]
+    patience: Option<Duration>,
     #[command(flatten)]
     programs: Programs,
     /// Draw the measurements that the folder holds, and measure nothing
@@ -49,30 +55,6 @@ pub(super) struct ChartArgs {
     /// measure nothing
     #[arg(long, value_name = "DIR")]
     export: Option<PathBuf>,
-}
-
-/// Options that `demo` takes as well.
-#[derive(Clone, Debug, Args)]
-pub(super) struct CommonArgs {
-    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead
-    /// of the models made by code
-    #[arg(long, value_name = "DIR")]
-    models: Option<PathBuf>,
-    /// Write tables, charts and the page to this folder; measurements that it holds already are not
-    /// repeated
-    #[arg(long, value_name = "DIR", default_value = REPORT)]
-    out: PathBuf,
-}
-
-const REPORT: &str = "target/ccd-report";
-
-impl Default for CommonArgs {
-    fn default() -> Self {
-        CommonArgs {
-            models: None,
-            out: REPORT.into(),
-        }
-    }
 }
 
 const AFTER_HELP: &str = "\
@@ -108,10 +90,9 @@ const QUICK_ALLOWANCE: Allowance = Allowance {
 };
 
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
-    let mut plan = plan(&args.common, args.full)?;
+    let mut plan = plan(args)?;
     if args.programs.script.is_some() {
         plan.methods.extend(Method::script_methods());
-        plan.programs = args.programs.clone();
     }
     plan.listings = select_by_name(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
     plan.methods = select_by_name(plan.methods, &args.methods, "method", Method::to_string)?;
@@ -124,12 +105,6 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         }
         plan.tolerances.clone_from(&args.tolerances);
     }
-    if let Some(seconds) = args.cell {
-        plan.allowance.cell = duration("--cell", seconds)?;
-    }
-    if let Some(seconds) = args.patience {
-        plan.allowance.patience = duration("--patience", seconds)?;
-    }
     if let Some(folder) = &args.export {
         export(&plan.listings, plan.models, folder)?;
         return Ok(Exit::AllAnswered);
@@ -139,48 +114,42 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     } else {
         plan.run()?
     };
-    present(&args.common, &evaluated)
-}
-
-pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
-    let plan = plan(args, false)?;
-    present(args, &plan.run()?)
-}
-
-/// Writes tables, charts and the page, and prints how many answers were wrong.
-fn present(common: &CommonArgs, evaluated: &Evaluated) -> Result<Exit> {
-    let (safety, page) = presentation::present(evaluated, &common.out)?;
+    let (safety, page) = present(&evaluated, &args.out)?;
     let page = page.display();
     print_summary(&format_args!(
-        "{safety}\n\nThe report, with scenes in motion, charts and tables: {page}"
+        "{safety}\n\nThe report, with scenes in motion, a chart and tables: {page}"
     ))?;
     Ok(Exit::AllAnswered)
 }
 
 /// Returns the plan to measure everything, or a few rows with the fast methods.
-fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
-    if let Some(directory) = &common.models {
+fn plan(args: &ChartArgs) -> Result<Plan> {
+    if let Some(directory) = &args.models {
         ensure!(
             directory.is_dir(),
             "{} is not a directory; --models takes one that holds meshes such as bunny70k.obj",
             directory.display()
         );
     }
-    let (allowance, tolerances) = if full {
+    let (allowance, tolerances) = if args.full {
         (FULL_ALLOWANCE, &TOLERANCES[..])
     } else {
         (QUICK_ALLOWANCE, &FEW_TOLERANCES[..])
     };
     let methods = Method::all().into_iter();
-    let methods = methods.filter(|method| full || is_fast_to_run(*method));
+    let methods = methods.filter(|method| args.full || is_fast_to_run(*method));
     Ok(Plan {
         listings: listings()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
-        allowance,
-        programs: Programs::default(),
-        models: common.models.clone(),
-        folder: common.out.clone(),
+        allowance: Allowance {
+            cell: args.cell.unwrap_or(allowance.cell),
+            patience: args.patience.unwrap_or(allowance.patience),
+            ..allowance
+        },
+        programs: args.programs.clone(),
+        models: args.models.clone(),
+        folder: args.out.clone(),
     })
 }
 
@@ -214,7 +183,6 @@ pub(super) fn select_by_name<T>(
     Ok(all.into_iter().filter(wanted).collect())
 }
 
-fn duration(option: &str, seconds: f64) -> Result<Duration> {
-    Duration::try_from_secs_f64(seconds)
-        .with_context(|| format!("{option}: {seconds} is no time to wait"))
+fn duration(seconds: &str) -> Result<Duration> {
+    Ok(Duration::try_from_secs_f64(seconds.parse()?)?)
 }

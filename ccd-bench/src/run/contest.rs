@@ -153,7 +153,7 @@ impl<'s> Contest<'s> {
                     (&self.scene.name, &method, tolerance),
                     (*row, &queries[*row].id),
                     (answered, allowance.patience),
-                    self.judge(rows, *row, answered, tolerance),
+                    (self.judge(rows, *row, answered, tolerance), String::new()),
                 )
             })
             .collect();
@@ -184,11 +184,7 @@ pub fn summarise(trials: &[Trial]) -> Cell {
     // A query at which a peer died has no time.
     let known = trials.iter().map(|t| t.micros).filter(|m| !m.is_nan());
     let mut micros: Vec<f64> = known.collect();
-    let errors: Vec<f64> = trials
-        .iter()
-        .map(|t| t.error)
-        .filter(|e| !e.is_nan())
-        .collect();
+    let errors: Vec<f64> = trials.iter().filter_map(|t| t.error).collect();
     let rows = trials.len();
     let first = trials.first();
     let cut_off = count(Verdict::CutOff) + count(Verdict::Died);
@@ -204,8 +200,8 @@ pub fn summarise(trials: &[Trial]) -> Cell {
         missed: count(Verdict::Missed),
         false_contacts: count(Verdict::False),
         unresolved: count(Verdict::Unresolved) + cut_off,
-        mean_error: mean(&errors),
-        max_error: errors.iter().copied().reduce(greater).unwrap_or(f64::NAN),
+        mean_error: (!errors.is_empty()).then(|| mean(&errors)),
+        max_error: errors.iter().copied().reduce(greater),
         early: count(Verdict::Early),
         cut_off,
         undecided: count(Verdict::Undecided),

@@ -1,8 +1,8 @@
-//! Turns measurements into tables, charts and a page.
+//! Turns measurements into tables, a chart and a page.
 
 use crate::method::USUAL_TOLERANCE;
 use crate::run::evaluation::Evaluated;
-use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
+use crate::show::chart::{Charts, Family, MethodFacts};
 use crate::show::comparable::Reference;
 use crate::show::page;
 use crate::show::tables::{self, TextTable};
@@ -20,7 +20,7 @@ const AS_PUBLISHED: &str = "fast vmarch";
 /// The methods that the paper compares its own with; the factors are in the table's title.
 const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 
-/// Writes the tables, the charts and the page of an evaluation into a folder. Returns the table of wrong answers, and
+/// Writes the tables, the chart and the page of an evaluation into a folder. Returns the table of wrong answers, and
 /// the page's path.
 ///
 /// # Errors
@@ -29,11 +29,8 @@ pub fn present(evaluated: &Evaluated, folder: &Path) -> Result<(TextTable, PathB
     let (cells, trials) = (evaluated.journal.cells(), evaluated.journal.trials());
     let methods = tables::methods(cells).into_iter();
     let methods: Vec<MethodFacts<'_>> = methods.map(MethodFacts::named).collect();
-    let scenes = evaluated.scenes.iter().map(|scene| SceneFacts {
-        name: &scene.name,
-        triangles: scene.a.triangles(),
-    });
-    let scenes: Vec<SceneFacts<'_>> = scenes.collect();
+    let scenes = evaluated.scenes.iter().map(|scene| scene.name.as_str());
+    let scenes: Vec<&str> = scenes.collect();
     let is_other = |method: &&MethodFacts<'_>| {
         matches!(method.family, Family::Rival | Family::Peer) || method.name == AS_PUBLISHED
     };
@@ -49,21 +46,18 @@ pub fn present(evaluated: &Evaluated, folder: &Path) -> Result<(TextTable, PathB
         compared(FINE_TOLERANCE),
         published,
         safety.clone(),
-        tables::at_tolerance(cells, USUAL_TOLERANCE, &reference),
     ];
     let charts = Charts {
         cells: &reference.comparable(cells),
         scenes: &scenes,
         methods: &methods,
     };
-    let drawings = charts.drawings()?;
-    for drawing in &drawings {
-        write(&folder.join(format!("{}.svg", drawing.name)), &drawing.svg)?;
-    }
+    let chart = charts.pareto()?.unwrap_or_default();
+    write(&folder.join("pareto.svg"), &chart)?;
     let text: Vec<String> = tables.iter().map(|table| format!("{table}\n")).collect();
     write(&folder.join("tables.md"), &text.join("\n"))?;
     let page = folder.join("index.html");
     let views = Views::new(&evaluated.scenes)?;
-    write(&page, &page::html(&drawings, &views, &tables)?)?;
+    write(&page, &page::html(&chart, &views, &tables)?)?;
     Ok((safety, page))
 }

@@ -1,7 +1,6 @@
 //! The table of exact answers.
 
 use super::Truth;
-use clap::ValueEnum;
 use serde::Serialize;
 
 /// The columns of the table, in order. The last one holds the reason why a row of motions cannot be judged.
@@ -15,44 +14,31 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 pub struct TruthRow {
     /// The name of the query in the table of motions.
     pub id: String,
-    /// Which kind of exact answer the query has.
-    pub status: Status,
+    /// Which kind of exact answer the query has, one of [`STATUSES`].
+    pub status: &'static str,
     lo: f64,
     hi: f64,
 }
 
-/// Which kind of [`Truth`] a row has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// The row is a [`Truth::Hit`].
-    Hit,
-    /// The row is a [`Truth::Free`].
-    Free,
-    /// The row is a [`Truth::Start`].
-    Initial,
-    /// The row is a [`Truth::Graze`].
-    Graze,
-    /// The row is a [`Truth::Undecided`].
-    Undecided,
-}
+/// The names of the kinds of exact answers.
+pub const STATUSES: [&str; 5] = ["hit", "free", "initial", "graze", "undecided"];
 
 impl TruthRow {
     /// Returns the row for the exact answer of a query with this name and duration.
     pub fn new(id: String, duration: f64, truth: Truth) -> Self {
         let (status, lo, hi) = match truth {
-            Truth::Hit { lo, hi } => (Status::Hit, lo, hi),
-            Truth::Free => (Status::Free, duration, duration),
-            Truth::Start => (Status::Initial, 0.0, 0.0),
-            Truth::Graze { lo } => (Status::Graze, lo, duration),
-            Truth::Undecided { lo } => (Status::Undecided, lo, duration),
+            Truth::Hit { lo, hi } => ("hit", lo, hi),
+            Truth::Free => ("free", duration, duration),
+            Truth::Start => ("initial", 0.0, 0.0),
+            Truth::Graze { lo } => ("graze", lo, duration),
+            Truth::Undecided { lo } => ("undecided", lo, duration),
         };
         TruthRow { id, status, lo, hi }
     }
 
     /// Returns the width of the bracket of a hit; 0 for other rows.
     pub fn width(&self) -> f64 {
-        if self.status == Status::Hit {
+        if self.status == "hit" {
             self.hi - self.lo
         } else {
             0.0

@@ -50,7 +50,7 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let trials = parse(&fs::read(folder.join("trials.csv")).unwrap());
     let asked: f64 = rows.iter().map(|row| row.number("rows")).sum();
     assert_eq!(trials.len() as f64, asked);
-    for file in ["pareto.svg", "triangles.svg", "index.html"] {
+    for file in ["pareto.svg", "index.html"] {
         assert!(
             fs::metadata(folder.join(file)).unwrap().len() > 1000,
             "{file}"

@@ -12,12 +12,8 @@ pub(crate) fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: V
         micros,
         steps: 1,
         verdict: verdict.to_string(),
-        error: if verdict == Verdict::Right {
-            1e-4
-        } else {
-            f64::NAN
-        },
-        time: f64::NAN,
+        error: (verdict == Verdict::Right).then_some(1e-4),
+        time: None,
         note: String::new(),
     }
 }
@@ -75,13 +71,6 @@ fn answers_are_counted_per_method_without_distances() {
             ["parry-f64", "1", "0", "0", "0", "0", "1", "1", "0"],
         ]
     );
-    let reference = Reference::new("best-first direct", &all);
-    let usual = at_tolerance(&cells, 1e-3, &reference);
-    // The medians are over rows 0 and 1, with ratios 3 and 4.
-    assert_eq!(usual.rows[0][..5], ["santa", "C2A", "2", "55.0", "3.50"]);
-    assert_eq!(usual.rows[1][0], "", "a scene is named once");
-    assert_eq!(usual.rows[0][12], "1e-4");
-    assert_eq!(usual.rows[1][12], NO_VALUE);
 }
 
 #[test]
