@@ -12,14 +12,13 @@ use ccd_bench::method::USUAL_TOLERANCE;
 use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
-use ccd_bench::run::contest::{Allowance, Contest, Session, Truths};
+use ccd_bench::run::contest::{Allowance, Contest, Session};
 use ccd_bench::scene::{Models, Pieces, listings};
 use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use rigid_ccd::batch::ScheduleKind;
-use rigid_ccd::command::Progress;
 use settings::settings;
 use std::time::Duration;
 
@@ -40,7 +39,6 @@ const SMALL_SCENE: &str = "knot216";
 
 fn advancement(criterion: &mut Criterion) {
     let mut models = Models::default();
-    let mut truths = Truths::default();
     let listings = listings().expect("the scenes' data");
     for listing in listings
         .iter()
@@ -60,9 +58,8 @@ fn advancement(criterion: &mut Criterion) {
             if kind.schedule == ScheduleKind::Naive && scene.name != SMALL_SCENE {
                 continue;
             }
-            truths.find(&contest, method.motion_kind(), &rows, &Progress::hidden());
             // A method that is wrong, or that cannot open a session, is not timed.
-            if !is_right(&contest, method, &truths) {
+            if !is_right(&contest, method) {
                 continue;
             }
             let bodies = scene
@@ -82,7 +79,7 @@ fn advancement(criterion: &mut Criterion) {
 }
 
 /// Returns true if the method opens a session and all its answers are right.
-fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
+fn is_right(contest: &Contest<'_>, method: Method) -> bool {
     let allowance = Allowance {
         cell: Duration::MAX,
         patience: Duration::MAX,
@@ -93,7 +90,7 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
     let session = Session::open(method, contest.scene(), &Programs::default());
     let session = session.expect("no peer is asked");
     session.is_some_and(|mut session| {
-        let measured = contest.run(&mut session, USUAL_TOLERANCE, &allowance, truths);
+        let measured = contest.run(&mut session, USUAL_TOLERANCE, &allowance);
         let (cell, _) = measured
             .expect("no peer is asked")
             .expect("all queries can be asked");

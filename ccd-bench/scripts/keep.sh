@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Stores the measurements of an evaluation: chart.csv as dated rows with machine and commit in results/. Draws the
-# chart of the root README anew, from the tables that `ccd-bench chart --splice` has put into README.md.
+# chart of the root README anew, from the tables of README.md, which are those of REPORT/tables.md.
 #
 # usage: keep.sh [REPORT [COMMIT]]
 #   REPORT   the folder that `ccd-bench chart --out` wrote to, default target/ccd-report

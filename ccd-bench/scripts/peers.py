@@ -30,7 +30,6 @@ does not change this. Apart from their steps, coal-steps and fcl-naive have no k
 tests, or stretches for fcl-ca. `time` is in the motion's unit of time.
 """
 import argparse
-import csv
 import math
 import sys
 import time
@@ -83,22 +82,13 @@ def opened(method, a, b):
 class Motion:
     """A motion: the centre has a constant velocity, and the body rotates about it at a constant rate."""
 
-    def __init__(self, row, letter, duration):
-        part = lambda names, default: vector(row, letter, names, default)
-        given = lambda names: any(row.get(f"{letter}_{name}") for name in names.split())
-        self.centre = part("cx cy cz", 0)
-        rotation = unit(part("qw qx qy qz", 0)) if given("qw qx qy qz") else np.array([1.0, 0, 0, 0])
-        position = part("px py pz", 0)
-        self.rotation = rotation
-        self.start = position + matrix(rotation) @ self.centre
-        self.velocity = part("vx vy vz", 0)
-        self.spin = part("wx wy wz", 0)
-        if given("end_px end_py end_pz end_qw end_qx end_qy end_qz"):
-            turned = given("end_qw end_qx end_qy end_qz")
-            end_rotation = unit(part("end_qw end_qx end_qy end_qz", 0)) if turned else rotation
-            end = part("end_px end_py end_pz", 0) if given("end_px end_py end_pz") else position
-            self.velocity = (end + matrix(end_rotation) @ self.centre - self.start) / duration
-            self.spin = shortest_turn(product(end_rotation, conjugate(rotation))) / duration
+    def __init__(self, row, letter):
+        part = lambda names: np.array([float(row[f"{letter}_{name}"]) for name in names.split()])
+        self.centre = part("cx cy cz")
+        self.rotation = unit(part("qw qx qy qz"))
+        self.start = part("px py pz") + matrix(self.rotation) @ self.centre
+        self.velocity = part("vx vy vz")
+        self.spin = part("wx wy wz")
 
     def at(self, when):
         """Returns the rotation and the position of the centre."""
@@ -109,8 +99,8 @@ class Query:
     """The motions of a row, and a bound on the displacement of any point towards the other body."""
 
     def __init__(self, row, reach):
-        self.duration = float(row.get("duration") or 1)
-        self.a, self.b = (Motion(row, letter, self.duration) for letter in "ab")
+        self.duration = float(row["duration"])
+        self.a, self.b = (Motion(row, letter) for letter in "ab")
         turning = sum(
             np.linalg.norm(motion.spin) * radius(motion.centre)
             for motion, radius in zip((self.a, self.b), reach)
@@ -229,14 +219,6 @@ class Fcl:
         return spent * 1e6, stretches if advances else stretches * tests + 1, "free", ""
 
 
-def read_motions(path):
-    with path.open(newline="") as file:
-        rows = list(csv.DictReader(file, skipinitialspace=True))
-    for k, row in enumerate(rows):
-        row["id"] = row.get("id") or str(k)
-    return rows
-
-
 def read_obj(path):
     vertices, faces = [], []
     for line in path.open():
@@ -256,16 +238,8 @@ def reach_of(vertices):
     return lambda centre: np.linalg.norm(np.maximum(abs(low - centre), abs(high - centre)))
 
 
-def vector(row, letter, names, default):
-    return np.array([float(row.get(f"{letter}_{name}") or default) for name in names.split()])
-
-
 def unit(q):
     return q / np.linalg.norm(q)
-
-
-def conjugate(q):
-    return q * [1, -1, -1, -1]
 
 
 def product(p, q):
@@ -278,12 +252,6 @@ def exponential(turn):
     angle = np.linalg.norm(turn)
     axis = turn / angle if angle > 0 else turn
     return np.concatenate([[math.cos(angle / 2)], math.sin(angle / 2) * axis])
-
-
-def shortest_turn(q):
-    q = -q if q[0] < 0 else q
-    sine = np.linalg.norm(q[1:])
-    return q[1:] * (2 * math.atan2(sine, q[0]) / sine) if sine > 0 else np.zeros(3)
 
 
 def matrix(q):

@@ -1,4 +1,4 @@
-//! The command `ccd-bench`: demo, charts, brackets of exact first contacts, stability.
+//! The command `ccd-bench`: charts, brackets of exact first contacts, stability.
 
 mod answer;
 mod chart;
@@ -6,13 +6,15 @@ mod judge;
 mod stability;
 mod truth;
 
-use crate::show::tables::TextTable;
 use answer::AnswerArgs;
-use chart::{ChartArgs, CommonArgs};
+use chart::ChartArgs;
 use clap::{Parser, Subcommand};
 use judge::JudgeArgs;
 use rigid_ccd::command::{CannotWrite, exit_code};
 use stability::StabilityArgs;
+use std::env;
+use std::ffi::OsString;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use truth::TruthArgs;
@@ -22,11 +24,11 @@ use truth::TruthArgs;
 #[command(name = "ccd-bench", version, after_help = AFTER_HELP)]
 struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Command,
 }
 
 const AFTER_HELP: &str = "\
-Without a command, `ccd-bench` runs the demo.
+Without any argument, `ccd-bench` does what `ccd-bench chart` does: that is the demo.
 
 Examples:
   ccd-bench
@@ -35,9 +37,7 @@ Examples:
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compare all methods on the paper's five scenes: a table, charts, a page (under a minute)
-    Demo(CommonArgs),
-    /// Measure speed against accuracy: scenes, methods and tolerances of your choice
+    /// Compare all methods on the paper's five scenes: tables, a chart, a page (under a minute)
     Chart(ChartArgs),
     /// Bracket the exact first contacts of two meshes, to judge answers by
     Truth(TruthArgs),
@@ -51,23 +51,22 @@ enum Command {
 
 /// Runs the command that the process was started with.
 pub fn main() -> ExitCode {
-    let command = Cli::parse().command;
-    exit_code(
-        match command.unwrap_or_else(|| Command::Demo(CommonArgs::default())) {
-            Command::Demo(args) => chart::run_demo(&args),
-            Command::Chart(args) => chart::run(&args),
-            Command::Truth(args) => truth::run(&args),
-            Command::Stability(args) => stability::run(&args),
-            Command::Judge(args) => judge::run(&args),
-            Command::Answer(args) => answer::run(&args),
-        },
-    )
+    let mut words: Vec<OsString> = env::args_os().collect();
+    if words.len() < 2 {
+        words.push("chart".into());
+    }
+    exit_code(match Cli::parse_from(words).command {
+        Command::Chart(args) => chart::run(&args),
+        Command::Truth(args) => truth::run(&args),
+        Command::Stability(args) => stability::run(&args),
+        Command::Judge(args) => judge::run(&args),
+        Command::Answer(args) => answer::run(&args),
+    })
 }
 
-/// Prints a summary table.
-fn print_summary(table: &TextTable) -> Result<(), CannotWrite> {
-    let text = table.for_terminal();
-    writeln!(io::stdout(), "{}\n{text}", table.title).map_err(|source| CannotWrite {
+/// Prints what was found.
+fn print_summary(text: &impl Display) -> Result<(), CannotWrite> {
+    writeln!(io::stdout(), "{text}").map_err(|source| CannotWrite {
         place: "the summary".to_owned(),
         source,
     })

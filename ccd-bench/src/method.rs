@@ -92,39 +92,21 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
-    /// Returns all combinations of this project's schedules, oracles, pieces and bounds, except for pieces on
-    /// which a schedule falls back to another.
-    pub fn combinations() -> Vec<Method> {
-        let with_bounds = |kind: SolverKind| {
-            let bounds = if kind.schedule.uses_a_bound() {
-                BoundKind::value_variants()
-            } else {
-                &[BoundKind::Sound]
-            };
-            bounds
-                .iter()
-                .map(move |&bound| SolverKind { bound, ..kind })
-        };
-        let on_pieces = |kind: SolverKind| {
-            let pieces: &[Pieces] = if kind.schedule.uses_hull_trees() {
-                &[Pieces::Patches]
-            } else {
-                &Pieces::ALL
-            };
-            pieces.iter().map(move |&of| Method::Ours(kind, of))
-        };
-        let kinds = SolverKind::all().flat_map(with_bounds);
-        kinds.flat_map(on_pieces).collect()
-    }
-
-    /// Returns FAST as published, whose bound does not hold over a step, so that its answers may be late.
-    pub fn fast_as_published() -> Method {
-        let kind = SolverKind {
+    /// Returns all methods with a name: those that this program runs, FAST as published, whose bound does not hold over a
+    /// step, so that its answers may be late, and those that a script runs.
+    pub fn known() -> Vec<Method> {
+        let published = SolverKind {
             schedule: ScheduleKind::Fast,
             oracle: OracleKind::Vmarch,
             bound: BoundKind::Published,
         };
-        Method::Ours(kind, Pieces::Patches)
+        let mut methods = Method::all();
+        // After its variants with a sound bound.
+        let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
+        let last = methods.iter().rposition(is_fast).map_or(0, |last| last + 1);
+        methods.insert(last, Method::Ours(published, Pieces::Patches));
+        methods.extend(Method::script_methods());
+        methods
     }
 
     /// Returns all methods that a script runs.
@@ -137,11 +119,8 @@ impl Method {
 
     /// Returns the method with the given name; `None` if there is none.
     pub fn named(name: &str) -> Option<Method> {
-        let more = Method::combinations()
-            .into_iter()
-            .chain(Method::script_methods());
-        let mut all = Method::all().into_iter().chain(more);
-        all.find(|method| method.to_string() == name)
+        let mut known = Method::known().into_iter();
+        known.find(|method| method.to_string() == name)
     }
 
     /// Returns true if the method is measured at every tolerance. Methods whose answers do not depend on
@@ -157,17 +136,8 @@ impl Method {
 
     /// Returns true for the default method on pieces other than its own choice.
     pub fn is_model(self) -> bool {
-        match self {
-            Method::Ours(kind, pieces) => {
-                let own = if kind.schedule.uses_hull_trees() {
-                    Pieces::Patches
-                } else {
-                    Pieces::Least
-                };
-                pieces != own
-            }
-            Method::Rival(_) | Method::Peer(_) | Method::Script(_) => false,
-        }
+        matches!(self, Method::Ours(kind, pieces)
+            if pieces != Pieces::Least && !kind.schedule.uses_hull_trees())
     }
 
     /// Returns the motion along which the method moves the bodies.

@@ -2,5 +2,5 @@
 
 pub mod contest;
 pub mod evaluation;
-pub mod joined;
+pub mod export;
 pub mod measured;

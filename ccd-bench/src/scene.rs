@@ -37,7 +37,7 @@ pub struct SceneBody {
     pub body: Arc<Body>,
     mesh: Arc<TriangleMesh>,
     /// The same body made of each other kind of pieces on first use; `None` if it cannot be made.
-    others: Arc<[OnceLock<Option<Body>>; Pieces::ALL.len()]>,
+    others: Arc<[OnceLock<Option<Body>>; Pieces::ApproximateHulls as usize + 1]>,
 }
 
 /// The kind of convex pieces that a body is made of.
@@ -63,11 +63,6 @@ impl SceneBody {
         &self.mesh
     }
 
-    /// Returns the number of triangles of the mesh.
-    pub fn triangles(&self) -> usize {
-        self.mesh.faces().len()
-    }
-
     /// Returns the same body made of the given kind of pieces; `None` if the mesh does not allow them.
     pub fn body_of(&self, pieces: Pieces) -> Option<&Body> {
         if pieces == Pieces::Least {
@@ -80,14 +75,6 @@ impl SceneBody {
 }
 
 impl Pieces {
-    /// All kinds of pieces.
-    pub const ALL: [Pieces; 4] = [
-        Pieces::Least,
-        Pieces::Triangles,
-        Pieces::Patches,
-        Pieces::ApproximateHulls,
-    ];
-
     /// Makes a body of this kind of pieces from a mesh.
     ///
     /// # Errors

@@ -4,8 +4,6 @@ pub mod chart;
 pub mod comparable;
 pub mod page;
 pub mod presentation;
-pub mod sentences;
-pub mod splice;
 pub mod tables;
 pub mod views;
 

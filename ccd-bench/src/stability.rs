@@ -18,7 +18,7 @@ mod summary;
 mod survey;
 
 pub use families::families;
-pub use family::{Case, Expected, Family, Step};
+pub use family::{Case, Family, Step};
 pub use findings::Findings;
 pub use judge::judge;
 pub use summary::{growth_map, limits, reach_map, summary};

@@ -1,29 +1,31 @@
 //! Worlds in which fast bodies pass through each other without continuous collision detection.
 
-use crate::Method;
-use crate::bunny::bunny;
 use anyhow::Result;
-use ccd_core::glam::DVec3;
+use ccd_bench::scene::model::Blob;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d_f64::prelude::{
-    ColliderBuilder, PhysicsWorld, Pose as At, RigidBodyBuilder, RigidBodyHandle, Rotation,
-    SharedShape, SphericalJointBuilder, Vector,
+    ColliderBuilder, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle, Rotation, SharedShape,
+    SphericalJointBuilder, Vector,
 };
 use rigid_ccd::Body;
+use rigid_ccd_parry::Options;
+use rigid_ccd_parry::f64::body;
 use std::f64::consts::FRAC_PI_2;
 
 /// A rapier world with its bodies, and the forces on them.
 pub(crate) struct World {
-    pub(crate) name: &'static str,
     pub(crate) physics: PhysicsWorld,
     pub(crate) bodies: Vec<Simulated>,
     /// The pairs of bodies joined to each other, which may overlap.
     pub(crate) joined: Vec<[usize; 2]>,
     /// The length of the thinnest part of any body, in metres.
     pub(crate) thinnest: f64,
-    act: fn(&mut World, u32),
+    /// Applies forces to the bodies, or throws them again, before a step.
+    pub(crate) act: fn(&mut World, u32),
     rng: Pcg64,
+    /// Whether bodies move with rapier's continuous collision detection, also between moving ones.
+    ccd: bool,
 }
 
 pub(crate) struct Simulated {
@@ -33,6 +35,16 @@ pub(crate) struct Simulated {
     pub(crate) is_fixed: bool,
 }
 
+/// Makes a world with or without rapier's continuous collision detection.
+type Make = fn(bool) -> Result<World>;
+
+/// The worlds by name.
+pub(crate) const WORLDS: [(&str, Make); 3] = [
+    ("bullets and paper", bullets),
+    ("bunnies onto bunnies", bunnies),
+    ("chain through a slot", chain),
+];
+
 /// The distance that rapier keeps around each body, in metres. Bodies that rest on each other are farther apart than
 /// those that are stopped.
 const CONTACT_SKIN: f64 = 0.002;
@@ -41,37 +53,20 @@ const CONTACT_SKIN: f64 = 0.002;
 const STEPS_PER_ROUND: u32 = 60;
 
 impl World {
-    /// The number of different worlds.
-    pub(crate) const COUNT: usize = 3;
-
-    /// Creates a world by its number.
-    pub(crate) fn new(number: usize, method: Method) -> Result<World> {
-        match number {
-            0 => bullets(method),
-            1 => bunnies(method),
-            _ => chain(method),
-        }
-    }
-
-    /// Applies forces to the bodies, or throws them again, before a step.
-    pub(crate) fn apply_forces(&mut self, step: u32) {
-        (self.act)(self, step);
-    }
-
-    fn empty(name: &'static str, method: Method, thinnest: f64, act: fn(&mut World, u32)) -> Self {
+    fn empty(ccd: bool, thinnest: f64, act: fn(&mut World, u32)) -> Self {
         let mut physics = PhysicsWorld::new();
         physics.gravity = -9.81 * Vector::Z;
-        if method != Method::Rapier {
+        if !ccd {
             physics.integration_parameters.max_ccd_substeps = 0;
         }
         World {
-            name,
             physics,
             bodies: Vec::new(),
             joined: Vec::new(),
             thinnest,
             act,
             rng: Pcg64::seed_from_u64(3),
+            ccd,
         }
     }
 
@@ -87,110 +82,103 @@ impl World {
         self.bodies.len() - 1
     }
 
-    fn slab(&mut self, place: DVec3, half: DVec3) -> Result<()> {
-        let shape = SharedShape::cuboid(half.x, half.y, half.z);
-        let fixed = RigidBodyBuilder::fixed().translation(vector(place));
-        self.add(fixed, shape, Body::cuboid(half)?);
+    fn slab(&mut self, place: Vector, [x, y, z]: [f64; 3]) -> Result<()> {
+        let fixed = RigidBodyBuilder::fixed().translation(place);
+        let (shape, body) = (SharedShape::cuboid(x, y, z), Body::cuboid([x, y, z])?);
+        self.add(fixed, shape, body);
         Ok(())
     }
 
-    fn any(&mut self) -> DVec3 {
-        DVec3::from_array(std::array::from_fn(|_| self.rng.random_range(-1.0..1.0)))
+    fn dynamic(&mut self, place: Vector, shape: SharedShape, body: Body) -> usize {
+        let builder = RigidBodyBuilder::dynamic().translation(place);
+        let builder = builder.ccd_enabled(self.ccd).can_sleep(false);
+        self.add(builder, shape, body)
     }
 
-    /// Places a body, and sets its velocity.
-    fn throw(&mut self, index: usize, place: DVec3, velocity: DVec3) {
-        let (turn, spin) = (3.0 * self.any(), 5.0 * self.any());
+    fn any(&mut self) -> Vector {
+        Vector::from_array(std::array::from_fn(|_| self.rng.random_range(-1.0..1.0)))
+    }
+
+    fn set(&mut self, index: usize, place: Pose, velocity: Vector, spin: Vector) {
         let body = &mut self.physics.bodies[self.bodies[index].handle];
-        body.set_translation(vector(place), true);
-        body.set_rotation(Rotation::from_scaled_axis(vector(turn)), true);
-        body.set_linvel(vector(velocity), true);
-        body.set_angvel(vector(spin), true);
+        body.set_position(place, true);
+        body.set_linvel(velocity, true);
+        body.set_angvel(spin, true);
     }
-}
 
-fn vector(v: DVec3) -> Vector {
-    Vector::from_array(v.to_array())
-}
-
-fn dynamic(method: Method) -> RigidBodyBuilder {
-    RigidBodyBuilder::dynamic()
-        .ccd_enabled(method == Method::Rapier)
-        .can_sleep(false)
+    /// Throws a body from a place, with a random orientation and spin.
+    fn throw(&mut self, index: usize, place: Vector, velocity: Vector) {
+        let (turn, spin) = (3.0 * self.any(), 5.0 * self.any());
+        let place = Pose::from_parts(place, Rotation::from_scaled_axis(turn));
+        self.set(index, place, velocity, spin);
+    }
 }
 
 /// The number of sheets of paper, which are 1 mm thick.
 const SHEETS: usize = 5;
 
 /// Creates twelve bullets at 100 to 390 metres a second, aimed at five sheets of paper.
-fn bullets(method: Method) -> Result<World> {
-    let mut world = World::empty("bullets and paper", method, 0.001, |world, step| {
+fn bullets(ccd: bool) -> Result<World> {
+    let mut world = World::empty(ccd, 0.001, |world, step| {
         for index in SHEETS..world.bodies.len() {
             // One after the other.
             if step % STEPS_PER_ROUND == 3 * (index - SHEETS) as u32 {
                 let aside = 0.4 * world.any();
                 let speed = world.rng.random_range(100.0..390.0);
-                let place = DVec3::new(-2.0, aside.y, aside.z);
-                world.throw(index, place, DVec3::new(speed, 0.02 * speed * aside.x, 0.0));
+                let place = Vector::new(-2.0, aside.y, aside.z);
+                let velocity = Vector::new(speed, 0.02 * speed * aside.x, 0.0);
+                world.throw(index, place, velocity);
             }
         }
     });
     for k in 0..SHEETS {
-        world.slab(
-            DVec3::new(0.3 * k as f64, 0.0, 0.0),
-            DVec3::new(0.0005, 0.5, 0.5),
-        )?;
+        world.slab(0.3 * k as f64 * Vector::X, [0.0005, 0.5, 0.5])?;
     }
     for k in 0..12 {
-        let aside = DVec3::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
-        let builder = dynamic(method).translation(vector(aside));
-        world.add(builder, SharedShape::ball(0.01), Body::sphere(0.01)?);
+        let aside = Vector::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
+        world.dynamic(aside, SharedShape::ball(0.01), Body::sphere(0.01)?);
     }
     Ok(world)
 }
 
+/// The number of the box's sides, after which the bunnies come.
+const SIDES: usize = 5;
+
 /// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
-fn bunnies(method: Method) -> Result<World> {
-    let mut world = World::empty("bunnies onto bunnies", method, 0.01, |world, step| {
+fn bunnies(ccd: bool) -> Result<World> {
+    let mut world = World::empty(ccd, 0.01, |world, step| {
         if step % STEPS_PER_ROUND != 0 {
             return;
         }
-        for index in 5..world.bodies.len() {
-            let number = (index - 5) as f64;
-            let place = DVec3::new(
-                0.8 * (number % 3.0) - 0.8,
-                0.8 * (number / 3.0).floor() - 1.2,
-                1.5,
-            );
-            let place = place + 0.05 * world.any();
-            let velocity =
-                -40.0 * (place - DVec3::new(0.0, 0.0, 0.4)).normalize() + 5.0 * world.any();
+        for index in SIDES..world.bodies.len() {
+            let place = place_of_bunny(index - SIDES) + 0.05 * world.any();
+            let towards = (place - Vector::new(0.0, 0.0, 0.4)).normalize();
+            let velocity = -40.0 * towards + 5.0 * world.any();
             world.throw(index, place, velocity);
         }
     });
-    world.slab(DVec3::new(0.0, 0.0, -0.005), DVec3::new(2.0, 2.0, 0.005))?;
-    for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
-        let half = DVec3::new(
-            if x == 0.0 { 2.0 } else { 0.005 },
-            if y == 0.0 { 2.0 } else { 0.005 },
-            1.0,
-        );
-        world.slab(DVec3::new(2.0 * x, 2.0 * y, 1.01), half)?;
+    world.slab(Vector::new(0.0, 0.0, -0.005), [2.0, 2.0, 0.005])?;
+    for side in [Vector::X, -Vector::X, Vector::Y, -Vector::Y] {
+        let half = |along: f64| if along == 0.0 { 2.0 } else { 0.005 };
+        let place = 2.0 * side + 1.01 * Vector::Z;
+        world.slab(place, [half(side.x), half(side.y), 1.0])?;
     }
-    let (shape, body) = bunny()?;
-    for k in 0..12 {
-        let aside = DVec3::new(
-            0.8 * f64::from(k % 3) - 0.8,
-            0.8 * f64::from(k / 3) - 1.2,
-            1.5,
-        );
-        world.add(
-            dynamic(method).translation(vector(aside)),
-            shape.clone(),
-            body.clone(),
-        );
+    let mesh = Blob::BUNNY.mesh(400)?;
+    let vertices = mesh.vertices().iter();
+    let vertices: Vec<Vector> = vertices
+        .map(|&vertex| Vector::from_array((0.25 * vertex).to_array()))
+        .collect();
+    let shape = SharedShape::convex_decomposition(&vertices, mesh.faces());
+    let body = body(&*shape, &Options::default())?.body().clone();
+    for number in 0..12 {
+        world.dynamic(place_of_bunny(number), shape.clone(), body.clone());
     }
     Ok(world)
+}
+
+fn place_of_bunny(number: usize) -> Vector {
+    let [x, y] = [number % 3, number / 3].map(|k| 0.8 * k as f64);
+    Vector::new(x - 0.8, y - 1.2, 1.5)
 }
 
 /// The number of links of the chain.
@@ -199,8 +187,8 @@ const LINKS: usize = 14;
 const HALF: f64 = 0.06;
 
 /// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and then placed anew.
-fn chain(method: Method) -> Result<World> {
-    let mut world = World::empty("chain through a slot", method, 0.004, |world, step| {
+fn chain(ccd: bool) -> Result<World> {
+    let mut world = World::empty(ccd, 0.004, |world, step| {
         if step.is_multiple_of(4 * STEPS_PER_ROUND) {
             (0..LINKS).for_each(|link| world.lay_out(link));
         }
@@ -213,12 +201,11 @@ fn chain(method: Method) -> Result<World> {
         first.set_linvel(Vector::new(towards * speed, aside.y, aside.z), true);
     });
     for side in [-1.0, 1.0] {
-        let half = DVec3::new(0.002, 1.0, 2.0);
-        world.slab(DVec3::new(0.0, side * 1.04, 0.0), half)?;
+        world.slab(side * 1.04 * Vector::Y, [0.002, 1.0, 2.0])?;
     }
     for link in 0..LINKS {
         let shape = SharedShape::capsule_z(HALF, 0.02);
-        let index = world.add(dynamic(method), shape, Body::capsule(0.02, HALF)?);
+        let index = world.dynamic(Vector::ZERO, shape, Body::capsule(0.02, HALF)?);
         world.lay_out(link);
         if link > 0 {
             let joint = SphericalJointBuilder::new()
@@ -236,12 +223,8 @@ fn chain(method: Method) -> Result<World> {
 impl World {
     /// Returns a link of the chain to its start, at rest.
     fn lay_out(&mut self, link: usize) {
-        let body = &mut self.physics.bodies[self.bodies[2 + link].handle];
         let place = Vector::new(-0.2 - 2.5 * HALF * link as f64, 0.0, 0.0);
-        let lying = FRAC_PI_2 * Vector::Y;
-        let at = At::from_parts(place, Rotation::from_scaled_axis(lying));
-        body.set_position(at, true);
-        body.set_linvel(Vector::ZERO, true);
-        body.set_angvel(Vector::ZERO, true);
+        let place = Pose::from_parts(place, Rotation::from_scaled_axis(FRAC_PI_2 * Vector::Y));
+        self.set(2 + link, place, Vector::ZERO, Vector::ZERO);
     }
 }

@@ -1,4 +1,4 @@
-//! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
+//! The command `ccd-bench chart`: it plans the measurements and presents them.
 
 use super::print_summary;
 use crate::method::Method;
@@ -6,16 +6,13 @@ use crate::method::USUAL_TOLERANCE;
 use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
 use crate::run::contest::Allowance;
-use crate::run::evaluation::{Evaluated, Plan};
-use crate::run::joined::{self, ForeignTrial};
+use crate::run::evaluation::Plan;
+use crate::run::export::export;
 use crate::scene::listings;
-use crate::show::presentation::Presentation;
-use crate::show::splice::splice;
-use anyhow::{Context, Result, ensure};
+use crate::show::presentation::present;
+use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::command::{CannotWrite, Exit};
-use std::fmt::Display;
-use std::io::{self, Write};
+use rigid_ccd::command::Exit;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -26,8 +23,14 @@ pub(super) struct ChartArgs {
     /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
     #[arg(long)]
     full: bool,
-    #[command(flatten)]
-    common: CommonArgs,
+    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead
+    /// of the models made by code
+    #[arg(long, value_name = "DIR")]
+    models: Option<PathBuf>,
+    /// Write tables, charts and the page to this folder; measurements that it holds already are not
+    /// repeated
+    #[arg(long, value_name = "DIR", default_value = "target/ccd-report")]
+    out: PathBuf,
     /// Only these scenes
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     scenes: Vec<String>,
@@ -38,19 +41,13 @@ pub(super) struct ChartArgs {
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
     /// Seconds for each method on each scene at each tolerance; after that, no more rows are started
-    #[arg(long, value_name = "SECONDS")]
-    cell: Option<f64>,
+    #[arg(long, value_name = "SECONDS", value_parser = duration)]
+    cell: Option<Duration>,
     /// Seconds after which a peer is stopped in the middle of a row
-    #[arg(long, value_name = "SECONDS")]
-    patience: Option<f64>,
+    #[arg(long, value_name = "SECONDS", value_parser = duration)]
+    patience: Option<Duration>,
     #[command(flatten)]
     programs: Programs,
-    /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
-    #[arg(long, value_name = "FILE.csv")]
-    join: Vec<PathBuf>,
-    /// Insert the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
-    #[arg(long, value_name = "FILE.md")]
-    splice: Vec<PathBuf>,
     /// Draw the measurements that the folder holds, and measure nothing
     #[arg(long, conflicts_with_all = ["full", "export"])]
     redraw: bool,
@@ -58,34 +55,6 @@ pub(super) struct ChartArgs {
     /// measure nothing
     #[arg(long, value_name = "DIR")]
     export: Option<PathBuf>,
-}
-
-/// Options that `demo` takes as well.
-#[derive(Clone, Debug, Args)]
-pub(super) struct CommonArgs {
-    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead
-    /// of the models made by code
-    #[arg(long, value_name = "DIR")]
-    models: Option<PathBuf>,
-    /// Write tables, charts and the page to this folder; measurements that it holds already are not
-    /// repeated
-    #[arg(long, value_name = "DIR", default_value = REPORT)]
-    out: PathBuf,
-    /// Print the tables, too: a row for each method on each scene
-    #[arg(long)]
-    tables: bool,
-}
-
-const REPORT: &str = "target/ccd-report";
-
-impl Default for CommonArgs {
-    fn default() -> Self {
-        CommonArgs {
-            models: None,
-            out: REPORT.into(),
-            tables: false,
-        }
-    }
 }
 
 const AFTER_HELP: &str = "\
@@ -121,10 +90,9 @@ const QUICK_ALLOWANCE: Allowance = Allowance {
 };
 
 pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
-    let mut plan = plan(&args.common, args.full)?;
+    let mut plan = plan(args)?;
     if args.programs.script.is_some() {
         plan.methods.extend(Method::script_methods());
-        plan.programs = args.programs.clone();
     }
     plan.listings = select_by_name(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
     plan.methods = select_by_name(plan.methods, &args.methods, "method", Method::to_string)?;
@@ -137,95 +105,51 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         }
         plan.tolerances.clone_from(&args.tolerances);
     }
-    if let Some(seconds) = args.cell {
-        plan.allowance.cell = duration("--cell", seconds)?;
-    }
-    if let Some(seconds) = args.patience {
-        plan.allowance.patience = duration("--patience", seconds)?;
-    }
     if let Some(folder) = &args.export {
-        joined::export(&plan.listings, plan.models, folder)?;
+        export(&plan.listings, plan.models, folder)?;
         return Ok(Exit::AllAnswered);
-    }
-    // An invalid table should be detected before the work.
-    let mut foreign = Vec::new();
-    for file in &args.join {
-        let trials = joined::read_trials(file);
-        foreign.extend(trials.with_context(|| format!("joining {}", file.display()))?);
     }
     let evaluated = if args.redraw {
         plan.recall()?
     } else {
         plan.run()?
     };
-    present(&args.common, evaluated, foreign, &args.splice)
-}
-
-pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
-    let plan = plan(args, false)?;
-    present(args, plan.run()?, Vec::new(), &[])
-}
-
-/// Writes tables, charts and the page, and prints the findings.
-fn present(
-    common: &CommonArgs,
-    mut evaluated: Evaluated,
-    joined: Vec<ForeignTrial>,
-    readmes: &[PathBuf],
-) -> Result<Exit> {
-    joined::join(&mut evaluated, joined)?;
-    let presentation = Presentation::new(&evaluated);
-    let page = presentation.write(&common.out)?;
-    for readme in readmes {
-        splice(readme, &presentation.comparisons)
-            .with_context(|| format!("splicing {}", readme.display()))?;
-    }
-    if common.tables {
-        for table in &presentation.summary {
-            print_summary(table)?;
-        }
-    }
-    let mut out = io::stdout().lock();
-    let mut print = |text: &dyn Display| {
-        writeln!(out, "{text}").map_err(|source| CannotWrite {
-            place: "what was seen".to_owned(),
-            source,
-        })
-    };
-    for sentence in &presentation.sentences {
-        print(sentence)?;
-    }
-    print(&format_args!(
-        "The report, with scenes in motion, charts and tables: {}",
-        page.display()
+    let (safety, page) = present(&evaluated, &args.out)?;
+    let page = page.display();
+    print_summary(&format_args!(
+        "{safety}\n\nThe report, with scenes in motion, a chart and tables: {page}"
     ))?;
     Ok(Exit::AllAnswered)
 }
 
 /// Returns the plan to measure everything, or a few rows with the fast methods.
-fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
-    if let Some(directory) = &common.models {
+fn plan(args: &ChartArgs) -> Result<Plan> {
+    if let Some(directory) = &args.models {
         ensure!(
             directory.is_dir(),
             "{} is not a directory; --models takes one that holds meshes such as bunny70k.obj",
             directory.display()
         );
     }
-    let (allowance, tolerances) = if full {
+    let (allowance, tolerances) = if args.full {
         (FULL_ALLOWANCE, &TOLERANCES[..])
     } else {
         (QUICK_ALLOWANCE, &FEW_TOLERANCES[..])
     };
     let methods = Method::all().into_iter();
-    let methods = methods.filter(|method| full || is_fast_to_run(*method));
+    let methods = methods.filter(|method| args.full || is_fast_to_run(*method));
     Ok(Plan {
         listings: listings()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
-        allowance,
-        programs: Programs::default(),
-        models: common.models.clone(),
-        folder: common.out.clone(),
+        allowance: Allowance {
+            cell: args.cell.unwrap_or(allowance.cell),
+            patience: args.patience.unwrap_or(allowance.patience),
+            ..allowance
+        },
+        programs: args.programs.clone(),
+        models: args.models.clone(),
+        folder: args.out.clone(),
     })
 }
 
@@ -259,7 +183,6 @@ pub(super) fn select_by_name<T>(
     Ok(all.into_iter().filter(wanted).collect())
 }
 
-fn duration(option: &str, seconds: f64) -> Result<Duration> {
-    Duration::try_from_secs_f64(seconds)
-        .with_context(|| format!("{option}: {seconds} is no time to wait"))
+fn duration(seconds: &str) -> Result<Duration> {
+    Ok(Duration::try_from_secs_f64(seconds.parse()?)?)
 }

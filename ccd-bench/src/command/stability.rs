@@ -10,7 +10,6 @@ use crate::show::write;
 use crate::stability::{Findings, Survey, families, growth_map, limits, reach_map, summary};
 use anyhow::{Result, ensure};
 use clap::Args;
-use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::Exit;
 use std::path::PathBuf;
 
@@ -29,9 +28,6 @@ pub(super) struct StabilityArgs {
     methods: Vec<String>,
     #[command(flatten)]
     programs: Programs,
-    /// Ask every combination of this project's schedules, oracles, pieces and bounds instead
-    #[arg(long)]
-    ours: bool,
     /// Draw the answers that the folder holds, whoever asked, and ask nothing
     #[arg(long)]
     redraw: bool,
@@ -57,24 +53,10 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-/// Returns all methods that answer queries; FAST as published comes after its variants with a sound bound.
-fn known_methods() -> Vec<Method> {
-    let mut methods = Method::all();
-    let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
-    let last = methods.iter().rposition(is_fast);
-    methods.insert(last.map_or(0, |last| last + 1), Method::fast_as_published());
-    methods.extend(Method::script_methods());
-    methods.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
-    methods
-}
-
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     // The folder may contain more than the requested answers.
-    let drawn = if args.ours {
-        Method::combinations()
-    } else {
-        known_methods()
-    };
+    let mut drawn = Method::known();
+    drawn.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
     let has_program =
         |method: &Method| args.programs.script.is_some() || !matches!(method, Method::Script(_));
     let methods = drawn.iter().copied().filter(has_program).collect();
@@ -96,14 +78,13 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         "{} holds no answers to draw",
         args.out.display()
     );
-    let limits = limits(&findings);
     let reach = reach_map(&findings).draw()?;
     let growth = growth_map(&findings).draw()?;
-    let limits = format!("{}\n\n{}\n", limits.title, limits.as_markdown());
+    let limits = format!("{}\n", limits(&findings));
     let files = [
         ("limits.md", &limits),
-        ("stability.svg", &reach.svg),
-        ("growth.svg", &growth.svg),
+        ("stability.svg", &reach),
+        ("growth.svg", &growth),
     ];
     for (name, text) in files {
         write(&args.out.join(name), text)?;

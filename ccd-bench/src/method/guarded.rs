@@ -7,21 +7,22 @@ use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
 use clap::Args;
 use rigid_ccd::table::motions::Motions;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
+use tempfile::TempDir;
 
 /// A method that runs on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
 pub struct Guarded {
     program: PathBuf,
     setting: Setting,
-    meshes: MeshFiles,
+    /// The folder of the files of both meshes.
+    meshes: TempDir,
     /// The running process; `None` after the last one was stopped, until the next one starts.
     process: Option<Process>,
 }
@@ -169,10 +170,14 @@ impl Guarded {
         setting: Setting,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
+        let folder = TempDir::with_prefix("ccd-bench-")?;
+        for (mesh, name) in meshes.into_iter().zip(MESHES) {
+            write_obj(mesh, File::create(folder.path().join(name))?)?;
+        }
         Ok(Guarded {
             program,
             setting,
-            meshes: MeshFiles::create(meshes)?,
+            meshes: folder,
             process: None,
         })
     }
@@ -213,12 +218,15 @@ impl Guarded {
             .arg(format!("--tolerance={}", self.setting.tolerance))
             .arg(format!("--margin={}", self.setting.margin))
             .arg("--a")
-            .arg(self.meshes.path(0))
+            .arg(self.meshes.path().join(MESHES[0]))
             .arg("--b")
-            .arg(self.meshes.path(1));
+            .arg(self.meshes.path().join(MESHES[1]));
         Process::start(&mut command, self.setting.preparation)
     }
 }
+
+/// The names of the files of both meshes.
+const MESHES: [&str; 2] = ["a.obj", "b.obj"];
 
 /// A running process that answers each line of input with one line. It ends when this is dropped.
 #[derive(Debug)]
@@ -284,38 +292,5 @@ impl Drop for Process {
         // It is no error if the process has ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
-    }
-}
-
-/// Two meshes written to files, which are removed when this value is dropped.
-#[derive(Debug)]
-struct MeshFiles {
-    directory: PathBuf,
-}
-
-impl MeshFiles {
-    fn create(meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
-        let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!("ccd-bench-{}-{count}", std::process::id());
-        let directory = std::env::temp_dir().join(name);
-        fs::create_dir_all(&directory)?;
-        let written = MeshFiles { directory };
-        for (k, mesh) in meshes.into_iter().enumerate() {
-            write_obj(mesh, File::create(written.path(k))?)?;
-        }
-        Ok(written)
-    }
-
-    fn path(&self, k: usize) -> PathBuf {
-        let name = ["a.obj", "b.obj"][k];
-        Path::new(&self.directory).join(name)
-    }
-}
-
-impl Drop for MeshFiles {
-    fn drop(&mut self) {
-        // A folder left behind does no harm.
-        let _ = fs::remove_dir_all(&self.directory);
     }
 }

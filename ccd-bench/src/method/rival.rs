@@ -26,6 +26,7 @@ mod stepping;
 mod swept_spheres;
 #[cfg(test)]
 mod tests;
+mod tree;
 mod triangles_apart;
 mod triangles_cross;
 

@@ -4,13 +4,11 @@ mod journal;
 mod session;
 #[cfg(test)]
 mod tests;
-mod truths;
 pub(crate) mod verdict;
 
 use ccd_core::order::greater;
 pub use journal::{Journal, program_stamp};
 pub use session::Session;
-pub use truths::Truths;
 pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
 
 use crate::method::MotionKind;
@@ -19,21 +17,29 @@ use crate::method::rival::screw;
 use crate::method::solver::Claim;
 use crate::run::measured::{Cell, Trial};
 use crate::scene::Scene;
-use crate::truth::{Referee, Surface};
+use crate::truth::{Referee, Surface, Truth};
 use anyhow::{Context, Result};
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Motions;
-use std::sync::Arc;
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 /// A scene with its surfaces, prepared for running methods and judging their answers.
 pub struct Contest<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
+    given: Rows<'s>,
     /// The queries of the scene with screw motions between the same poses.
-    screws: Vec<Motions>,
+    screws: Rows<'s>,
+}
+
+/// The queries of a scene, each with its exact answer once that is known.
+struct Rows<'s> {
+    queries: Cow<'s, [Motions]>,
+    truths: Vec<OnceLock<Truth>>,
 }
 
 /// The limits on time and rows of a measurement.
@@ -71,21 +77,26 @@ impl<'s> Contest<'s> {
         Ok(Contest {
             scene,
             surfaces: [a, b],
-            screws: screws?,
+            given: Rows::new(Cow::Borrowed(&scene.queries)),
+            screws: Rows::new(Cow::Owned(screws?)),
         })
     }
 
-    /// Returns the queries with motions of the given kind.
-    pub fn queries(&self, motion: MotionKind) -> &[Motions] {
+    fn rows(&self, motion: MotionKind) -> &Rows<'s> {
         match motion {
-            MotionKind::Given => &self.scene.queries,
+            MotionKind::Given => &self.given,
             MotionKind::Screw => &self.screws,
         }
     }
 
-    /// Returns the referee that judges answers about this scene.
-    pub fn referee(&self) -> Referee<'_> {
-        Referee::new(&self.surfaces[0], &self.surfaces[1])
+    /// Judges the outcome of a row's query by the exact answer, which is computed on first use.
+    fn judge(&self, rows: &Rows<'_>, row: usize, outcome: &QueryOutcome, tolerance: f64) -> Judged {
+        let referee = Referee::new(&self.surfaces[0], &self.surfaces[1]);
+        let query = &rows.queries[row];
+        judge_outcome(outcome, |reply| {
+            let truth = rows.truths[row].get_or_init(|| referee.first_contact(query));
+            judge(&referee, query, *truth, reply.claim, tolerance)
+        })
     }
 
     /// Returns the order in which rows are run, of which at most `most` are run. The rows are spread evenly, and so is
@@ -110,10 +121,10 @@ impl<'s> Contest<'s> {
         session: &mut Session<'_>,
         tolerance: f64,
         allowance: &Allowance,
-        truths: &Truths,
     ) -> Result<Option<(Cell, Vec<Trial>)>> {
         let method = session.method();
-        let queries = self.queries(method.motion_kind());
+        let rows = self.rows(method.motion_kind());
+        let queries = &rows.queries;
         let order = self.order(allowance.rows);
         let asked_for = order.iter().map(|&row| &queries[row]);
         let prepared = session.prepare(asked_for, tolerance, allowance.preparation);
@@ -134,21 +145,15 @@ impl<'s> Contest<'s> {
             return Ok(None);
         }
         asked.sort_by_key(|(row, _)| *row);
-        let truths = truths.of_scene(self, method.motion_kind());
         let method = method.to_string();
         let trials: Vec<Trial> = asked
             .par_iter()
             .map(|(row, answered)| {
-                let query = &queries[*row];
-                let truth = truths(*row);
-                let judged = judge_outcome(answered, |reply| {
-                    judge(&self.referee(), query, truth, reply.claim, tolerance)
-                });
                 Trial::new(
                     (&self.scene.name, &method, tolerance),
-                    (*row, &query.id),
+                    (*row, &queries[*row].id),
                     (answered, allowance.patience),
-                    judged,
+                    (self.judge(rows, *row, answered, tolerance), String::new()),
                 )
             })
             .collect();
@@ -161,6 +166,15 @@ impl<'s> Contest<'s> {
     }
 }
 
+impl<'s> Rows<'s> {
+    fn new(queries: Cow<'s, [Motions]>) -> Self {
+        Rows {
+            truths: vec![OnceLock::new(); queries.len()],
+            queries,
+        }
+    }
+}
+
 /// Summarises the trials of one method on one scene, of which there is at least one.
 pub fn summarise(trials: &[Trial]) -> Cell {
     let count = |verdict: Verdict| {
@@ -170,11 +184,7 @@ pub fn summarise(trials: &[Trial]) -> Cell {
     // A query at which a peer died has no time.
     let known = trials.iter().map(|t| t.micros).filter(|m| !m.is_nan());
     let mut micros: Vec<f64> = known.collect();
-    let errors: Vec<f64> = trials
-        .iter()
-        .map(|t| t.error)
-        .filter(|e| !e.is_nan())
-        .collect();
+    let errors: Vec<f64> = trials.iter().filter_map(|t| t.error).collect();
     let rows = trials.len();
     let first = trials.first();
     let cut_off = count(Verdict::CutOff) + count(Verdict::Died);
@@ -190,8 +200,8 @@ pub fn summarise(trials: &[Trial]) -> Cell {
         missed: count(Verdict::Missed),
         false_contacts: count(Verdict::False),
         unresolved: count(Verdict::Unresolved) + cut_off,
-        mean_error: mean(&errors),
-        max_error: errors.iter().copied().reduce(greater).unwrap_or(f64::NAN),
+        mean_error: (!errors.is_empty()).then(|| mean(&errors)),
+        max_error: errors.iter().copied().reduce(greater),
         early: count(Verdict::Early),
         cut_off,
         undecided: count(Verdict::Undecided),

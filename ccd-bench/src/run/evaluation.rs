@@ -1,8 +1,8 @@
 //! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
 
 use crate::method::guarded::Programs;
-use crate::method::{Method, MotionKind, USUAL_TOLERANCE};
-use crate::run::contest::{Allowance, Contest, Journal, Session, Truths, program_stamp};
+use crate::method::{Method, USUAL_TOLERANCE};
+use crate::run::contest::{Allowance, Contest, Journal, Session, program_stamp};
 use crate::scene::{Listing, Models, Pieces, Scene, SceneBody};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -30,31 +30,25 @@ pub struct Plan {
     pub folder: PathBuf,
 }
 
-/// The measurements made, with their scenes and exact answers.
+/// The measurements made, with their scenes.
 pub struct Evaluated {
     /// The scenes that the methods were run on.
     pub scenes: Vec<Scene>,
     /// The measurements of all cells and trials.
     pub journal: Journal,
-    /// The exact answers that the replies were compared with.
-    pub truths: Truths,
 }
-
-/// The name of the file of exact answers, in the folder of the measurements.
-const TRUTHS: &str = "truth.csv";
 
 impl Plan {
     /// Returns the measurements in the folder, whatever their settings, and measures nothing.
     ///
     /// # Errors
-    /// If a scene cannot be made, or the truths cannot be read.
+    /// If a scene cannot be made.
     pub fn recall(&self) -> Result<Evaluated> {
         let mut models = Models::new(self.models.clone());
         let scenes = self.listings.iter().map(|l| l.make(&mut models));
         Ok(Evaluated {
             scenes: scenes.collect::<Result<_>>()?,
             journal: Journal::read(&self.folder),
-            truths: Truths::read(&self.folder.join(TRUTHS))?,
         })
     }
 
@@ -66,9 +60,7 @@ impl Plan {
         for &method in &self.methods {
             self.programs.check(method)?;
         }
-        let mut journal = Journal::open(&self.folder, &self.stamp(), &[TRUTHS])?;
-        let truths_file = self.folder.join(TRUTHS);
-        let mut truths = Truths::read(&truths_file)?;
+        let mut journal = Journal::open(&self.folder, &self.stamp())?;
         let mut models = Models::new(self.models.clone());
         let scenes = self.scenes(&mut models)?;
         let cells: usize = self
@@ -79,27 +71,15 @@ impl Plan {
         let progress = Progress::new(Total::Steps(scenes.len() * cells));
         for scene in &scenes {
             let contest = Contest::new(scene)?;
-            progress.say(&format!("{}: the truth", scene.name));
-            let rows = contest.order(self.allowance.rows);
-            for motion in self.motions() {
-                if truths.find(&contest, motion, &rows, &progress) > 0 {
-                    truths.write(&truths_file)?;
-                }
-            }
-            self.run_scene(&contest, &truths, &mut journal, &progress)?;
+            self.run_scene(&contest, &mut journal, &progress)?;
         }
         drop(progress);
-        Ok(Evaluated {
-            scenes,
-            journal,
-            truths,
-        })
+        Ok(Evaluated { scenes, journal })
     }
 
     fn run_scene(
         &self,
         contest: &Contest<'_>,
-        truths: &Truths,
         journal: &mut Journal,
         progress: &Progress,
     ) -> Result<()> {
@@ -127,7 +107,7 @@ impl Plan {
                 let Some(session) = &mut session else {
                     continue;
                 };
-                if let Some((cell, trials)) = contest.run(session, tolerance, &allowance, truths)? {
+                if let Some((cell, trials)) = contest.run(session, tolerance, &allowance)? {
                     journal.add(cell, trials)?;
                 }
             }
@@ -175,14 +155,6 @@ impl Plan {
             .iter()
             .copied()
             .filter(move |&tolerance| method.takes_tolerances() || tolerance == USUAL_TOLERANCE)
-    }
-
-    /// Returns the kinds of motion that some method uses.
-    fn motions(&self) -> impl Iterator<Item = MotionKind> {
-        let is_used = |kind: &MotionKind| self.methods.iter().any(|m| m.motion_kind() == *kind);
-        [MotionKind::Given, MotionKind::Screw]
-            .into_iter()
-            .filter(is_used)
     }
 
     /// Describes the settings that determine all measurements: this program, and the allowances.

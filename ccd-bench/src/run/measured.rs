@@ -1,17 +1,11 @@
 //! The table of cells, which the charts show, and the table of trials, which it summarises.
 
-#[cfg(test)]
-mod tests;
-
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::Claim;
 use crate::run::contest::verdict::Judged;
 use anyhow::{Context, Result};
-use rigid_ccd::table::Lines;
-use rigid_ccd::table::Quotes;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::{self, Read, Write};
+use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
@@ -41,13 +35,10 @@ pub struct Cell {
     pub false_contacts: usize,
     /// The number of queries without a complete answer, including those cut off.
     pub unresolved: usize,
-    /// The mean error of the times of contact, as a fraction of the duration; NaN (an empty cell)
-    /// if there are none.
-    #[serde(with = "optional")]
-    pub mean_error: f64,
+    /// The mean error of the times of contact, as a fraction of the duration; `None` without any.
+    pub mean_error: Option<f64>,
     /// The largest error of a time of contact, as a fraction of the duration.
-    #[serde(with = "optional")]
-    pub max_error: f64,
+    pub max_error: Option<f64>,
     /// The number of contacts reported while the bodies are farther apart than the tolerance.
     pub early: usize,
     /// The number of queries that exceeded the time limit and were stopped, or at which the peer died.
@@ -77,24 +68,22 @@ pub struct Trial {
     pub steps: u64,
     /// The verdict on the method's claim.
     pub verdict: String,
-    /// The error of the time of contact, as a fraction of the duration; NaN if there is no time.
-    #[serde(with = "optional")]
-    pub error: f64,
-    /// The time of the claimed contact, or the time until which there is none; NaN without a time.
-    #[serde(with = "optional", default = "no_time")]
-    pub time: f64,
+    /// The error of the time of contact, as a fraction of the duration; `None` without a time.
+    pub error: Option<f64>,
+    /// The time of the claimed contact, or the time until which there is none.
+    pub time: Option<f64>,
     /// The method's remark about its answer: a raised tolerance, or the reason for an incomplete answer.
     #[serde(default)]
     pub note: String,
 }
 
 impl Trial {
-    /// Returns the trial of a query of a scene at a tolerance, without a remark.
+    /// Returns the trial of a query of a scene at a tolerance, with a remark.
     pub fn new(
         (scene, method, tolerance): (&str, &str, f64),
         (row, id): (usize, &str),
         (outcome, patience): (&QueryOutcome, Duration),
-        judged: Judged,
+        (judged, note): (Judged, String),
     ) -> Self {
         Trial {
             scene: scene.to_owned(),
@@ -105,16 +94,14 @@ impl Trial {
             micros: outcome.micros(patience),
             steps: outcome.steps(),
             verdict: judged.verdict.to_string(),
-            error: judged.error.unwrap_or(f64::NAN),
-            time: outcome.claim().and_then(Claim::time).unwrap_or(f64::NAN),
-            note: String::new(),
+            error: judged.error,
+            time: outcome
+                .claim()
+                .and_then(Claim::time)
+                .filter(|time| !time.is_nan()),
+            note,
         }
     }
-}
-
-/// Returns NaN, the time for earlier tables, which have no times.
-fn no_time() -> f64 {
-    f64::NAN
 }
 
 impl Cell {
@@ -137,38 +124,4 @@ pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
         writer.flush()
     };
     ccd_file::write(path, write).with_context(|| path.display().to_string())
-}
-
-/// Reads the rows of a CSV table with a header.
-///
-/// # Errors
-/// If the file cannot be read, or a row does not fit the table.
-pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Error> {
-    // Errors give the line, which is counted correctly if all lines end alike.
-    let mut reader =
-        csv::Reader::from_reader(Quotes::new(Lines::new(File::open(path)?)).chain(&b"\n"[..]));
-    let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
-    let end = reader.position().line();
-    match reader.get_ref().get_ref().0.unclosed(end) {
-        Some(line) => Err(csv::Error::from(io::Error::new(
-            io::ErrorKind::InvalidData,
-            format!("line {line}: a quote opens a cell here and nothing closes it"),
-        ))),
-        None => rows,
-    }
-}
-
-/// Serialises NaN as an empty cell.
-mod optional {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    // serde's `with` passes a reference.
-    #[expect(clippy::trivially_copy_pass_by_ref)]
-    pub(super) fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
-        Some(*value).filter(|v| !v.is_nan()).serialize(to)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
-    }
 }

@@ -1,23 +1,20 @@
 //! The bodies of the scenes: made by code, or read from files of the same names.
 
 mod blob;
-mod board;
+mod cuboid;
 mod grid;
-mod plate;
 mod ring;
 pub(crate) mod sphere;
 #[cfg(test)]
 mod tests;
 mod torus_knot;
 
-pub use blob::{Blob, Lobe};
-pub use board::Board;
-pub use plate::Plate;
-pub use ring::Ring;
-pub use torus_knot::TorusKnot;
+pub use blob::Blob;
+pub use cuboid::cuboid;
+pub(crate) use ring::ring;
+pub use torus_knot::torus_knot;
 
 use crate::names::name_of;
-use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 use clap::ValueEnum;
 use std::path::Path;
@@ -45,6 +42,9 @@ pub enum Model {
     Santa,
 }
 
+/// The radius of the knots' tubes.
+const TUBE: f64 = 0.16;
+
 impl Model {
     /// Returns the name of the model's file, without the extension.
     pub fn name(self) -> String {
@@ -69,33 +69,15 @@ impl Model {
     /// None, since every model has a valid size.
     pub fn generate(self) -> Result<TriangleMesh, MeshError> {
         match self {
-            Model::Knot216 => knot(27, 4),
-            Model::Knot2880 => knot(120, 12),
-            Model::Knot11520 => knot(240, 24),
-            Model::Knot34560 => knot(480, 36),
-            Model::Ring => Ring {
-                segments: 250,
-                sides: 20,
-                radius: 0.8,
-                tube: 0.2,
-            }
-            .mesh(),
-            Model::Board => Board {
-                half_extents: DVec3::new(1.5, 1.5, 0.01),
-            }
-            .mesh(),
+            Model::Knot216 => torus_knot([27, 4], TUBE),
+            Model::Knot2880 => torus_knot([120, 12], TUBE),
+            Model::Knot11520 => torus_knot([240, 24], TUBE),
+            Model::Knot34560 => torus_knot([480, 36], TUBE),
+            Model::Ring => ring([250, 20], 0.8, 0.2),
+            Model::Board => cuboid(1.5, 1.5, 0.01),
             Model::Bunny70k => Blob::BUNNY.mesh(34_834),
             Model::Bunny26k => Blob::BUNNY.mesh(13_002),
             Model::Santa => Blob::SANTA.mesh(18_946),
         }
     }
-}
-
-fn knot(segments: usize, sides: usize) -> Result<TriangleMesh, MeshError> {
-    TorusKnot {
-        segments,
-        sides,
-        tube: 0.16,
-    }
-    .mesh()
 }

@@ -69,7 +69,7 @@ fn models_are_made_once() {
     let first = models.body(Model::Knot216).unwrap();
     let second = models.body(Model::Knot216).unwrap();
     assert!(Arc::ptr_eq(&first.body, &second.body));
-    assert_eq!(first.triangles(), 216);
+    assert_eq!(first.mesh().faces().len(), 216);
 }
 
 /// Tests that the stored motions are those that the random seeds give.

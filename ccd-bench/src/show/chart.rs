@@ -3,7 +3,6 @@
 //! | chart | shows |
 //! |---|---|
 //! | `pareto` | time against error, a line for each method over its tolerances |
-//! | `triangles` | time against the size of the mesh |
 //! | `stability`, `growth` | how far each method follows each family of scenes, and how its cost grows |
 //!
 //! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point
@@ -16,18 +15,13 @@ mod sheet;
 mod style;
 #[cfg(test)]
 mod tests;
-mod triangles;
 
 pub use heat_map::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 
-use crate::method::{Method, USUAL_TOLERANCE};
+use crate::method::Method;
 use crate::run::measured::Cell;
 use anyhow::{Result, ensure};
 use plane::Shown;
-
-/// The remark below charts whose medians are over different rows.
-const SAME_ROWS: &str = "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on the \
-                         rows that both were asked.";
 
 /// The measurements that all charts show.
 #[derive(Clone, Copy, Debug)]
@@ -36,18 +30,9 @@ pub struct Charts<'a> {
     /// compared](super::comparable).
     pub cells: &'a [Cell],
     /// The scenes in display order; cells of other scenes are left out.
-    pub scenes: &'a [SceneFacts<'a>],
+    pub scenes: &'a [&'a str],
     /// The methods in display order; cells of other methods are left out.
     pub methods: &'a [MethodFacts<'a>],
-}
-
-/// The facts about a scene that charts need.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SceneFacts<'a> {
-    /// The name of the scene in the tables.
-    pub name: &'a str,
-    /// The number of triangles of the moving mesh.
-    pub triangles: usize,
 }
 
 /// The facts about a method that charts need.
@@ -72,27 +57,17 @@ pub enum Family {
     Model,
 }
 
-/// A chart as the content of an SVG file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Drawing {
-    /// The name of the chart's file, without the extension.
-    pub name: String,
-    /// The SVG text of the chart.
-    pub svg: String,
-}
-
 impl Charts<'_> {
-    /// Draws every chart for which there are measurements.
+    /// Draws the chart of time against error; returns the text of an SVG file, or `None` without any time.
     ///
     /// # Errors
     /// If no row of the table is of a known scene and a known method, or the drawing library fails.
-    pub fn drawings(&self) -> Result<Vec<Drawing>> {
+    pub fn pareto(&self) -> Result<Option<String>> {
         ensure!(
             !self.measured_scenes().is_empty(),
             "nothing to draw: no row of the table is of a known scene and a known method"
         );
-        let charts = [pareto::chart(self)?, triangles::chart(self)?];
-        Ok(charts.into_iter().flatten().collect())
+        pareto::chart(self)
     }
 
     /// Returns true if the method was late or missed a contact in any cell.
@@ -103,12 +78,12 @@ impl Charts<'_> {
     }
 
     /// Returns the scenes for which there are measurements.
-    fn measured_scenes(&self) -> Vec<&SceneFacts<'_>> {
-        let has_cells = |scene: &&SceneFacts<'_>| {
-            let of = |method: &MethodFacts<'_>| !self.cells_of(scene.name, method.name).is_empty();
+    fn measured_scenes(&self) -> Vec<&str> {
+        let has_cells = |scene: &&str| {
+            let of = |method: &MethodFacts<'_>| !self.cells_of(scene, method.name).is_empty();
             self.methods.iter().any(of)
         };
-        self.scenes.iter().filter(has_cells).collect()
+        self.scenes.iter().copied().filter(has_cells).collect()
     }
 
     /// Returns the measurements of a method on a scene, the coarsest tolerance first.
@@ -125,7 +100,7 @@ impl Charts<'_> {
     /// Returns the measured methods of some families, each with its style.
     fn methods_with_styles(&self, families: &[Family]) -> Vec<Shown<'_>> {
         let measured = |name: &str| {
-            let of = |scene: &SceneFacts<'_>| !self.cells_of(scene.name, name).is_empty();
+            let of = |scene: &&str| !self.cells_of(scene, name).is_empty();
             self.scenes.iter().any(of)
         };
         self.methods
@@ -149,15 +124,6 @@ impl<'a> MethodFacts<'a> {
     }
 }
 
-impl SceneFacts<'_> {
-    /// Returns the scene's name without size and rotation, the same for scenes that a line over the sizes joins.
-    fn shape(&self) -> String {
-        let plain: String = self.name.chars().filter(|c| !c.is_ascii_digit()).collect();
-        let plain = plain.trim_end_matches(" translating");
-        plain.trim_end_matches(" turning").to_owned()
-    }
-}
-
 impl Family {
     /// The families of methods that the charts compare.
     const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
@@ -171,9 +137,4 @@ impl Family {
             Family::Model => "models",
         }
     }
-}
-
-/// Returns true if a tolerance is the one of the paper's benchmarks, up to its rounding in a table.
-fn is_papers(tolerance: f64) -> bool {
-    (tolerance / USUAL_TOLERANCE - 1.0).abs() < 1e-9
 }

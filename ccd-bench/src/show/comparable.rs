@@ -29,14 +29,9 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Returns the name of the reference method.
-    pub fn name(&self) -> &'a str {
-        self.name
-    }
-
     /// Returns the median ratio of a method's times to those of the reference, over the rows that both ran on; `None`
     /// without such rows.
-    pub fn ratio(&self, cell: &Cell) -> Option<f64> {
+    fn ratio(&self, cell: &Cell) -> Option<f64> {
         let of_cell = |trial: &&Trial| {
             trial.method == cell.method
                 && trial.scene == cell.scene

@@ -1,6 +1,5 @@
-//! Makes one page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
+//! Makes one page that shows measurements: a chart, tables, scenes in three dimensions. It works offline.
 
-use super::chart::Drawing;
 use super::tables::TextTable;
 use super::views::Views;
 use ccd_view::{escape, fill_template};
@@ -12,21 +11,15 @@ mod tests;
 ///
 /// # Errors
 /// If the views cannot be serialised.
-pub fn html(
-    drawings: &[Drawing],
-    views: &Views,
-    tables: &[TextTable],
-) -> Result<String, serde_json::Error> {
-    let figure = |drawing: &Drawing| format!("<figure>{}</figure>\n", drawing.svg);
+pub fn html(chart: &str, views: &Views, tables: &[TextTable]) -> Result<String, serde_json::Error> {
     let parts = [
         ("style", include_str!("page/style.css").to_owned()),
-        ("charts", drawings.iter().map(figure).collect()),
+        ("charts", format!("<figure>{chart}</figure>\n")),
         ("tables", tables.iter().map(table_html).collect()),
         ("view_place", ccd_view::HTML.to_owned()),
         ("view_style", ccd_view::STYLE.to_owned()),
         ("views", ccd_view::data(&views.meshes, &views.groups)?),
         ("view_scripts", ccd_view::scripts()),
-        ("tables_script", include_str!("page/tables.js").to_owned()),
     ];
     Ok(fill_template(include_str!("page/page.html"), &parts))
 }
@@ -40,12 +33,8 @@ fn table_html(table: &TextTable) -> String {
         };
         format!("<td{class}>{}</td>", escape(text))
     };
-    let header = table.header.iter().map(|name| {
-        format!(
-            "<th scope=\"col\"><button type=\"button\">{}</button></th>",
-            escape(name)
-        )
-    });
+    let header = table.header.iter();
+    let header = header.map(|name| format!("<th scope=\"col\">{}</th>", escape(name)));
     let rows = table.rows.iter().map(|row| {
         let cells: String = row.iter().map(cell).collect();
         format!("<tr>{cells}</tr>\n")

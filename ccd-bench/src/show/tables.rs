@@ -6,17 +6,15 @@ pub(crate) mod tests;
 use crate::method::Method;
 use crate::run::contest::Verdict;
 use crate::run::measured::{Cell, Trial};
-use crate::show::comparable::Reference;
-use comfy_table::presets::{ASCII_MARKDOWN, UTF8_BORDERS_ONLY};
-use comfy_table::{CellAlignment, Table, TableStyle};
+use comfy_table::presets::ASCII_MARKDOWN;
+use comfy_table::{CellAlignment, Table};
 use rigid_ccd::batch::median;
 use std::collections::HashMap;
+use std::fmt;
 
-/// A table of texts, for a terminal or a README.
+/// A table of texts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable {
-    /// The name that a marker `<!-- ccd chart: NAME -->` in a README gives for this table.
-    pub name: String,
     /// The title above the table.
     pub title: String,
     /// The names of the columns.
@@ -24,9 +22,6 @@ pub struct TextTable {
     /// The rows, each with one text per column.
     pub rows: Vec<Vec<String>>,
 }
-
-/// A column of a table of measurements: its name, and the function that returns its text.
-type Column<'c> = (&'c str, &'c dyn Fn(&Cell) -> String);
 
 /// The number of rows below which a median is shown together with the number of rows.
 const FEW_ROWS: usize = 10;
@@ -38,34 +33,18 @@ impl TextTable {
     /// Creates a table without a name and without rows.
     pub fn new(title: &str, header: impl IntoIterator<Item = impl Into<String>>) -> Self {
         TextTable {
-            name: String::new(),
             title: title.to_owned(),
             header: header.into_iter().map(Into::into).collect(),
             rows: Vec::new(),
         }
     }
+}
 
-    /// Returns the same table with a name.
-    pub fn named(self, name: &str) -> Self {
-        TextTable {
-            name: name.to_owned(),
-            ..self
-        }
-    }
-
-    /// Returns the text of the table for a terminal, with aligned columns.
-    pub fn for_terminal(&self) -> String {
-        self.with_layout(UTF8_BORDERS_ONLY)
-    }
-
-    /// Returns the text of the table for a README, in Markdown.
-    pub fn as_markdown(&self) -> String {
-        self.with_layout(ASCII_MARKDOWN)
-    }
-
-    fn with_layout(&self, style: TableStyle) -> String {
+impl fmt::Display for TextTable {
+    /// Writes the title and the table, in Markdown.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut table = Table::new();
-        table.load_style(style).set_header(&self.header);
+        table.load_style(ASCII_MARKDOWN).set_header(&self.header);
         for (index, column) in table.column_iter_mut().enumerate() {
             // Words are aligned left, numbers right.
             let is_words = |row: &Vec<String>| {
@@ -76,52 +55,9 @@ impl TextTable {
                 column.set_cell_alignment(CellAlignment::Right);
             }
         }
-        for row in &self.rows {
-            table.add_row(row);
-        }
-        table.to_string()
+        table.add_rows(&self.rows);
+        write!(f, "{}\n\n{table}", self.title)
     }
-}
-
-/// Compares every method on every scene at one tolerance, and with the reference on the rows that both ran on.
-pub fn at_tolerance(cells: &[Cell], tolerance: f64, reference: &Reference<'_>) -> TextTable {
-    let ratio = format!("× {}", reference.name());
-    let of_reference = |cell: &Cell| match reference.ratio(cell) {
-        Some(ratio) => format!("{ratio:.2}"),
-        None => NO_VALUE.to_owned(),
-    };
-    let mean_error = |cell: &Cell| match cell.mean_error {
-        error if error.is_nan() => NO_VALUE.to_owned(),
-        error => format!("{error:.0e}"),
-    };
-    let columns: [Column<'_>; 12] = [
-        ("method", &|cell| cell.method.clone()),
-        ("rows", &|cell| cell.rows.to_string()),
-        ("median µs", &|cell| micros(cell.median_us)),
-        (&ratio, &of_reference),
-        ("mean µs", &|cell| micros(cell.mean_us)),
-        ("p95 µs", &|cell| micros(cell.p95_us)),
-        ("late", &|cell| cell.late.to_string()),
-        ("missed", &|cell| cell.missed.to_string()),
-        ("false", &|cell| cell.false_contacts.to_string()),
-        ("early", &|cell| cell.early.to_string()),
-        ("unresolved", &|cell| cell.unresolved.to_string()),
-        ("mean error", &mean_error),
-    ];
-    let title = format!(
-        "Tolerance {tolerance:e}; {ratio}: the median ratio on the rows that both were asked"
-    );
-    let names = columns.iter().map(|(name, _)| *name);
-    let mut table = TextTable::new(&title, ["scene"].into_iter().chain(names));
-    let mut last = "";
-    for cell in cells.iter().filter(|cell| cell.tolerance == tolerance) {
-        let scene = if cell.scene == last { "" } else { &cell.scene };
-        last = &cell.scene;
-        let mut row = vec![scene.to_owned()];
-        row.extend(columns.iter().map(|(_, text)| text(cell)));
-        table.rows.push(row);
-    }
-    table
 }
 
 /// A count in a table of measurements: its name, and the function that returns it.
@@ -245,14 +181,7 @@ pub fn methods(cells: &[Cell]) -> Vec<&str> {
             methods.push(&cell.method);
         }
     }
-    // Methods joined from elsewhere come last, in the order in which they were joined.
+    // Methods that a script runs come last.
     methods.sort_by_key(|name| order.iter().position(|o| o == name).unwrap_or(order.len()));
     methods
-}
-
-fn micros(value: f64) -> String {
-    match value {
-        ..1000.0 => format!("{value:.1}"),
-        _ => format!("{value:.0}"),
-    }
 }

@@ -8,8 +8,10 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::{Family, Step};
+use super::family::{BodyMotion, Family, Step, contact_at};
+use super::shapes::slab;
 use anyhow::Result;
+use ccd_decomp::TriangleMesh;
 
 /// Returns all families of scenes.
 pub fn families() -> Vec<Family> {
@@ -45,6 +47,13 @@ fn negative_powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> 
 /// Returns the powers 10ᵏ for each k.
 fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(k)).collect()
+}
+
+/// Returns the step of a body that falls onto a slab, and meets it at a time known to within 1e-14.
+fn onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<Step> {
+    let step = Step::new(mesh, slab()?);
+    let expected = contact_at(time, 1e-14);
+    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A family of scenes with known answers, whose parameter makes them harder step by step.
 
+use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
@@ -39,24 +40,8 @@ pub struct Step {
 pub struct Case {
     /// The motions of both bodies.
     pub query: Motions,
-    /// The exact answer of the query.
-    pub expected: Expected,
-}
-
-/// The exact answer of a query, in which contact means a distance of at most the margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Expected {
-    /// The first contact is between two times, after the start.
-    Contact {
-        /// The latest known time before which there is no contact.
-        lo: f64,
-        /// The earliest known time by which there is a contact.
-        hi: f64,
-    },
-    /// There is no contact for the whole duration.
-    Free,
-    /// The bodies overlap at the start, or one is inside the other.
-    Start,
+    /// The exact answer of the query, in which a contact is a distance of at most the margin, or a body inside the other.
+    pub expected: Truth,
 }
 
 impl Family {
@@ -90,24 +75,11 @@ const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
 /// The default tolerance of a step, in the scene's unit of length.
 const TOLERANCE: f64 = 1e-6;
 
-impl Expected {
-    /// Returns the answer of a contact at a known time, with an allowance for the rounding of the query's numbers.
-    pub(super) fn at(time: f64, slack: f64) -> Self {
-        Expected::Contact {
-            lo: time - slack,
-            hi: time + slack,
-        }
-    }
-
-    /// Converts the answer for duration 1 to another duration.
-    fn for_duration(self, duration: f64) -> Self {
-        match self {
-            Expected::Contact { lo, hi } => Expected::Contact {
-                lo: lo * duration,
-                hi: hi * duration,
-            },
-            Expected::Free | Expected::Start => self,
-        }
+/// Returns the answer of a contact at a known time, with an allowance for the rounding of the query's numbers.
+pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
+    Truth::Hit {
+        lo: time - slack,
+        hi: time + slack,
     }
 }
 
@@ -135,10 +107,7 @@ impl BodyMotion {
 
     /// Returns the motion of a body that rests at a position.
     pub(super) fn rest(at: DVec3) -> Self {
-        BodyMotion {
-            at,
-            ..BodyMotion::STILL
-        }
+        BodyMotion::straight(at, DVec3::ZERO)
     }
 
     /// Returns the motion of a body in a straight line, without rotation.
@@ -186,12 +155,7 @@ impl Step {
     }
 
     /// Adds a query with exactly these motions; the expected answer is for a duration of 1.
-    pub(super) fn with_query(
-        self,
-        a: BodyMotion,
-        b: BodyMotion,
-        expected: Expected,
-    ) -> Result<Self> {
+    pub(super) fn with_query(self, a: BodyMotion, b: BodyMotion, expected: Truth) -> Result<Self> {
         self.in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
@@ -200,7 +164,7 @@ impl Step {
         mut self,
         a: BodyMotion,
         b: BodyMotion,
-        expected: Expected,
+        expected: Truth,
     ) -> Result<Self> {
         self = self.with_query(a, b, expected)?;
         for (axis, angle) in WORLD_ROTATIONS {
@@ -215,7 +179,7 @@ impl Step {
         bears_rounding: bool,
         a: BodyMotion,
         b: BodyMotion,
-        expected: Expected,
+        expected: Truth,
     ) -> Result<Self> {
         if bears_rounding {
             self.with_rotated_queries(a, b, expected)
@@ -224,19 +188,20 @@ impl Step {
         }
     }
 
-    fn in_world(
-        mut self,
-        world: DQuat,
-        [a, b]: [BodyMotion; 2],
-        expected: Expected,
-    ) -> Result<Self> {
+    fn in_world(mut self, world: DQuat, [a, b]: [BodyMotion; 2], expected: Truth) -> Result<Self> {
         let query = Motions {
             id: self.cases.len().to_string(),
             a: a.motion(world, self.duration)?,
             b: b.motion(world, self.duration)?,
             duration: self.duration,
         };
-        let expected = expected.for_duration(self.duration);
+        let expected = match expected {
+            Truth::Hit { lo, hi } => Truth::Hit {
+                lo: lo * self.duration,
+                hi: hi * self.duration,
+            },
+            other => other,
+        };
         self.cases.push(Case { query, expected });
         Ok(self)
     }

@@ -4,22 +4,8 @@ use super::family::Family;
 use super::survey::step_name;
 use crate::method::Method;
 use crate::run::contest::{Journal, Verdict};
-use crate::run::measured::Trial;
+use clap::ValueEnum;
 use std::collections::{HashMap, HashSet};
-
-/// All verdicts, from good to bad.
-pub(super) const VERDICTS: [Verdict; 10] = [
-    Verdict::Right,
-    Verdict::Early,
-    Verdict::Undecided,
-    Verdict::Refused,
-    Verdict::Unresolved,
-    Verdict::False,
-    Verdict::Late,
-    Verdict::Missed,
-    Verdict::Died,
-    Verdict::CutOff,
-];
 
 /// The answers in a journal, sorted by families and methods.
 #[derive(Debug)]
@@ -29,8 +15,8 @@ pub struct Findings<'j> {
     /// The methods that were asked.
     pub(super) methods: Vec<Method>,
     pub(super) journal: &'j Journal,
-    /// The worst answer to each step by each method, with the index of its verdict.
-    worst: HashMap<(&'j str, &'j str), (usize, &'j Trial)>,
+    /// The worst verdict on each step by each method.
+    worst: HashMap<(&'j str, &'j str), Verdict>,
 }
 
 /// A step of a family to which a method gave a wrong answer.
@@ -57,13 +43,10 @@ impl<'j> Findings<'j> {
     pub fn new(families: Vec<Family>, methods: Vec<Method>, journal: &'j Journal) -> Self {
         let mut worst = HashMap::new();
         for trial in journal.trials() {
-            let same = |known: &Verdict| known.to_string() == trial.verdict;
-            let bad = VERDICTS.iter().position(same).unwrap_or(VERDICTS.len() - 1);
+            let verdict = Verdict::from_str(&trial.verdict, false).unwrap_or(Verdict::CutOff);
             let so_far = worst.entry((trial.scene.as_str(), trial.method.as_str()));
-            let so_far = so_far.or_insert((bad, trial));
-            if bad > so_far.0 {
-                *so_far = (bad, trial);
-            }
+            let so_far = so_far.or_insert(verdict);
+            *so_far = verdict.max(*so_far);
         }
         let (steps, asked): (HashSet<&str>, HashSet<&str>) = worst.keys().copied().unzip();
         let asked_about = |mut family: Family| {
@@ -92,16 +75,14 @@ impl<'j> Findings<'j> {
     pub(super) fn reach(&self, family: &Family, method: &str) -> Option<Reach> {
         let answer = |&value: &f64| {
             let step = step_name(family, value);
-            Some((value, self.worst.get(&(step.as_str(), method))?.0))
+            Some((value, *self.worst.get(&(step.as_str(), method))?))
         };
-        let asked: Vec<(f64, usize)> = family.values.iter().filter_map(answer).collect();
-        let most = asked.iter().map(|&(_, bad)| bad).max()?;
-        let right = asked.iter().take_while(|&&(_, bad)| bad == 0).count();
-        let limit = |&(value, bad): &(f64, usize)| Limit {
-            value,
-            verdict: VERDICTS[bad],
-        };
-        let worst = asked.iter().find(|&&(_, bad)| bad == most && bad > 0);
+        let asked: Vec<(f64, Verdict)> = family.values.iter().filter_map(answer).collect();
+        let most = asked.iter().map(|&(_, verdict)| verdict).max()?;
+        let is_right = |asked: &&(f64, Verdict)| asked.1 == Verdict::Right;
+        let right = asked.iter().take_while(is_right).count();
+        let limit = |&(value, verdict): &(f64, Verdict)| Limit { value, verdict };
+        let worst = asked.iter().find(|step| step.1 == most && !is_right(step));
         Some(Reach {
             share: right as f64 / family.values.len() as f64,
             first: asked.get(right).map(limit),

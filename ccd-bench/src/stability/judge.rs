@@ -1,6 +1,6 @@
 //! Judges the answer to a query of a step against the exact one.
 
-use super::family::{Case, Expected, Step};
+use super::family::{Case, Step};
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
@@ -21,11 +21,11 @@ fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -
     let within = step.margin + reply.judging_tolerance(step.tolerance);
     match case.expected {
         _ if claim == Claim::Refused => Judged::without_error(Verdict::Refused),
-        Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
+        Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
             is_near(referee, query, time, within)
         }),
-        Expected::Free => contest::judge(referee, query, Truth::Free, claim, within),
-        Expected::Start => Judged::without_error(from_start(claim, query.duration)),
+        Truth::Start => Judged::without_error(from_start(claim, query.duration)),
+        truth => contest::judge(referee, query, truth, claim, within),
     }
 }
 

@@ -1,18 +1,11 @@
 //! Makes the meshes of the families.
 
+pub(super) use crate::scene::model::cuboid;
+use crate::scene::model::ring;
 use crate::scene::model::sphere::sphere;
-use crate::scene::model::{Board, Plate, Ring};
 use ccd_core::glam::{DAffine3, DVec3, dvec3};
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
-
-/// Returns a box about the origin, given by its half extents.
-pub(super) fn cuboid(x: f64, y: f64, z: f64) -> Result<TriangleMesh, MeshError> {
-    Board {
-        half_extents: dvec3(x, y, z),
-    }
-    .mesh()
-}
 
 /// Returns a cube of side 1 about the origin.
 pub(super) fn cube() -> Result<TriangleMesh, MeshError> {
@@ -30,21 +23,22 @@ pub(super) fn ball(radius: f64, vertices: usize) -> Result<TriangleMesh, MeshErr
     TriangleMesh::new(points.into_iter().map(|p| radius * p).collect(), &faces)
 }
 
-/// Returns an open square in the plane z = 0.
-pub(super) fn sheet(half_side: f64) -> Result<TriangleMesh, MeshError> {
-    let squares = 4;
-    Plate { half_side, squares }.mesh()
+/// Returns an open square of side 2 in the plane z = 0 about the origin, cut into small squares of two triangles each;
+/// `squares` is their number per side.
+pub(super) fn sheet(squares: u32) -> Result<TriangleMesh, MeshError> {
+    let step = 2.0 / f64::from(squares);
+    let coordinate = |k: u32| f64::from(k) * step - 1.0;
+    let row = squares + 1;
+    let vertices = (0..row * row).map(|k| dvec3(coordinate(k / row), coordinate(k % row), 0.0));
+    let faces = (0..squares * squares)
+        .map(|k| k / squares * row + k % squares)
+        .flat_map(|a| [[a, a + row, a + 1], [a + 1, a + row, a + row + 1]]);
+    TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
 /// Returns a torus about the z axis.
 pub(super) fn torus(radius: f64, tube: f64) -> Result<TriangleMesh, MeshError> {
-    Ring {
-        segments: 64,
-        sides: 24,
-        radius,
-        tube,
-    }
-    .mesh()
+    ring([64, 24], radius, tube)
 }
 
 /// Returns a cone that stands on its tip at the origin, with its base at z = 1.
@@ -226,12 +220,8 @@ pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
 
 /// Returns open horizontal squares, the highest at z = 0, the lowest at z = −0.5.
 pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
-    let square = Plate {
-        half_side: 1.0,
-        squares: 1,
-    };
     let step = 0.5 / f64::from(count);
-    stacked_squares(&square.mesh()?, (0..count).map(|k| -step * f64::from(k)))
+    stacked_squares(&sheet(1)?, (0..count).map(|k| -step * f64::from(k)))
 }
 
 /// Returns a mesh with some of its faces repeated, half of them reversed, and as many degenerate faces.

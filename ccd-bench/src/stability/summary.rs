@@ -1,18 +1,21 @@
 //! Summarises a survey as tables and maps: how often each method was right, and how far in each family.
 
 use super::family::Family;
-use super::findings::{Findings, VERDICTS};
+use super::findings::Findings;
 use super::survey::step_name;
 use crate::run::contest::Verdict;
 use crate::run::measured::{Cell, Trial};
 use crate::show::chart::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
+use clap::ValueEnum;
 use std::collections::HashMap;
 
 /// Returns a table that counts the verdicts of each method over all queries.
 pub fn summary(findings: &Findings<'_>) -> TextTable {
-    let names = VERDICTS.map(|verdict| verdict.to_string());
+    let verdicts = Verdict::value_variants().iter();
+    let judged = verdicts.filter(|&&verdict| verdict != Verdict::NotJudged);
+    let names: Vec<String> = judged.map(Verdict::to_string).collect();
     let columns = ["method", "queries"].map(str::to_owned);
     let columns = columns.into_iter().chain(names.clone());
     let mut table = TextTable::new("Verdicts over all families", columns);
@@ -23,7 +26,7 @@ pub fn summary(findings: &Findings<'_>) -> TextTable {
             0 => String::new(),
             count => count.to_string(),
         };
-        let counts = names.each_ref().map(count);
+        let counts = names.iter().map(count);
         let mut row = vec![method, own.len().to_string()];
         row.extend(counts);
         table.rows.push(row);

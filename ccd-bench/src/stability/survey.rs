@@ -5,7 +5,7 @@ use super::family::{Family, Step};
 use super::judge::judge;
 use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
 use crate::method::rival::is_screw;
-use crate::method::solver::Reply;
+use crate::method::solver::TimedReply;
 use crate::method::{Method, MotionKind};
 use crate::run::contest::{Journal, Judged, Verdict, program_stamp, summarise};
 use crate::run::measured::Trial;
@@ -56,7 +56,7 @@ impl Survey {
         for &method in &self.methods {
             self.programs.check(method)?;
         }
-        let journal = Mutex::new(Journal::open(&self.folder, &stamp(), &[])?);
+        let journal = Mutex::new(Journal::open(&self.folder, &stamp())?);
         let steps = self.families.iter().map(|f| self.values(f).len());
         let steps: usize = steps.sum();
         let progress = Progress::new(Total::Steps(steps * self.methods.len()));
@@ -87,7 +87,11 @@ impl Survey {
         for value in self.values(family) {
             let name = step_name(family, value);
             let step = (family.make)(value).with_context(|| name.clone())?;
-            let ready = PreparedStep::new(&step, &name);
+            let ready = PreparedStep {
+                step: &step,
+                name: &name,
+                surfaces: step.meshes.each_ref().map(Surface::new),
+            };
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
                 progress.say(&format!("{name}: {method}"));
                 progress.step();
@@ -118,16 +122,7 @@ struct PreparedStep<'s> {
     surfaces: [Surface; 2],
 }
 
-impl<'s> PreparedStep<'s> {
-    fn new(step: &'s Step, name: &'s str) -> Self {
-        let surfaces = step.meshes.each_ref().map(Surface::new);
-        PreparedStep {
-            step,
-            name,
-            surfaces,
-        }
-    }
-
+impl PreparedStep<'_> {
     /// Runs a method on all queries of the step, up to the first query at which the method is stopped.
     fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
@@ -136,31 +131,35 @@ impl<'s> PreparedStep<'s> {
             preparation: PREPARATION_TIME_LIMIT,
             ..Setting::new(method, step.tolerance)
         };
+        let name = method.to_string();
+        let trial = |row: usize, outcome: &QueryOutcome, judged: (Judged, String)| {
+            Trial::new(
+                (self.name, &name, step.tolerance),
+                (row, &row.to_string()),
+                (outcome, QUERY_TIME_LIMIT),
+                judged,
+            )
+        };
         let mut guarded = match Guarded::start(programs, setting, step.meshes.each_ref()) {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
-                let trial = self.trial(method, 0, &QueryOutcome::Died, judge_not_started(error)?);
-                return Ok(vec![Trial { note, ..trial }]);
+                let judged = (judge_not_started(error)?, note);
+                return Ok(vec![trial(0, &QueryOutcome::Died, judged)]);
             }
         };
         let [a, b] = &self.surfaces;
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             if method.motion_kind() == MotionKind::Screw && !is_screw(&case.query) {
-                let trial = self.trial(
-                    method,
-                    row,
-                    &QueryOutcome::Died,
-                    Judged::without_error(Verdict::Refused),
-                );
+                let refused = Judged::without_error(Verdict::Refused);
                 let note = "bodies move along screws only".to_owned();
-                trials.push(Trial { note, ..trial });
+                trials.push(trial(row, &QueryOutcome::Died, (refused, note)));
                 continue;
             }
             let outcome = guarded.ask(&case.query, QUERY_TIME_LIMIT)?;
             let judged = judge(step, case, &Referee::new(a, b), &outcome);
-            trials.push(self.trial(method, row, &outcome, judged));
+            trials.push(trial(row, &outcome, (judged, self.note(&outcome))));
             if outcome == QueryOutcome::CutOff {
                 break;
             }
@@ -168,22 +167,11 @@ impl<'s> PreparedStep<'s> {
         Ok(trials)
     }
 
-    fn trial(&self, method: Method, row: usize, outcome: &QueryOutcome, judged: Judged) -> Trial {
-        let note = match outcome {
-            QueryOutcome::Answered(timed) => self.note(&timed.reply),
-            QueryOutcome::CutOff | QueryOutcome::Died => String::new(),
+    /// Returns the method's remark about its answer; empty without one.
+    fn note(&self, outcome: &QueryOutcome) -> String {
+        let QueryOutcome::Answered(TimedReply { reply, .. }) = outcome else {
+            return String::new();
         };
-        let trial = Trial::new(
-            (self.name, &method.to_string(), self.step.tolerance),
-            (row, &row.to_string()),
-            (outcome, QUERY_TIME_LIMIT),
-            judged,
-        );
-        Trial { note, ..trial }
-    }
-
-    /// Returns the method's remark about its answer.
-    fn note(&self, reply: &Reply) -> String {
         let raised = reply
             .tolerance
             .filter(|tolerance| *tolerance > self.step.tolerance);

@@ -1,8 +1,7 @@
 //! The table of exact answers.
 
 use super::Truth;
-use clap::ValueEnum;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// The columns of the table, in order. The last one holds the reason why a row of motions cannot be judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
@@ -11,63 +10,38 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 ///
 /// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
 /// touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the duration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TruthRow {
     /// The name of the query in the table of motions.
     pub id: String,
-    /// Which kind of exact answer the query has.
-    pub status: Status,
+    /// Which kind of exact answer the query has, one of [`STATUSES`].
+    pub status: &'static str,
     lo: f64,
     hi: f64,
 }
 
-/// Which kind of [`Truth`] a row has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// The row is a [`Truth::Hit`].
-    Hit,
-    /// The row is a [`Truth::Free`].
-    Free,
-    /// The row is a [`Truth::Start`].
-    Initial,
-    /// The row is a [`Truth::Graze`].
-    Graze,
-    /// The row is a [`Truth::Undecided`].
-    Undecided,
-}
+/// The names of the kinds of exact answers.
+pub const STATUSES: [&str; 5] = ["hit", "free", "initial", "graze", "undecided"];
 
 impl TruthRow {
     /// Returns the row for the exact answer of a query with this name and duration.
     pub fn new(id: String, duration: f64, truth: Truth) -> Self {
         let (status, lo, hi) = match truth {
-            Truth::Hit { lo, hi } => (Status::Hit, lo, hi),
-            Truth::Free => (Status::Free, duration, duration),
-            Truth::Start => (Status::Initial, 0.0, 0.0),
-            Truth::Graze { lo } => (Status::Graze, lo, duration),
-            Truth::Undecided { lo } => (Status::Undecided, lo, duration),
+            Truth::Hit { lo, hi } => ("hit", lo, hi),
+            Truth::Free => ("free", duration, duration),
+            Truth::Start => ("initial", 0.0, 0.0),
+            Truth::Graze { lo } => ("graze", lo, duration),
+            Truth::Undecided { lo } => ("undecided", lo, duration),
         };
         TruthRow { id, status, lo, hi }
     }
 
     /// Returns the width of the bracket of a hit; 0 for other rows.
     pub fn width(&self) -> f64 {
-        if self.status == Status::Hit {
+        if self.status == "hit" {
             self.hi - self.lo
         } else {
             0.0
-        }
-    }
-
-    /// Returns the exact answer in the row.
-    pub fn truth(&self) -> Truth {
-        let (lo, hi) = (self.lo, self.hi);
-        match self.status {
-            Status::Hit => Truth::Hit { lo, hi },
-            Status::Free => Truth::Free,
-            Status::Initial => Truth::Start,
-            Status::Graze => Truth::Graze { lo },
-            Status::Undecided => Truth::Undecided { lo },
         }
     }
 }

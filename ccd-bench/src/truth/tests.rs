@@ -6,7 +6,7 @@ mod sampled;
 mod tables;
 
 use super::{Referee, Surface, Truth};
-use crate::scene::model::Board;
+use crate::scene::model;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
@@ -15,8 +15,7 @@ use rigid_ccd::table::motions::Motions;
 
 /// Returns the surface of a box about the origin with the given half extents.
 fn cuboid(x: f64, y: f64, z: f64) -> Surface {
-    let half_extents = DVec3::new(x, y, z);
-    Surface::new(&Board { half_extents }.mesh().unwrap())
+    Surface::new(&model::cuboid(x, y, z).unwrap())
 }
 
 fn still(x: f64, y: f64, z: f64) -> Motion {

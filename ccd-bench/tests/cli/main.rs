@@ -17,8 +17,8 @@ const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 #[test]
-fn the_demo_needs_a_directory_that_exists() {
-    let output = Run::with_args(&["demo", "--models", "no/such/models"])
+fn models_need_a_directory_that_exists() {
+    let output = Run::with_args(&["chart", "--models", "no/such/models"])
         .stdin("")
         .output();
     assert_eq!(output.status.code(), Some(2));

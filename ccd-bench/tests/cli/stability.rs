@@ -23,6 +23,7 @@ fn row<'t>(table: &'t str, method: &str) -> Vec<&'t str> {
         .next()
         .unwrap()
         .split_whitespace()
+        .filter(|cell| *cell != "|")
         .collect()
 }
 

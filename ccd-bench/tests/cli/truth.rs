@@ -13,7 +13,7 @@ fn brackets_hold_the_exact_first_contact() {
     let mesh = mesh.to_str().unwrap();
     let truth = scene.directory.join("truth.csv");
     let motions = scene.file("motions.csv", MOTIONS);
-    let options = ["--motions", motions.to_str().unwrap(), "--threads", "2"];
+    let options = ["--motions", motions.to_str().unwrap()];
     let run = Run::with_args(&["truth", "--a", mesh, "--b", mesh])
         .args(&options)
         .args(&["--out", truth.to_str().unwrap()]);

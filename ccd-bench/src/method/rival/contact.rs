@@ -9,9 +9,10 @@ mod relative;
 mod tests;
 
 use super::RivalMotion;
-use super::obb_tree::{Content, Crossing, ObbTree, crossing};
+use super::obb_tree::{ObbTree, crosses};
 use super::resolution::resolution;
 use super::screw::screw;
+use super::tree::Content;
 use crate::method::solver::{Claim, Reply, Solver};
 use boxes::{Boxes, boxes};
 use ccd_core::order::{greater, lesser};
@@ -91,7 +92,7 @@ impl Contact {
         let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
         let start = courses[0].at(0.0).seen_from(&courses[1].at(0.0));
-        if crossing(a, b, &start, &mut self.static_stack) == Crossing::Found {
+        if crosses(a, b, &start, &mut self.static_stack) {
             let claim = Claim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
         }

@@ -5,9 +5,10 @@ mod overlap;
 mod tests;
 
 use ccd_core::order::greater;
-pub(super) use overlap::{Crossing, crossing};
+pub(super) use overlap::crosses;
 
 use super::principal_axes::principal_axes;
+use super::tree::{Content, build};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_decomp::TriangleMesh;
 
@@ -34,15 +35,6 @@ pub(super) struct Node {
     pub(super) content: Content,
 }
 
-/// What an oriented box contains.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Content {
-    /// The box of an inner node contains the boxes of these two nodes.
-    Nodes([u32; 2]),
-    /// The box of a leaf contains the triangle with this index.
-    Triangle(u32),
-}
-
 /// An oriented box: its centre, axes and half extents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Obb {
@@ -62,14 +54,19 @@ impl ObbTree {
             *corner -= origin;
         }
         let lengths = triangles.iter().flatten().map(|corner| corner.length());
-        let mut tree = ObbTree {
+        let radius = lengths.fold(0.0, greater);
+        let nodes = build(
+            &mut triangles,
+            |triangles, _| Obb::fit(triangles),
+            |triangles, (mean, bounds)| split(triangles, *mean, bounds.axes),
+        );
+        let node = |((_, bounds), content)| Node { bounds, content };
+        ObbTree {
             origin,
-            radius: lengths.fold(0.0, greater),
-            nodes: Vec::with_capacity(2 * triangles.len()),
+            radius,
+            nodes: nodes.into_iter().map(node).collect(),
             triangles,
-        };
-        tree.build();
-        tree
+        }
     }
 
     /// Returns the node with the given index.
@@ -87,40 +84,6 @@ impl ObbTree {
     /// Returns an upper bound of the distance of the mesh's points from a point in its frame.
     pub(super) fn reach(&self, from: DVec3) -> f64 {
         self.origin.distance(from) + self.radius
-    }
-
-    /// Builds the nodes from the root down, and sorts the triangles into the order of the leaves.
-    fn build(&mut self) {
-        let mut open = vec![(0, 0..self.triangles.len())];
-        self.nodes.push(Node::placeholder_node());
-        while let Some((index, range)) = open.pop() {
-            let triangles = &mut self.triangles[range.clone()];
-            let (mean, bounds) = Obb::fit(triangles);
-            let content = if range.len() == 1 {
-                Content::Triangle(range.start as u32)
-            } else {
-                let middle = range.start + split(triangles, mean, bounds.axes);
-                let left = self.nodes.len();
-                self.nodes.extend([Node::placeholder_node(); 2]);
-                open.push((left + 1, middle..range.end));
-                open.push((left, range.start..middle));
-                Content::Nodes([left as u32, left as u32 + 1])
-            };
-            self.nodes[index] = Node { bounds, content };
-        }
-    }
-}
-
-impl Node {
-    fn placeholder_node() -> Self {
-        Node {
-            bounds: Obb {
-                axes: DMat3::IDENTITY,
-                centre: DVec3::ZERO,
-                half: DVec3::ZERO,
-            },
-            content: Content::Triangle(0),
-        }
     }
 }
 

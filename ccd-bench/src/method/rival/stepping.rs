@@ -1,7 +1,7 @@
 //! Tests the bodies for intersection at equal steps, the usual practice without continuous collision detection.
 
 use super::RivalMotion;
-use super::obb_tree::{Crossing, ObbTree, crossing};
+use super::obb_tree::{ObbTree, crosses};
 use super::resolution::resolution;
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
@@ -37,7 +37,7 @@ impl Stepping {
     fn crosses(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
         let placement = courses[0].at(time).seen_from(&courses[1].at(time));
         let [a, b] = &self.trees;
-        crossing(a, b, &placement, &mut self.stack) == Crossing::Found
+        crosses(a, b, &placement, &mut self.stack)
     }
 }
 

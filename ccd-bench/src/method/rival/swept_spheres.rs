@@ -1,6 +1,7 @@
 //! A tree of spheres swept over rectangles, above the triangles of a mesh.
 
 use super::principal_axes::principal_axes;
+use super::tree::Content;
 use super::triangles_apart::{Nearest, Triangle, nearest};
 use super::{Placement, rectangles};
 use ccd_core::glam::{DVec2, DVec3};
@@ -32,14 +33,7 @@ struct Node {
     /// The side lengths of the rectangle along its x and y axes.
     lengths: DVec2,
     radius: f64,
-    below: NodeContent,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum NodeContent {
-    /// The index of the first child; the second one is next.
-    Children(u32),
-    Triangle(u32),
+    below: Content,
 }
 
 /// The trees of two bodies, which are descended together.
@@ -140,27 +134,24 @@ impl Trees {
         })
     }
 
+    fn nodes(&self, pair: &Pair) -> (&Node, &Node) {
+        let (a, b) = (pair.a as usize, pair.b as usize);
+        (&self.a.nodes[a], &self.b.nodes[b])
+    }
+
     /// Returns a lower bound of the distance of two nodes.
     #[inline]
     pub(super) fn distance(&self, pair: &Pair) -> f64 {
-        let (a, b) = (
-            &self.a.nodes[pair.a as usize],
-            &self.b.nodes[pair.b as usize],
-        );
-        let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
-        // NaN becomes zero.
-        greater(0.0, between.length() - (a.radius + b.radius))
+        self.gap(pair).distance
     }
 
     /// Returns a lower bound of the distance of two nodes, and its direction.
     #[inline]
     pub(super) fn gap(&self, pair: &Pair) -> Gap {
-        let (a, b) = (
-            &self.a.nodes[pair.a as usize],
-            &self.b.nodes[pair.b as usize],
-        );
+        let (a, b) = self.nodes(pair);
         let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
         let length = between.length();
+        // NaN becomes zero.
         let distance = greater(0.0, length - (a.radius + b.radius));
         if !(distance > 0.0) {
             return Gap {
@@ -176,7 +167,8 @@ impl Trees {
 
     /// Returns the largest amount by which the distance of the nodes' contents can exceed that of the nodes.
     pub(super) fn slack(&self, pair: &Pair) -> f64 {
-        self.a.nodes[pair.a as usize].size() + self.b.nodes[pair.b as usize].size()
+        let (a, b) = self.nodes(pair);
+        a.size() + b.size()
     }
 
     /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in this frame.
@@ -189,29 +181,22 @@ impl Trees {
     /// Returns the children of the larger node \[PQP99 §5\], or the triangles of two leaves.
     #[inline]
     pub(super) fn children(&self, pair: &Pair) -> PairChildren {
-        let (a, b) = (
-            &self.a.nodes[pair.a as usize],
-            &self.b.nodes[pair.b as usize],
-        );
+        let (a, b) = self.nodes(pair);
         match (a.below, b.below) {
-            (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
+            (Content::Triangle(a), Content::Triangle(b)) => {
                 PairChildren::Triangles(Leaves { a, b })
             }
-            (NodeContent::Children(first), NodeContent::Triangle(_)) => self.split_a(pair, first),
-            (NodeContent::Triangle(_), NodeContent::Children(first)) => self.split_b(pair, first),
-            (NodeContent::Children(first_a), NodeContent::Children(first_b)) => {
-                if a.size() > b.size() {
-                    self.split_a(pair, first_a)
-                } else {
-                    self.split_b(pair, first_b)
-                }
+            (Content::Nodes(below), Content::Nodes(_)) if a.size() > b.size() => {
+                self.split_a(pair, below)
             }
+            (_, Content::Nodes(below)) => self.split_b(pair, below),
+            (Content::Nodes(below), Content::Triangle(_)) => self.split_a(pair, below),
         }
     }
 
     #[inline]
-    fn split_a(&self, pair: &Pair, first: u32) -> PairChildren {
-        PairChildren::Pairs([first, first + 1].map(|a| {
+    fn split_a(&self, pair: &Pair, below: [u32; 2]) -> PairChildren {
+        PairChildren::Pairs(below.map(|a| {
             Pair {
                 a,
                 b: pair.b,
@@ -223,8 +208,8 @@ impl Trees {
     }
 
     #[inline]
-    fn split_b(&self, pair: &Pair, first: u32) -> PairChildren {
-        PairChildren::Pairs([first, first + 1].map(|b| Pair {
+    fn split_b(&self, pair: &Pair, below: [u32; 2]) -> PairChildren {
+        PairChildren::Pairs(below.map(|b| Pair {
             a: pair.a,
             b,
             placement: compose(&pair.placement, &self.b.nodes[b as usize].placement),

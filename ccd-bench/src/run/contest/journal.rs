@@ -30,17 +30,17 @@ type Key = (String, String, u64);
 
 impl Journal {
     /// Opens the journal in a folder. Keeps its content if it was measured with the same stamp, and
-    /// otherwise moves it aside together with the files named in `others`.
+    /// otherwise moves it aside.
     ///
     /// # Errors
     /// If the folder cannot be written to, or another process writes to it.
-    pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self> {
+    pub fn open(folder: &Path, stamp: &str) -> Result<Self> {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
         let chart = folder.join(CHART);
         let claim = Claim::new(chart.clone()).with_context(|| chart.display().to_string())?;
         let stamp_file = folder.join(STAMP);
         if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
-            for name in [CHART, TRIALS].iter().chain(others) {
+            for name in [CHART, TRIALS] {
                 let path = folder.join(name);
                 if path.exists() {
                     let aside = folder.join(format!("{name}.old"));
@@ -100,16 +100,6 @@ impl Journal {
         self.cells.push(cell);
         self.trials.extend(trials);
         Ok(())
-    }
-
-    /// Removes all measurements of a method from the journal and from its files.
-    ///
-    /// # Errors
-    /// If the files cannot be written.
-    pub fn forget(&mut self, method: &str) -> Result<()> {
-        self.cells.retain(|cell| cell.method != method);
-        self.trials.retain(|trial| trial.method != method);
-        self.write()
     }
 
     fn write(&self) -> Result<()> {

@@ -9,30 +9,30 @@ use clap::ValueEnum;
 use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
-/// The judgement of a claim about a query.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
+/// The judgement of a claim about a query, from good to bad.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, ValueEnum)]
 pub enum Verdict {
     /// The claim agrees with the exact answer, to within the tolerance.
     Right,
+    /// The claim is a contact while the bodies are still farther apart than the tolerance.
+    Early,
+    /// The exact answer is not known well enough to judge the claim.
+    Undecided,
+    /// The method does not support the query or its bodies.
+    Refused,
+    /// The claim is only a time before which there is no contact.
+    Unresolved,
+    /// The claim is a contact, but there is none, and the bodies are farther apart than the tolerance.
+    False,
     /// The claim is a contact after the exact first one.
     Late,
     /// The claim is that there is no contact, but there is one.
     Missed,
-    /// The claim is a contact, but there is none, and the bodies are farther apart than the tolerance.
-    False,
-    /// The claim is a contact while the bodies are still farther apart than the tolerance.
-    Early,
-    /// The claim is only a time before which there is no contact.
-    Unresolved,
-    /// The method does not support the query or its bodies.
-    Refused,
+    /// The process of the method ended instead of answering.
+    Died,
     /// The query exceeded the time limit and was stopped.
     #[value(name = "cut off")]
     CutOff,
-    /// The process of the method ended instead of answering.
-    Died,
-    /// The exact answer is not known well enough to judge the claim.
-    Undecided,
     /// The reply is no answer to the query, such as a single distance measured for comparison.
     #[value(name = "not judged")]
     NotJudged,

@@ -14,43 +14,28 @@ use std::f64::consts::TAU;
 #[derive(Clone, Copy, Debug)]
 pub struct Blob {
     /// The large bumps, on a core of radius 1.
-    pub lobes: &'static [Lobe],
+    lobes: &'static [Lobe],
     /// The height of the ripples, relative to the core's radius.
-    pub ripple: f64,
+    ripple: f64,
     /// The random seed of the ripples.
-    pub seed: u64,
+    seed: u64,
 }
 
-/// A smooth bump on the sphere of a [`Blob`].
-#[derive(Clone, Copy, Debug)]
-pub struct Lobe {
-    /// The direction of the bump; any length.
-    pub towards: [f64; 3],
-    /// The height of the bump above the core.
-    pub height: f64,
-    /// The sharpness of the bump, which is about `1/√sharpness` radians wide.
-    pub sharpness: f64,
-}
-
-const fn lobe(towards: [f64; 3], height: f64, sharpness: f64) -> Lobe {
-    Lobe {
-        towards,
-        height,
-        sharpness,
-    }
-}
+/// A smooth bump on the sphere of a [`Blob`]: its direction, of any length; its height above the core; and its
+/// sharpness, which makes it about `1/√sharpness` radians wide.
+type Lobe = ([f64; 3], f64, f64);
 
 impl Blob {
     /// A bunny with head, two ears, tail and paws, about as non-convex as the scanned one.
     pub const BUNNY: Blob = Blob {
         lobes: &[
-            lobe([-0.7, 0.5, 0.0], 0.5, 6.0),
-            lobe([-0.25, 1.0, 0.3], 1.1, 40.0),
-            lobe([-0.25, 1.0, -0.3], 1.1, 40.0),
-            lobe([1.0, -0.3, 0.0], 0.3, 25.0),
-            lobe([-0.5, -0.8, 0.5], 0.4, 15.0),
-            lobe([-0.5, -0.8, -0.5], 0.4, 15.0),
-            lobe([0.6, -0.8, 0.0], 0.4, 8.0),
+            ([-0.7, 0.5, 0.0], 0.5, 6.0),
+            ([-0.25, 1.0, 0.3], 1.1, 40.0),
+            ([-0.25, 1.0, -0.3], 1.1, 40.0),
+            ([1.0, -0.3, 0.0], 0.3, 25.0),
+            ([-0.5, -0.8, 0.5], 0.4, 15.0),
+            ([-0.5, -0.8, -0.5], 0.4, 15.0),
+            ([0.6, -0.8, 0.0], 0.4, 8.0),
         ],
         ripple: 0.012,
         seed: 70,
@@ -59,12 +44,12 @@ impl Blob {
     /// A Santa with hat, sack, arms and boots, about as non-convex as the scanned one.
     pub const SANTA: Blob = Blob {
         lobes: &[
-            lobe([0.0, 0.1, 1.0], 1.2, 20.0),
-            lobe([1.0, 0.2, 0.2], 0.9, 30.0),
-            lobe([-1.0, 0.2, 0.2], 0.9, 30.0),
-            lobe([0.0, -1.0, 0.5], 0.7, 5.0),
-            lobe([0.4, 0.1, -1.0], 0.8, 20.0),
-            lobe([-0.4, 0.1, -1.0], 0.8, 20.0),
+            ([0.0, 0.1, 1.0], 1.2, 20.0),
+            ([1.0, 0.2, 0.2], 0.9, 30.0),
+            ([-1.0, 0.2, 0.2], 0.9, 30.0),
+            ([0.0, -1.0, 0.5], 0.7, 5.0),
+            ([0.4, 0.1, -1.0], 0.8, 20.0),
+            ([-0.4, 0.1, -1.0], 0.8, 20.0),
         ],
         ripple: 0.015,
         seed: 38,
@@ -94,9 +79,9 @@ impl Blob {
         let lobes: f64 = self
             .lobes
             .iter()
-            .map(|lobe| {
-                let towards = DVec3::from(lobe.towards).normalize();
-                lobe.height * (lobe.sharpness * (direction.dot(towards) - 1.0)).exp()
+            .map(|&(towards, height, sharpness)| {
+                let towards = DVec3::from(towards).normalize();
+                height * (sharpness * (direction.dot(towards) - 1.0)).exp()
             })
             .sum();
         let waves: f64 = ripples

@@ -5,17 +5,6 @@ use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
 
-/// A tube around the (2, 3) torus knot, the trefoil.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TorusKnot {
-    /// The number of rings along the tube, at least 3.
-    pub segments: usize,
-    /// The number of corners of each ring, at least 3.
-    pub sides: usize,
-    /// The radius of the tube, below 0.33, at which the tube would touch itself in the middle.
-    pub tube: f64,
-}
-
 /// The number of turns of the knot around the torus' axis.
 const TURNS: f64 = 2.0;
 /// The number of turns of the knot around the torus' tube in the same period.
@@ -23,18 +12,18 @@ const WINDINGS: f64 = 3.0;
 /// The radius of the torus that the knot lies on, and the radius of the torus' tube.
 const TORUS: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 
-impl TorusKnot {
-    /// Returns the closed mesh of `2 · segments · sides` triangles, centred at the torus' centre.
-    ///
-    /// # Errors
-    /// If a number of parts is too small or too large for a mesh.
-    pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
-        closed_grid(self.segments, self.sides, |u, v| {
-            let (on_curve, tangent, normal) = frame(TAU * u);
-            let (sin, cos) = (TAU * v).sin_cos();
-            on_curve + self.tube * (cos * normal + sin * tangent.cross(normal))
-        })
-    }
+/// Returns the closed mesh of a tube around the (2, 3) torus knot, the trefoil, centred at the torus' centre:
+/// `2 · segments · sides` triangles of as many rings along the tube, at least 3, with as many corners, at least 3. The
+/// tube's radius is below 0.33, at which it would touch itself in the middle.
+///
+/// # Errors
+/// If a number of parts is too small or too large for a mesh.
+pub fn torus_knot([segments, sides]: [usize; 2], tube: f64) -> Result<TriangleMesh, MeshError> {
+    closed_grid(segments, sides, |u, v| {
+        let (on_curve, tangent, normal) = frame(TAU * u);
+        let (sin, cos) = (TAU * v).sin_cos();
+        on_curve + tube * (cos * normal + sin * tangent.cross(normal))
+    })
 }
 
 /// Returns a point of the knot, the unit tangent there, and the unit normal of the torus that it

@@ -1,7 +1,6 @@
 //! Draws heat maps with families of scenes as rows and methods as columns: how far each method is right, and how its
 //! cost grows.
 
-use super::Drawing;
 use super::sheet::{
     MARGIN, PixelPosition, Sheet, TEXT_COLOUR, TextFormat, WIDTH, rect, svg, text, text_width,
 };
@@ -36,7 +35,6 @@ pub struct HeatRow {
 /// What the colours of a heat map show, in words.
 #[derive(Debug)]
 pub struct HeatKind {
-    name: &'static str,
     title: &'static str,
     /// The two lines of text below the title.
     remark: [&'static str; 2],
@@ -45,7 +43,6 @@ pub struct HeatKind {
 
 /// The kind of map that shows how far each method is right in each family: cells of [`HeatCell::reach`].
 pub const REACH: &HeatKind = &HeatKind {
-    name: "stability",
     title: "How far each method follows each family: bluer is better",
     remark: [
         "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the share of",
@@ -63,7 +60,6 @@ pub const REACH: &HeatKind = &HeatKind {
 
 /// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::growth`].
 pub const GROWTH: &HeatKind = &HeatKind {
-    name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     remark: [
         "The largest mean number of steps of a query and one for the query itself, as a multiple of that of the family's",
@@ -150,13 +146,13 @@ impl HeatCell {
 }
 
 impl HeatMap {
-    /// Draws the map on a sheet of its own.
+    /// Draws the map on a sheet of its own; returns the text of an SVG file.
     ///
     /// # Errors
     /// If the drawing library fails.
-    pub fn draw(&self) -> Result<Drawing> {
+    pub fn draw(&self) -> Result<String> {
         let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + MARGIN;
-        let svg = svg(self.kind.title, (WIDTH, height), |sheet| {
+        svg(self.kind.title, (WIDTH, height), |sheet| {
             draw_header(sheet, self.kind)?;
             let format = TextFormat {
                 turn: FontTransform::Rotate270,
@@ -170,9 +166,7 @@ impl HeatMap {
                 self.row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
             }
             Ok(())
-        })?;
-        let name = self.kind.name.to_owned();
-        Ok(Drawing { name, svg })
+        })
     }
 
     /// Returns the width of a method's column, in pixels.

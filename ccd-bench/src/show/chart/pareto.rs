@@ -5,7 +5,7 @@ use super::plane::{
 };
 use super::sheet::{FONT_SIZE, Sheet, TEXT_COLOUR, WIDTH, font, svg, units};
 use super::style::WARNING_COLOUR;
-use super::{Charts, Drawing, Family, SAME_ROWS, SceneFacts, Shown};
+use super::{Charts, Family, Shown};
 use crate::run::measured::Cell;
 use anyhow::Result;
 use ccd_core::order::greater;
@@ -19,20 +19,20 @@ const PANELS_AND_HEIGHT: (usize, f64) = (3, 260.0);
 const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
 /// Draws a plane for each scene that was measured; `None` without any.
-pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
+pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<String>> {
     let scenes = charts.measured_scenes();
     let shown = charts.methods_with_styles(&Family::COMPARED);
     let cells = |is_shown: fn(&Shown<'_>) -> bool| {
         let methods = shown.iter().filter(move |method| is_shown(method));
         let of = |(method, _): &Shown<'_>| {
-            let of_scene = |scene: &&SceneFacts<'_>| charts.cells_of(scene.name, method.name);
+            let of_scene = |scene: &&str| charts.cells_of(scene, method.name);
             scenes.iter().flat_map(of_scene).collect::<Vec<_>>()
         };
         methods.flat_map(of).collect::<Vec<_>>()
     };
     let all = cells(|_| true);
     let errors = cells(|(_, style)| !style.is_unsafe);
-    let errors = errors.iter().map(|cell| cell.mean_error);
+    let errors = errors.iter().filter_map(|cell| cell.mean_error);
     // A plane without points is still drawn: the strip shows the methods.
     let errors = decades(errors.filter(|error| *error > LEAST_ERROR));
     let Some(times) = decades(all.iter().map(|cell| cell.median_us)) else {
@@ -48,7 +48,8 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
     let mut remarks = vec![
         "Errors are those of the time of contact; below 1e-12 they are rounding, and drawn at the left edge. A method that \
          found nothing has no marker.",
-        SAME_ROWS,
+        "A method that was asked fewer rows than ours is drawn at our median, times the median ratio on the rows that both \
+         were asked.",
     ];
     if all.iter().any(|cell| is_lower_bound(cell)) {
         remarks.push(
@@ -74,14 +75,13 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>> {
         }
         draw_footer(sheet, &shown, &remarks, bottom)
     })?;
-    let name = "pareto".to_owned();
-    Ok(Some(Drawing { name, svg }))
+    Ok(Some(svg))
 }
 
 fn draw_scene(
     charts: &Charts<'_>,
     panel: &Sheet<'_>,
-    scene: &SceneFacts<'_>,
+    scene: &str,
     plane: &Plane,
     shown: &[Shown<'_>],
 ) -> Result<()> {
@@ -96,12 +96,12 @@ fn draw_scene(
     let width = panel.dim_in_pixel().0 as i32;
     let (panel, strip) = panel.split_horizontally(width - units(strip));
     let bold = font(FONT_SIZE, FontStyle::Bold);
-    let panel = panel.titled(scene.name, bold.color(&TEXT_COLOUR))?;
+    let panel = panel.titled(scene, bold.color(&TEXT_COLOUR))?;
     let mut drawn = plane.draw(&panel)?;
     for (method, style) in &solid {
-        let cells = charts.cells_of(scene.name, method.name);
+        let cells = charts.cells_of(scene, method.name);
         let points = cells.iter().map(|cell| Point {
-            x: cell.mean_error,
+            x: cell.mean_error.unwrap_or(f64::NAN),
             y: cell.median_us,
             is_lower_bound: is_lower_bound(cell),
         });
@@ -116,7 +116,7 @@ fn draw_scene(
     let mut beside = plane.empty_plane_beside(&strip, 1.0..lane(hollow.len()))?;
     beside.plotting_area().fill(&WARNING_COLOUR.mix(0.08))?;
     for (number, (method, style)) in hollow.iter().enumerate() {
-        for cell in charts.cells_of(scene.name, method.name) {
+        for cell in charts.cells_of(scene, method.name) {
             if !cell.median_us.is_nan() {
                 let at = (lane(number), cell.median_us);
                 marker(&mut beside, at, is_lower_bound(cell), style)?;
@@ -127,6 +127,6 @@ fn draw_scene(
 }
 
 /// Returns true if a cell's median is that of unfinished queries, so that the true time is longer.
-pub(super) fn is_lower_bound(cell: &Cell) -> bool {
+fn is_lower_bound(cell: &Cell) -> bool {
     cell.rows > 0 && 2 * cell.unresolved >= cell.rows
 }

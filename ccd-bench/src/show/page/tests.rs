@@ -7,17 +7,13 @@ fn page() -> String {
     let listings = listings().unwrap();
     let listing = listings.iter().find(|listing| listing.name == "knot216");
     let scene = listing.unwrap().make(&mut Models::default()).unwrap();
-    let drawing = Drawing {
-        name: "pareto".to_owned(),
-        svg: "<svg></svg>".to_owned(),
-    };
     let table = TextTable {
-        name: "usual".to_owned(),
         title: "A <table>".to_owned(),
         header: vec!["name & kind".to_owned()],
         rows: vec![vec!["{{style}}".to_owned()]],
     };
-    html(&[drawing], &Views::new(&[scene]).unwrap(), &[table]).unwrap()
+    let views = Views::new(&[scene]).unwrap();
+    html("<svg></svg>", &views, &[table]).unwrap()
 }
 
 fn script(html: &str, id: &str) -> Value {
@@ -62,7 +58,7 @@ fn the_page_is_self_contained_and_escapes_its_input() {
         assert!(!html.contains(elsewhere), "{elsewhere}");
     }
     assert!(html.contains("<figure><svg"));
-    // The data of the views, the script of the tables, and those of the views.
+    // The data of the views, and their scripts.
     let views = ccd_view::scripts().matches("</script>").count();
-    assert_eq!(html.matches("</script>").count(), 2 + views);
+    assert_eq!(html.matches("</script>").count(), 1 + views);
 }

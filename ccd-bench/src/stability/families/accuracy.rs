@@ -1,8 +1,8 @@
 //! Scenes whose contact depends on the last digits: nearly parallel parts, hardly any overlap.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::family::{BodyMotion, Family, Step, contact_at};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
-use super::{family, negative_powers_of_ten};
+use super::{family, negative_powers_of_ten, onto_slab};
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -38,9 +38,7 @@ const TIME_ERROR: f64 = 1e-14;
 fn face_onto_face(angle: f64) -> Result<Step> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_y(angle));
-    let expected = Expected::at((3.0 - reach) / 4.0, TIME_ERROR);
-    let step = Step::new(cube()?, slab()?);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T8 with rods at a small angle: an edge meets an edge.
@@ -48,7 +46,7 @@ fn edge_across_edge(angle: f64) -> Result<Step> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_z(angle) * on_edge);
     let lying = BodyMotion::STILL.oriented(on_edge);
-    let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, TIME_ERROR);
+    let expected = contact_at((3.0 - 0.2 * SQRT_2) / 4.0, TIME_ERROR);
     let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
     step.with_rotated_queries(falling, lying, expected)
 }
@@ -59,9 +57,7 @@ fn corner_onto_face(angle: f64) -> Result<Step> {
     let turned = DQuat::from_rotation_x(angle) * upright;
     let falling = BodyMotion::FALLING.oriented(turned);
     let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
-    let expected = Expected::at((3.0 - reach) / 4.0, TIME_ERROR);
-    let step = Step::new(cube()?, slab()?);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
@@ -73,7 +69,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step> {
     let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
-    let expected = Expected::at(0.5, 1e-15 / clearance);
+    let expected = contact_at(0.5, 1e-15 / clearance);
     step.with_rotated_queries(turning, BodyMotion::STILL, expected)
 }
 
@@ -86,9 +82,7 @@ fn slight_rotation(turn: f64) -> Result<Step> {
         let (sin, cos) = (turn * time).sin_cos();
         time = (3.0 - 0.5 * (sin + cos)) / 4.0;
     }
-    let step = Step::new(cube()?, slab()?);
-    let expected = Expected::at(time, TIME_ERROR);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cube()?, falling, time)
 }
 
 /// Makes a cube that comes down on a slab at a small angle, halfway through its flight.
@@ -97,14 +91,14 @@ fn flat_approach(angle: f64) -> Result<Step> {
     let height = 2.0 * sin;
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
-    let expected = Expected::at(0.5, 1e-15 / sin);
+    let expected = contact_at(0.5, 1e-15 / sin);
     let step = Step::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
     step.with_rotated_queries(flying, BodyMotion::SLAB_BELOW, expected)
 }
 
 fn barely_overlapping(overlap: f64) -> Result<Step> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
-    let expected = Expected::at(1.0 / 3.0, TIME_ERROR);
+    let expected = contact_at(1.0 / 3.0, TIME_ERROR);
     let step = Step::new(cube()?, cube()?);
     step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
@@ -116,7 +110,7 @@ fn barely_reaching_wall(share: f64) -> Result<Step> {
     let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
-    let expected = Expected::at(time, 1e-15 / share.sqrt());
+    let expected = contact_at(time, 1e-15 / share.sqrt());
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
     step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
@@ -131,6 +125,6 @@ fn linked_rings(way: f64) -> Result<Step> {
     let hanging = BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).oriented(upright);
     let step = Step::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    let expected = Expected::at(way, TIME_ERROR);
+    let expected = contact_at(way, TIME_ERROR);
     step.with_query(hanging, BodyMotion::STILL, expected)
 }

@@ -1,8 +1,9 @@
 //! Scenes of bodies that never meet, with smaller and smaller gaps.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::family::{BodyMotion, Family, Step};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
 use super::{family, negative_powers_of_ten};
+use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::greater;
@@ -29,7 +30,7 @@ fn tolerance(gap: f64) -> f64 {
 /// Returns a step with a gap, in rotated worlds too if the gap survives their rounding.
 fn free_step(step: Step, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<Step> {
     let step = step.with_tolerance(tolerance(gap));
-    step.with_rotated_queries_if(gap >= 1e-12, a, b, Expected::Free)
+    step.with_rotated_queries_if(gap >= 1e-12, a, b, Truth::Free)
 }
 
 fn ball_passing_a_box(gap: f64) -> Result<Step> {
@@ -85,5 +86,5 @@ fn rod_past_a_wall(gap: f64) -> Result<Step> {
     // The reach is rounded, and the gap with it.
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?)
         .with_tolerance(greater(tolerance(gap), 1e-11));
-    step.with_rotated_queries(turning, wall, Expected::Free)
+    step.with_rotated_queries(turning, wall, Truth::Free)
 }

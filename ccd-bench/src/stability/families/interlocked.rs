@@ -1,8 +1,9 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::family::{BodyMotion, Family, Step, contact_at};
 use super::super::shapes::{cuboid, extrude, ribbon, sheet, slit_plate, stacked_squares, torus};
 use super::{family, negative_powers_of_ten};
+use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -13,9 +14,9 @@ pub(super) fn families() -> Vec<Family> {
         family("hooks pulled apart", hooks).with_values("slack", negative_powers_of_ten(1..=12)),
         family("ring onto a ring", ring_onto_ring)
             .with_values("way to contact", negative_powers_of_ten(1..=12)),
-        family("screw in its nut", screw)
+        family("screw in its nut", |turns| threads(turns, 0.5))
             .with_values("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
-        family("screw with little play", tight_screw).with_values(
+        family("screw with little play", |play| threads(1.0, play)).with_values(
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
         ),
@@ -44,7 +45,7 @@ fn hooks(slack: f64) -> Result<Step> {
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .oriented(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
     let step = Step::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
-    step.with_rotated_queries(holding, BodyMotion::STILL, Expected::at(slack, 1e-14))
+    step.with_rotated_queries(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
 }
 
 /// Makes a ring that falls flat onto an equal one; they meet all around.
@@ -53,7 +54,7 @@ fn ring_onto_ring(way: f64) -> Result<Step> {
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = Step::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }
 
 /// The pitch of the threads: their rise per turn.
@@ -61,16 +62,8 @@ const PITCH: f64 = 0.2;
 /// The inner and outer radii of the threads.
 const THREAD: [f64; 2] = [0.9, 1.0];
 
-/// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch.
-fn screw(turns: f64) -> Result<Step> {
-    threads(turns, 0.5)
-}
-
-/// Makes case T18 with one turn, and with one flank close to the other.
-fn tight_screw(play: f64) -> Result<Step> {
-    threads(1.0, play)
-}
-
+/// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch; `play` is its share
+/// between the flanks.
 fn threads(turns: f64, play: f64) -> Result<Step> {
     // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
@@ -79,7 +72,7 @@ fn threads(turns: f64, play: f64) -> Result<Step> {
     let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .spinning(TAU * turns * DVec3::Z);
     let step = Step::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
-    step.with_rotated_queries(turning, BodyMotion::STILL, Expected::Free)
+    step.with_rotated_queries(turning, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a sheet that slides between two others.
@@ -87,8 +80,8 @@ fn between(gap: f64) -> Result<Step> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free_step(
         Step::new(
-            sheet(1.0)?,
-            stacked_squares(&sheet(1.0)?, [-gap, gap].into_iter())?,
+            sheet(4)?,
+            stacked_squares(&sheet(4)?, [-gap, gap].into_iter())?,
         ),
         gap,
         sliding,
@@ -110,7 +103,7 @@ fn through_slit(gap: f64) -> Result<Step> {
 
 fn free_step(step: Step, gap: f64, moving: BodyMotion) -> Result<Step> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
-    step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL, Expected::Free)
+    step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes case T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
@@ -121,6 +114,6 @@ fn turned_frame(degrees: f64) -> Result<Step> {
     let rod = cuboid(thin, 0.3, long)?.transformed(DAffine3::from_quat(frame.inverse()))?;
     let turning = BodyMotion::STILL.oriented(frame).spinning(PI * DVec3::Y);
     let step = Step::new(rod, cuboid(1.0, 3.0, 3.0)?);
-    let expected = Expected::at(angle / PI, 1e-14);
+    let expected = contact_at(angle / PI, 1e-14);
     step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }

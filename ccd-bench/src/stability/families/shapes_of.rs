@@ -1,10 +1,10 @@
 //! Scenes of meshes with many triangles, and of meshes with bad ones.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::family::{BodyMotion, Family, Step, contact_at};
 use super::super::shapes::{
-    TOOTH_SHARE, ball, comb, cone, cube, field_of_cubes, layers, slab, sliver_slab, with_bad_faces,
+    TOOTH_SHARE, ball, comb, cone, cube, field_of_cubes, layers, sliver_slab, with_bad_faces,
 };
-use super::{family, negative_powers_of_ten, powers_of_ten};
+use super::{family, negative_powers_of_ten, onto_slab, powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -38,45 +38,38 @@ fn comb_into_comb(teeth: f64) -> Result<Step> {
     let shift = 1.0 - (0.5 - TOOTH_SHARE) / teeth;
     let falling = BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .oriented(DQuat::from_rotation_y(PI));
-    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes case T22: a ball with a vertex at its pole falls onto a slab.
 fn ball_onto_slab(triangles: f64) -> Result<Step> {
-    let step = Step::new(ball(0.5, triangles as usize / 2 + 2)?, slab()?);
     let falling = BodyMotion::FALLING.spinning(2.0 * DVec3::Z);
-    let expected = Expected::at(0.625, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(ball(0.5, triangles as usize / 2 + 2)?, falling, 0.625)
 }
 
 /// Makes a cone that falls onto a slab, tip first.
 fn tip_onto_slab(sides: f64) -> Result<Step> {
-    let step = Step::new(cone(sides as u32, 0.7)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).spinning(2.0 * DVec3::Z);
-    let expected = Expected::at(0.625, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cone(sides as u32, 0.7)?, falling, 0.625)
 }
 
 /// Makes a cube that falls onto the first of many open sheets.
 fn onto_layers(count: f64) -> Result<Step> {
     let step = Step::new(cube()?, layers(count as u32)?);
     let falling = BodyMotion::FALLING;
-    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.625, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.625, 1e-14))
 }
 
 /// Makes case T21: a cube with repeated and collapsed faces.
 fn cube_with_bad_faces(count: f64) -> Result<Step> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
-    let step = Step::new(cube, slab()?);
-    let falling = BodyMotion::FALLING;
-    let expected = Expected::at(0.625, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cube, BodyMotion::FALLING, 0.625)
 }
 
 /// Makes a cube that falls onto a sliver triangle of a slab.
 fn sliver(width: f64) -> Result<Step> {
     let step = Step::new(cube()?, sliver_slab(width)?);
-    let expected = Expected::at(0.625, 1e-14);
+    let expected = contact_at(0.625, 1e-14);
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::SLAB_BELOW, expected)
 }
 
@@ -84,7 +77,7 @@ fn sliver(width: f64) -> Result<Step> {
 fn field_of_solids(count: f64) -> Result<Step> {
     // The cube covers the middle of the field, where at least four others are.
     let step = Step::new(cube()?, field_of_cubes(count as u32)?);
-    let expected = Expected::at(0.625, 1e-14);
+    let expected = contact_at(0.625, 1e-14);
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
@@ -98,6 +91,6 @@ fn tip_onto_tip(aside: f64) -> Result<Step> {
     let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
     let upside_down = BodyMotion::STILL.oriented(DQuat::from_rotation_y(PI));
     let step = Step::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
-    let expected = Expected::at((2.0 + aside * slope) / 4.0, 1e-14);
+    let expected = contact_at((2.0 + aside * slope) / 4.0, 1e-14);
     step.with_rotated_queries(falling, upside_down, expected)
 }

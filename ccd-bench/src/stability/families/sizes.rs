@@ -1,8 +1,9 @@
 //! Scenes whose sizes, distances and units are far from 1.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::family::{BodyMotion, Family, Step, contact_at};
 use super::super::shapes::{cone, cube, cuboid, slab};
-use super::{family, negative_powers_of_ten, powers_of_ten};
+use super::{family, negative_powers_of_ten, onto_slab, powers_of_ten};
+use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -48,7 +49,7 @@ fn size_against_size(size: f64) -> Result<Step> {
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step =
         Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?).with_tolerance(1e-6 * way);
-    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(0.5, 1e-14))
+    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes case T1 in other units of length.
@@ -61,7 +62,7 @@ fn unit_of_length(size: f64) -> Result<Step> {
     )
     .with_tolerance(1e-6 * size);
     let slab = BodyMotion::rest(-size * DVec3::Z);
-    step.with_rotated_queries(falling, slab, Expected::at(0.625, 1e-14))
+    step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes case T1 in other units of time.
@@ -70,7 +71,7 @@ fn unit_of_time(duration: f64) -> Result<Step> {
     let step = Step::new(cube()?, slab()?);
     let step = Step { duration, ..step };
     let slab = BodyMotion::SLAB_BELOW;
-    step.with_rotated_queries(falling, slab, Expected::at(0.625, 1e-14))
+    step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another one, while both travel far to the side.
@@ -78,7 +79,7 @@ fn moving_together(travel: f64) -> Result<Step> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = Step::new(cube()?, cube()?);
-    step.with_query(falling, fleeing, Expected::at(0.5, 1e-14))
+    step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, and so moves nearly straight to a wall.
@@ -93,16 +94,14 @@ fn far_centre(distance: f64) -> Result<Step> {
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = Step::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
-    let expected = Expected::at(angle / spin, 1e-14);
+    let expected = contact_at(angle / spin, 1e-14);
     step.with_query(turning, BodyMotion::rest(2.0 * DVec3::X), expected)
 }
 
 /// Makes a cone that falls onto a slab on its tip; its sides are long and thin triangles.
 fn needle(width: f64) -> Result<Step> {
-    let step = Step::new(cone(8, 0.5 * width)?, slab()?);
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
-    let expected = Expected::at(0.625, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
 /// Makes case T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
@@ -111,7 +110,7 @@ fn far_from_the_origin(distance: f64) -> Result<Step> {
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = Step::new(cube()?, cube()?);
-    step.with_query(falling, BodyMotion::rest(origin), Expected::at(0.5, 1e-14))
+    step.with_query(falling, BodyMotion::rest(origin), contact_at(0.5, 1e-14))
 }
 
 /// Makes a needle that falls onto a slab; its sides are long and thin triangles.
@@ -120,9 +119,7 @@ fn slender_needle(ratio: f64) -> Result<Step> {
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_x(0.3));
     let reach = thin * (sin + cos);
-    let expected = Expected::at((3.0 - reach) / 4.0, 1e-14);
-    let step = Step::new(cuboid(1.0, thin, thin)?, slab()?);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cuboid(1.0, thin, thin)?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T13: a bullet travels distance 1; a thin sheet stands halfway.
@@ -131,7 +128,7 @@ fn bullet_and_paper(ratio: f64) -> Result<Step> {
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
     let paper = BodyMotion::rest(0.5 * DVec3::X);
     let step = Step::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
-    let expected = Expected::at(0.5 - half - bullet, 1e-14);
+    let expected = contact_at(0.5 - half - bullet, 1e-14);
     step.with_rotated_queries(flying, paper, expected)
 }
 
@@ -143,7 +140,7 @@ fn margin(margin: f64) -> Result<Step> {
     let step = Step::new(cube()?, slab()?);
     let step = Step { margin, ..step };
     let slab = BodyMotion::SLAB_BELOW;
-    step.with_rotated_queries(falling, slab, Expected::at(0.5, 1e-14))
+    step.with_rotated_queries(falling, slab, contact_at(0.5, 1e-14))
 }
 
 /// Makes case T24: a cube inside another one, both closed.
@@ -151,5 +148,5 @@ fn inside(size: f64) -> Result<Step> {
     let half = 0.9 * size;
     let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
-    step.with_rotated_queries(moving, BodyMotion::STILL, Expected::Start)
+    step.with_rotated_queries(moving, BodyMotion::STILL, Truth::Start)
 }

@@ -1,7 +1,7 @@
 //! Compares the exact answers of the families with those of the referee.
 
 use super::families;
-use crate::stability::{Case, Expected, Family, Step};
+use crate::stability::{Case, Family, Step};
 use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -34,7 +34,7 @@ fn every_step_can_be_made() {
             let step = step.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
             assert!(!step.cases.is_empty() && step.tolerance > 0.0);
             for Case { expected, .. } in &step.cases {
-                if let Expected::Contact { lo, hi } = *expected {
+                if let Truth::Hit { lo, hi } = *expected {
                     assert!(
                         0.0 < hi && lo <= hi && lo < step.duration,
                         "{} {value:e}",
@@ -84,16 +84,16 @@ fn assert_referee_agrees(family: &Family, value: f64) -> usize {
         );
         match (truth, *expected) {
             (Truth::Undecided { .. }, _) => continue,
-            (Truth::Hit { lo, hi }, Expected::Contact { lo: from, hi: to }) => {
+            (Truth::Hit { lo, hi }, Truth::Hit { lo: from, hi: to }) => {
                 assert!(lo <= to && from <= hi, "{at}");
             }
             // Faces that meet flat touch without a proof of intersection.
-            (Truth::Graze { lo }, Expected::Contact { lo: from, hi: to }) => {
+            (Truth::Graze { lo }, Truth::Hit { lo: from, hi: to }) => {
                 assert!((from - early..=to).contains(&lo), "{at}");
             }
-            (Truth::Free, Expected::Free) => {}
+            (Truth::Free, Truth::Free) => {}
             // The referee uses surfaces, not solids.
-            (Truth::Free, Expected::Start) => {}
+            (Truth::Free, Truth::Start) => {}
             _ => panic!("{at}"),
         }
         decided += 1;

@@ -1,8 +1,9 @@
 //! Scenes whose contact is close to the start or close to the end.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
+use super::super::family::{BodyMotion, Family, Step, contact_at};
 use super::super::shapes::{cube, sheet, slab};
 use super::{family, negative_powers_of_ten};
+use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -45,13 +46,13 @@ fn falling(time: f64) -> Result<(Step, BodyMotion)> {
 fn after_the_start(time: f64) -> Result<Step> {
     let (step, falling) = falling(time)?;
     let step = step.with_tolerance(greater(0.1 * time, 1e-11));
-    let expected = Expected::at(time, 1e-14);
+    let expected = contact_at(time, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
 fn before_the_end(before: f64) -> Result<Step> {
     let (step, falling) = falling(1.0 - before)?;
-    let expected = Expected::at(1.0 - before, 1e-14);
+    let expected = contact_at(1.0 - before, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
@@ -59,12 +60,12 @@ fn after_the_end(after: f64) -> Result<Step> {
     let (step, falling) = falling(1.0 + after)?;
     let step = step.with_tolerance(greater(0.25 * after, 1e-11));
     let slab = BodyMotion::SLAB_BELOW;
-    step.with_rotated_queries_if(after > 1e-12, falling, slab, Expected::Free)
+    step.with_rotated_queries_if(after > 1e-12, falling, slab, Truth::Free)
 }
 
 /// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
 fn sheets(way: f64) -> Result<Step> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(sheet(1.0)?, sheet(1.0)?).with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_rotated_queries(falling, BodyMotion::STILL, Expected::at(way, 1e-14))
+    let step = Step::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
+    step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }

@@ -1,8 +1,8 @@
 //! Scenes of rotations, from very small ones to thousands of turns.
 
-use super::super::family::{BodyMotion, Expected, Family, Step};
-use super::super::shapes::{cube, cuboid, slab};
-use super::{family, powers_of_ten};
+use super::super::family::{BodyMotion, Family, Step, contact_at};
+use super::super::shapes::{cube, cuboid};
+use super::{family, onto_slab, powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -21,9 +21,7 @@ pub(super) fn families() -> Vec<Family> {
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
 fn falling_while_spinning(turns: f64) -> Result<Step> {
     let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
-    let step = Step::new(cube()?, slab()?);
-    let expected = Expected::at(0.625, 1e-14);
-    step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+    onto_slab(cube()?, falling, 0.625)
 }
 
 /// The half length of a rod.
@@ -42,7 +40,7 @@ fn rod_into_a_wall(turns: f64) -> Result<Step> {
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
         cuboid(1.0, 3.0, 3.0)?,
     );
-    let expected = Expected::at(angle / spin, 1e-15);
+    let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
 }
 
@@ -55,7 +53,7 @@ fn swinging_arm(spin: f64) -> Result<Step> {
     let swinging = BodyMotion::STILL.spinning(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_WIDTH) + (wall / arm.hypot(ROD_HALF_WIDTH)).asin();
     let step = Step::new(hanging, cuboid(3.0, 1.0, 3.0)?);
-    let expected = Expected::at(angle / spin, 1e-15);
+    let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(
         swinging,
         BodyMotion::rest((wall + 1.0) * DVec3::Y),
@@ -74,6 +72,6 @@ fn rods(turns: f64) -> Result<Step> {
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
     );
-    let expected = Expected::at(angle / spin, 1e-15);
+    let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(turning(spin, 0.0), turning(-spin, apart), expected)
 }

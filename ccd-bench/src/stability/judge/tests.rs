@@ -63,7 +63,7 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
     let step = (family.make)(0.0).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let case = &step.cases[0];
-    let Expected::Contact { lo, .. } = case.expected else {
+    let Truth::Hit { lo, .. } = case.expected else {
         panic!("{:?}", case.expected)
     };
     let reply = Reply {

@@ -3,7 +3,7 @@ use crate::method::rival::tests::trials::{
     assert_exact_scenes, assert_gives_up, assert_shots, boxes_rotating_past, knot_216,
 };
 use crate::method::solver::{Claim, Solver};
-use crate::scene::model::Board;
+use crate::scene::model::cuboid;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::table::motions::Motions;
@@ -42,11 +42,8 @@ fn motions_beyond_numbers_are_given_up() {
 /// Tests bodies that touch at a halving time, when all earlier segments are free up to rounding.
 #[test]
 fn a_touch_at_a_halving_is_a_contact() {
-    let cuboid = |x, y, z| Board {
-        half_extents: DVec3::new(x, y, z),
-    };
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
-    let mut rival = DynamicChecker::new(&cube.mesh().unwrap(), &slab.mesh().unwrap());
+    let mut rival = DynamicChecker::new(&cube.unwrap(), &slab.unwrap());
     for k in 0..20 {
         let world = DQuat::from_rotation_x(0.1 * f64::from(k)) * DQuat::from_rotation_y(0.7);
         let pose = |z: f64| Pose::new(world * (z * DVec3::Z), world).unwrap();

@@ -1,8 +1,9 @@
 //! Tests whether two meshes at rest cross.
 
-use super::{Content, Obb, ObbTree};
+use super::{Obb, ObbTree};
 use crate::method::rival::Placement;
 use crate::method::rival::interval::cross_sum;
+use crate::method::rival::tree::Content;
 use crate::method::rival::triangles_cross::triangles_cross;
 use ccd_core::glam::{DMat3, DVec3};
 
@@ -10,27 +11,18 @@ use ccd_core::glam::{DMat3, DVec3};
 /// separates nothing \[OBBTREE96 §5\].
 const COSINE_SLACK: f64 = 1e-14;
 
-/// The result of the search for a common point of two surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::method::rival) enum Crossing {
-    /// The surfaces have a common point.
-    Found,
-    /// The surfaces have no common point.
-    None,
-}
-
-/// Tests whether the triangles of two trees touch or cross, A placed in B's frame.
+/// Returns whether the triangles of two trees touch or cross, A placed in B's frame.
 ///
 /// `stack` is scratch space of the caller, which avoids allocations.
 ///
 /// # Complexity
 /// Linear in the pairs of boxes that overlap, at most all pairs of nodes.
-pub(in crate::method::rival) fn crossing(
+pub(in crate::method::rival) fn crosses(
     a: &ObbTree,
     b: &ObbTree,
     placement: &Placement,
     stack: &mut Vec<(u32, u32)>,
-) -> Crossing {
+) -> bool {
     let between_origins = Placement {
         rotation: placement.rotation,
         translation: placement.apply(a.origin) - b.origin,
@@ -49,7 +41,7 @@ pub(in crate::method::rival) fn crossing(
             (Content::Triangle(p), Content::Triangle(q)) => {
                 let p = a.triangle(p).map(|x| between_origins.apply(x));
                 if triangles_cross(&p, b.triangle(q)) {
-                    return Crossing::Found;
+                    return true;
                 }
             }
             (Content::Nodes([left, right]), other)
@@ -63,7 +55,7 @@ pub(in crate::method::rival) fn crossing(
             }
         }
     }
-    Crossing::None
+    false
 }
 
 /// Returns true if A's node is to be opened next, because B's is a leaf or smaller.

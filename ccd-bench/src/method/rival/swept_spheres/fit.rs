@@ -1,45 +1,38 @@
 //! Builds a tree of swept spheres: fits them to triangles, and splits sets of triangles.
 
-use super::{Node, NodeContent, SphereTree, principal_axes};
+use super::{Node, SphereTree, principal_axes};
 use crate::method::rival::Placement;
+use crate::method::rival::tree::{Content, build};
 use crate::method::rival::triangles_apart::Triangle;
 use ccd_core::glam::{DMat3, DVec2, DVec3};
 use ccd_core::order::greater;
-use std::ops::Range;
 
 /// The relative increase of radii, which covers the rounding here and in computations with the tree.
 const ROUNDING: f64 = 1e-14;
 
 /// Builds the tree over triangles, and sorts these into the order of the leaves.
 pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> SphereTree {
-    let mut tree = SphereTree {
-        nodes: Vec::with_capacity(2 * triangles.len()),
-        frames: Vec::with_capacity(2 * triangles.len()),
-        triangles: Vec::new(),
-    };
-    let mut waiting = Vec::new();
-    if !triangles.is_empty() {
-        let frame = tree.push(&triangles, &WORLD);
-        waiting.push((0, 0..triangles.len(), frame));
+    let nodes = build(
+        &mut triangles,
+        |triangles, parent: Option<&(Placement, Node)>| {
+            let (frame, lengths, radius) = fit(triangles);
+            let node = Node {
+                placement: frame.seen_from(parent.map_or(&WORLD, |(frame, _)| frame)),
+                lengths,
+                radius,
+                below: Content::Triangle(0),
+            };
+            (frame, node)
+        },
+        |triangles, (frame, _)| partition(triangles, frame.rotation.x_axis),
+    );
+    let node = |((frame, node), below)| (Node { below, ..node }, frame);
+    let (nodes, frames) = nodes.into_iter().map(node).unzip();
+    SphereTree {
+        nodes,
+        frames,
+        triangles,
     }
-    while let Some((node, range, frame)) = waiting.pop() {
-        if range.len() == 1 {
-            tree.nodes[node].below = NodeContent::Triangle(range.start as u32);
-            continue;
-        }
-        let middle = partition(&mut triangles, range.clone(), frame.rotation.x_axis);
-        let first = tree.nodes.len();
-        tree.nodes[node].below = NodeContent::Children(first as u32);
-        for (k, range) in [range.start..middle, middle..range.end]
-            .into_iter()
-            .enumerate()
-        {
-            let child = tree.push(&triangles[range.clone()], &frame);
-            waiting.push((first + k, range, child));
-        }
-    }
-    tree.triangles = triangles;
-    tree
 }
 
 const WORLD: Placement = Placement {
@@ -47,38 +40,22 @@ const WORLD: Placement = Placement {
     translation: DVec3::ZERO,
 };
 
-impl SphereTree {
-    fn push(&mut self, triangles: &[Triangle], parent: &Placement) -> Placement {
-        let (frame, lengths, radius) = fit(triangles);
-        self.nodes.push(Node {
-            placement: frame.seen_from(parent),
-            lengths,
-            radius,
-            below: NodeContent::Triangle(0),
-        });
-        self.frames.push(frame);
-        frame
-    }
-}
-
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
-fn partition(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
+fn partition(part: &mut [Triangle], axis: DVec3) -> usize {
     /// The smallest share of the triangles that a side may get.
     const LEAST_SHARE: f64 = 1.0 / 16.0;
 
-    let part = &mut triangles[range.clone()];
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);
     let count = part.len();
     let mean = part.iter().map(along).sum::<f64>() / count as f64;
     part.sort_unstable_by(|s, t| along(s).total_cmp(&along(t)));
     let below = part.partition_point(|t| along(t) < mean);
     let few = greater(1.0, LEAST_SHARE * count as f64) as usize;
-    let below = if (few..=count - few).contains(&below) {
+    if (few..=count - few).contains(&below) {
         below
     } else {
         count / 2
-    };
-    range.start + below
+    }
 }
 
 /// Fits a rectangle across the direction in which the triangles are thinnest, and returns it with the required radius

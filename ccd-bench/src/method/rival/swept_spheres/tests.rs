@@ -1,4 +1,4 @@
-use super::{NodeContent, Pair, PairChildren, SphereTree, Trees};
+use super::{Content, Pair, PairChildren, SphereTree, Trees};
 use crate::method::rival::Placement;
 use crate::scene::model::Model;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -22,10 +22,8 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
 /// Returns the indices of the triangles below a node.
 fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].below {
-        NodeContent::Triangle(k) => vec![k],
-        NodeContent::Children(first) => {
-            [triangles(tree, first), triangles(tree, first + 1)].concat()
-        }
+        Content::Triangle(k) => vec![k],
+        Content::Nodes(below) => below.map(|node| triangles(tree, node)).concat(),
     }
 }
 
@@ -72,13 +70,12 @@ fn no_split_is_lopsided() {
     let mesh = TriangleMesh::new((0..400).flat_map(corners).collect(), &faces).unwrap();
     let tree = SphereTree::new(&mesh);
     for (k, node) in tree.nodes.iter().enumerate() {
-        let NodeContent::Children(first) = node.below else {
+        let Content::Nodes([left, right]) = node.below else {
             continue;
         };
         let all = triangles(&tree, k as u32).len();
-        let few = triangles(&tree, first)
-            .len()
-            .min(triangles(&tree, first + 1).len());
+        let few = triangles(&tree, left).len();
+        let few = few.min(triangles(&tree, right).len());
         assert!(16 * few + 15 >= all, "{few} of {all}");
     }
 }

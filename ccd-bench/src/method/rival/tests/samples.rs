@@ -1,6 +1,6 @@
 //! Makes random vectors, triangles and motions for the rivals' tests, and computes distances by brute force.
 
-use crate::scene::model::Board;
+use crate::scene::model;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use ccd_core::{Motion, Pose};
@@ -70,8 +70,7 @@ pub(in crate::method::rival) fn still(position: DVec3) -> Motion {
 }
 
 pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
-    let half_extents = DVec3::new(x, y, z);
-    Board { half_extents }.mesh().unwrap()
+    model::cuboid(x, y, z).unwrap()
 }
 
 /// Returns the distance of two triangles that do not cross: the least over vertex-face and edge-edge pairs.

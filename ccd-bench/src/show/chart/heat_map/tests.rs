@@ -10,7 +10,7 @@ fn map(kind: &'static HeatKind, cells: Vec<Option<HeatCell>>) -> String {
             cells,
         }],
     };
-    map.draw().unwrap().svg
+    map.draw().unwrap()
 }
 
 fn count(svg: &str, colour: &str) -> usize {

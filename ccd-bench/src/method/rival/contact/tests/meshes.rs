@@ -23,7 +23,7 @@ fn first_crossing(tree: &ObbTree, query: &Motions) -> Option<f64> {
     let mut stack = Vec::new();
     (0..=SAMPLES)
         .map(|k| query.duration * f64::from(k) / f64::from(SAMPLES))
-        .find(|&time| crossing(tree, tree, &placement(query, time), &mut stack) == Crossing::Found)
+        .find(|&time| crosses(tree, tree, &placement(query, time), &mut stack))
 }
 
 /// Returns the distance of two meshes that do not cross, by all pairs of triangles.

@@ -1,0 +1,168 @@
+//! Benchmarks two hundred bodies in free flight over hills of 28,322 triangles and among each other, at 60 steps a
+//! second.
+//!
+//! ```sh
+//! cargo bench -p ccd-bench --bench scene
+//! ```
+
+mod settings;
+
+use ccd_bench::scene::model::torus_knot;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::{Body, Motion, Pose, Scene};
+use settings::settings;
+use std::io::{Write, stderr};
+use std::num::NonZeroUsize;
+
+/// The duration of a step, in seconds.
+const STEP: f64 = 1.0 / 60.0;
+/// The number of steps, and of bodies.
+const STEPS_AND_BODIES: (u32, usize) = (20, 200);
+/// The number of squares along each side of the hills, with two triangles each, and half the length of a side.
+const HILLS: (u32, f64) = (119, 30.0);
+
+/// Returns the place and the velocity of a body, from random vectors for both and the ground below the place.
+type Start = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
+
+/// The flights by name: the bodies fall onto the hills, skim along them, fly from all sides to one place, fly from one
+/// place in all directions, or fall ten times as fast as the others.
+const FLIGHTS: [(&str, Start); 5] = [
+    ("hail", |place, way, _| {
+        let high = DVec3::Z * (4.0 + 2.0 * place.z);
+        (wide(place) + high, way * 5.0 - 20.0 * DVec3::Z)
+    }),
+    ("skimming", |place, way, ground| {
+        let low = DVec3::Z * (1.2 + 0.5 * place.z);
+        let velocity = way * DVec3::new(20.0, 20.0, 1.0);
+        (wide(place) + ground + low, velocity)
+    }),
+    ("implosion", |place, way, _| {
+        let aside = place.normalize();
+        (aside * 10.0 + 14.0 * DVec3::Z, -20.0 * aside + way)
+    }),
+    ("crowd", |place, way, _| {
+        (place * 4.0 + 9.0 * DVec3::Z, way * 10.0)
+    }),
+    ("bullets", |place, way, _| {
+        let high = DVec3::Z * (24.0 + 20.0 * place.z);
+        (wide(place) + high, way * 30.0 - 200.0 * DVec3::Z)
+    }),
+];
+
+fn wide(place: DVec3) -> DVec3 {
+    place * DVec3::new(20.0, 20.0, 0.0)
+}
+
+fn height(x: f64, y: f64) -> f64 {
+    1.5 * (0.31 * x).sin() * (0.27 * y).cos() + 0.3 * (1.7 * x + 0.9 * y).sin()
+}
+
+/// Returns the hills, followed by one body of each kind.
+fn bodies() -> anyhow::Result<[Body; 5]> {
+    let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, Detail::Auto)?.body);
+    let (cells, half) = HILLS;
+    let row = cells + 1;
+    let vertices = (0..row * row).map(|k| {
+        let [x, y] =
+            [k % row, k / row].map(|n| half * (2.0 * f64::from(n) / f64::from(cells) - 1.0));
+        DVec3::new(x, y, height(x, y))
+    });
+    let faces = (0..cells * cells).flat_map(|k| {
+        let a = k / cells * row + k % cells;
+        [[a, a + 1, a + row], [a + 1, a + row + 1, a + row]]
+    });
+    let hills = TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())?;
+    let knot = torus_knot([36, 8], 0.35)?;
+    let smaller = knot.vertices().iter().map(|&v| 0.25 * v).collect();
+    Ok([
+        of_mesh(&hills)?,
+        Body::sphere(0.3)?,
+        Body::cuboid([0.3, 0.2, 0.4])?,
+        Body::capsule(0.15, 0.4)?,
+        of_mesh(&TriangleMesh::new(smaller, knot.faces())?)?,
+    ])
+}
+
+/// Returns the motions of all bodies in each step of a flight.
+fn flight(start: Start) -> anyhow::Result<Vec<Vec<Motion>>> {
+    let mut rng = Pcg64::seed_from_u64(7);
+    let mut any =
+        |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));
+    let (steps, count) = STEPS_AND_BODIES;
+    let starts = (0..count).map(|_| {
+        let (place, way) = (any(1.0), any(1.0));
+        let ground = wide(place);
+        let ground = height(ground.x, ground.y) * DVec3::Z;
+        let (place, velocity) = start(place, way, ground);
+        let spin = any(10.0);
+        (place, DQuat::from_scaled_axis(any(3.0)), velocity, spin)
+    });
+    let starts: Vec<_> = starts.collect();
+    let at = |time: f64| {
+        let motion = |&(place, rotation, velocity, spin): &(DVec3, DQuat, DVec3, DVec3)| {
+            let turned = DQuat::from_scaled_axis(time * spin) * rotation;
+            let start = Pose::new(place + time * velocity, turned)?;
+            Ok(Motion::new(start, velocity, spin)?)
+        };
+        starts.iter().map(motion).collect()
+    };
+    (0..steps).map(|step| at(STEP * f64::from(step))).collect()
+}
+
+/// Moves all bodies of a scene of hills and bodies by a step.
+fn set(scene: &mut Scene<'_>, motions: &[Motion]) {
+    for (k, &motion) in motions.iter().enumerate() {
+        scene
+            .set_movement(k + 1, motion)
+            .expect("a body that moves");
+    }
+}
+
+fn scenes(criterion: &mut Criterion) {
+    let [hills, others @ ..] = &bodies().expect("valid sizes");
+    for (name, start) in FLIGHTS {
+        let steps = flight(start).expect("valid motions");
+        let mut scene = Scene::with_threads(NonZeroUsize::MIN);
+        scene.add_fixed(hills, Pose::IDENTITY);
+        for (&motion, body) in steps[0].iter().zip(others.iter().cycle()) {
+            scene.add(body, motion);
+        }
+        let mut contacts = 0;
+        for motions in &steps {
+            set(&mut scene, motions);
+            contacts += scene.contacts(STEP).iter().flatten().count();
+        }
+        assert!(contacts > 0, "{name}: nothing to find");
+        let _ = writeln!(
+            stderr(),
+            "{name}: {} contacts a step",
+            contacts / steps.len()
+        );
+        let mut group = criterion.benchmark_group(format!("scene/{name}"));
+        group.throughput(Throughput::Elements(steps.len() as u64));
+        group.sampling_mode(SamplingMode::Flat);
+        let mut ask = |question: &str, ask: fn(&mut Scene<'_>)| {
+            group.bench_function(question, |bencher| {
+                bencher.iter(|| {
+                    for motions in &steps {
+                        set(&mut scene, motions);
+                        ask(&mut scene);
+                    }
+                });
+            });
+        };
+        ask("first of all", |scene| drop(scene.first_contact(STEP)));
+        ask("first of each", |scene| {
+            drop(scene.first_contact_of_each(STEP));
+        });
+        ask("all", |scene| drop(scene.contacts(STEP)));
+        group.finish();
+    }
+}
+
+criterion_group!(name = benches; config = settings(10, 300, 1000); targets = scenes);
+criterion_main!(benches);

@@ -1,0 +1,47 @@
+//! Builds binary trees over the triangles of a mesh.
+
+use super::triangles_apart::Triangle;
+
+/// What is below a node of a tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Content {
+    /// The node contains these two nodes.
+    Nodes([u32; 2]),
+    /// The node is a leaf, and contains the triangle with this index.
+    Triangle(u32),
+}
+
+/// Builds a tree from the root down, with one leaf per triangle, and sorts the triangles into the order of the leaves.
+///
+/// `fit` makes the node of some triangles below a parent, and `split` partitions those of a node: it returns the number
+/// of triangles in the first part. The root comes first. Without triangles there are no nodes.
+pub(super) fn build<N>(
+    triangles: &mut [Triangle],
+    fit: impl Fn(&[Triangle], Option<&N>) -> N,
+    split: impl Fn(&mut [Triangle], &N) -> usize,
+) -> Vec<(N, Content)> {
+    let mut nodes = Vec::with_capacity(2 * triangles.len());
+    if triangles.is_empty() {
+        return nodes;
+    }
+    let leaf = |node: N| (node, Content::Triangle(0));
+    nodes.push(leaf(fit(triangles, None)));
+    let mut open = vec![(0, 0..triangles.len())];
+    while let Some((index, range)) = open.pop() {
+        if range.len() == 1 {
+            nodes[index].1 = Content::Triangle(range.start as u32);
+            continue;
+        }
+        let parent = &nodes[index].0;
+        let middle = range.start + split(&mut triangles[range.clone()], parent);
+        let parts = [range.start..middle, middle..range.end];
+        let children = parts
+            .clone()
+            .map(|part| fit(&triangles[part], Some(parent)));
+        let left = nodes.len();
+        nodes[index].1 = Content::Nodes([left as u32, left as u32 + 1]);
+        nodes.extend(children.map(leaf));
+        open.extend((left..).zip(parts));
+    }
+    nodes
+}
