@@ -1,20 +1,12 @@
 //! What can be wrong with a mesh file: its content, its size, or a format that is not read.
 
-use crate::messages::{LFS_ADVICE, Prefix};
+use crate::messages::{FileError, LFS_ADVICE};
 use ccd_core::limits::MAX_COORDINATE;
 use std::fmt;
 use std::io;
-use std::path::PathBuf;
 
-/// The error of reading a mesh: the file, and its fault.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", Prefix(.file))]
-pub struct MeshError {
-    /// The path of the file; `None` for a mesh from a reader or from memory.
-    pub file: Option<PathBuf>,
-    /// The fault, which names the line and the element.
-    pub fault: MeshFault,
-}
+/// The error of reading a mesh: the file, and its fault, which names the line and the element.
+pub type MeshError = FileError<MeshFault>;
 
 /// The fault of a mesh. Lines are numbered from 1; faces and vertices from 0, both in the file's order.
 #[derive(Debug, thiserror::Error)]
@@ -182,6 +174,23 @@ impl MeshFault {
         MeshFault::Syntax { line, problem }
     }
 
+    /// Creates the error of content that does not follow a format without lines.
+    pub(crate) fn malformed(problem: impl Into<String>) -> Self {
+        MeshFault::syntax(None, problem.into())
+    }
+
+    /// Creates the error of content that is not supported, and of what to export instead.
+    pub(crate) fn unsupported(what: impl Into<String>, instead: &'static str) -> Self {
+        let what = what.into();
+        MeshFault::Unsupported { what, instead }
+    }
+
+    /// Creates the error of a file that ends before an element is complete.
+    pub(crate) fn truncated(missing: impl Into<String>) -> Self {
+        let missing = missing.into();
+        MeshFault::Truncated { missing }
+    }
+
     /// Wraps the fault with the name of the element that has it.
     pub(crate) fn at(self, place: impl Into<String>) -> Self {
         MeshFault::At {
@@ -189,23 +198,10 @@ impl MeshFault {
             fault: Box::new(self),
         }
     }
-
-    pub(crate) fn in_file(self, file: impl Into<PathBuf>) -> MeshError {
-        MeshError {
-            file: Some(file.into()),
-            fault: self,
-        }
-    }
 }
 
 /// The maximum length of a syntax message, in characters.
 const QUOTED: usize = 200;
-
-impl From<MeshFault> for MeshError {
-    fn from(fault: MeshFault) -> Self {
-        MeshError { file: None, fault }
-    }
-}
 
 struct Extension<'a>(&'a str);
 
@@ -266,13 +262,12 @@ impl fmt::Display for Parts<'_> {
             [None] => return write!(f, "it has one, without a name: 0"),
             _ => write!(f, "its parts are ")?,
         }
-        for (number, name) in self.0.iter().enumerate().take(NAMED_PARTS) {
-            let separator = if number == 0 { "" } else { ", " };
-            match name {
-                Some(name) => write!(f, "{separator}{number} {:?}", Quote(name))?,
-                None => write!(f, "{separator}{number}")?,
-            }
-        }
+        let label = |(number, name): (usize, &Option<String>)| match name {
+            Some(name) => format!("{number} {:?}", Quote(name)),
+            None => number.to_string(),
+        };
+        let named = self.0.iter().enumerate().take(NAMED_PARTS).map(label);
+        f.write_str(&named.collect::<Vec<_>>().join(", "))?;
         match self.0.len() {
             all if all > NAMED_PARTS => write!(f, " and {} more", all - NAMED_PARTS),
             _ => Ok(()),
@@ -284,14 +279,14 @@ struct Numbers<'a>(&'a [usize]);
 
 impl fmt::Display for Numbers<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, number) in self.0.iter().enumerate().take(NAMED_PARTS) {
-            write!(f, "{}{number}", if k == 0 { "" } else { ", " })?;
-        }
-        if self.0.len() > NAMED_PARTS {
-            write!(f, ", …")
+        let named = self.0.iter().take(NAMED_PARTS).map(usize::to_string);
+        f.write_str(&named.collect::<Vec<_>>().join(", "))?;
+        let more = if self.0.len() > NAMED_PARTS {
+            ", …"
         } else {
-            Ok(())
-        }
+            ""
+        };
+        f.write_str(more)
     }
 }
 

@@ -77,9 +77,7 @@ impl fmt::Display for Remark {
 
 impl fmt::Display for Remarks {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, remark) in self.iter().enumerate() {
-            write!(f, "{}{remark}", if k == 0 { "" } else { "; " })?;
-        }
-        Ok(())
+        let all: Vec<String> = self.iter().map(Remark::to_string).collect();
+        f.write_str(&all.join("; "))
     }
 }

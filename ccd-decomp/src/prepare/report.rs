@@ -117,12 +117,9 @@ impl Report {
         };
         let topology = self.topology.as_ref().filter(|t| !plain(t));
         let repairs = Some(&self.repairs).filter(|r| !r.is_empty());
-        match (topology, repairs) {
-            (Some(topology), Some(repairs)) => format!("{topology}; {repairs}"),
-            (Some(topology), None) => topology.to_string(),
-            (None, Some(repairs)) => repairs.to_string(),
-            (None, None) => String::new(),
-        }
+        let remarks = topology.map(Topology::to_string).into_iter();
+        let remarks = remarks.chain(repairs.map(Repairs::to_string));
+        remarks.collect::<Vec<_>>().join("; ")
     }
 }
 

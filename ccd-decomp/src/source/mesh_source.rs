@@ -43,10 +43,10 @@ impl MeshSource {
     /// [`MeshError`], which names the file.
     pub fn read(&self) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
         let mut file = MeshFile::read(&self.file)?;
-        if let Some(unit) = self.adjustments.stated_unit() {
+        if let Some(unit) = self.adjustments.stated_unit {
             file = file.stated_in(unit);
         }
-        if let Some(unit) = self.adjustments.target_unit() {
+        if let Some(unit) = self.adjustments.target_unit {
             file = file.in_unit(unit);
         }
         let unit = file.unit();
@@ -54,21 +54,18 @@ impl MeshSource {
             Some(part) => file.part(part)?,
             None => file.into_mesh()?,
         };
-        match self.adjustments.map() {
-            Some(map) => {
-                let mapped = mesh.transformed(map);
-                Ok((
-                    mapped.map_err(|error| error.fault.in_file(&self.file))?,
-                    unit,
-                ))
-            }
-            None => Ok((mesh, unit)),
-        }
+        let mesh = match self.adjustments.map() {
+            Some(map) => mesh
+                .transformed(map)
+                .map_err(|error| MeshError::new(&self.file, error.fault))?,
+            None => mesh,
+        };
+        Ok((mesh, unit))
     }
 
     /// Returns the kind of pieces to make: `asked`, or a surface if the mesh is to be hollow.
     pub fn detail(&self, asked: Detail) -> Detail {
-        if self.adjustments.is_hollow() {
+        if self.adjustments.is_hollow {
             Detail::Surface
         } else {
             asked

@@ -241,12 +241,7 @@ const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp
 /// # Errors
 /// The statement defines faces.
 fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
-    let unsupported = |what: &str, instead| {
-        Err(MeshFault::Unsupported {
-            what: what.to_owned(),
-            instead,
-        })
-    };
+    let unsupported = |what: &str, instead| Err(MeshFault::unsupported(what.to_owned(), instead));
     match keyword {
         "surf" | "bsp" | "bzp" | "cdp" => {
             return unsupported("a free-form surface", "polygons");
@@ -258,8 +253,9 @@ fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(
         other if HARMLESS.split(' ').any(|harmless| harmless == other) => {}
         "V" | "F" => {
             let known = keyword.to_ascii_lowercase();
+
             let problem = format!("{keyword:?} instead of {known:?}");
-            return Err(MeshFault::syntax(None, problem));
+            return Err(MeshFault::malformed(problem));
         }
         other => remarks.add_named("statements", other, 1, Some(line)),
     }

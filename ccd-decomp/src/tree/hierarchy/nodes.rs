@@ -75,15 +75,6 @@ pub(super) enum Below {
     Children(u32),
 }
 
-impl Below {
-    /// Returns the index of the leaf's piece, or of the first child.
-    pub(super) fn index(self) -> u32 {
-        match self {
-            Below::Piece(index) | Below::Children(index) => index,
-        }
-    }
-}
-
 impl Node {
     pub(super) fn leaf(piece: u32, cuboid: Cuboid) -> Self {
         Node {

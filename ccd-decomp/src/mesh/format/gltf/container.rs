@@ -29,22 +29,19 @@ impl<'a> Container<'a> {
         };
         let version = read_u32(&mut rest)?;
         if version != VERSION {
-            return Err(MeshFault::Unsupported {
-                what: format!("binary glTF of version {version}"),
-                instead: "glTF 2.0",
-            });
+            return Err(MeshFault::unsupported(
+                format!("binary glTF of version {version}"),
+                "glTF 2.0",
+            ));
         }
         let length = read_u32(&mut rest)? as usize;
         if bytes.len() < length {
             let missing = format!("byte {} of the {length} that it announces", bytes.len());
-            return Err(MeshFault::Truncated { missing });
+            return Err(MeshFault::truncated(missing));
         }
         let Chunk { kind, content } = read_chunk(&mut rest)?;
         if kind != *b"JSON" {
-            return Err(MeshFault::syntax(
-                None,
-                "its first chunk is not JSON".into(),
-            ));
+            return Err(MeshFault::malformed("its first chunk is not JSON"));
         }
         let mut container = Container {
             json: content,
@@ -83,7 +80,5 @@ fn read_four_bytes(rest: &mut &[u8]) -> Result<[u8; 4], MeshFault> {
 }
 
 fn truncated() -> MeshFault {
-    MeshFault::Truncated {
-        missing: "a chunk".into(),
-    }
+    MeshFault::truncated("a chunk")
 }

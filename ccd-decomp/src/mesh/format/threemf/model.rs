@@ -1,7 +1,7 @@
 //! Reads one model file of a 3MF: its objects and build items.
 
 use super::transform;
-use super::xml::{Element, Origin, Xml, XmlEvent};
+use super::xml::{Element, Xml, XmlEvent};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::polygons::Polygons;
@@ -15,6 +15,8 @@ use std::str::FromStr;
 /// The content of a model file.
 #[derive(Debug, Default)]
 pub(super) struct Model {
+    /// The path of the model in its package.
+    pub(super) path: String,
     pub(super) unit: Option<Unit>,
     pub(super) objects: Vec<ModelObject>,
     pub(super) items: Vec<ObjectRef>,
@@ -130,15 +132,15 @@ impl Model {
         within: Option<Tag>,
         element: &Element<'_>,
     ) -> Result<Tag, MeshFault> {
-        if element.origin() == Origin::Extension {
+        if element.is_extension {
             return Ok(self.start_extension_element(within, element.name()));
         }
         match (within, element.name()) {
             (None, "model") => self.start_model(element).map(|()| Tag::Model),
-            (None, _) => {
-                let name = format!("begins with {:?} instead of a model", Quote(element.name()));
-                Err(MeshFault::syntax(None, name))
-            }
+            (None, _) => Err(MeshFault::malformed(format!(
+                "begins with {:?} instead of a model",
+                Quote(element.name())
+            ))),
             (Some(Tag::Model), "resources") => Ok(Tag::Resources),
             (Some(Tag::Model), "build") => Ok(Tag::Build),
             (Some(Tag::Build), "item") => self.add_item(element),
@@ -166,10 +168,10 @@ impl Model {
         for prefix in required.unwrap_or_default().split_whitespace() {
             let namespace = namespaces.get(prefix).map_or(prefix, String::as_str);
             if !HARMLESS.iter().any(|end| namespace.ends_with(end)) {
-                return Err(MeshFault::Unsupported {
-                    what: format!("what the extension {:?} says", Quote(namespace)),
-                    instead: "3MF without this extension",
-                });
+                return Err(MeshFault::unsupported(
+                    format!("what the extension {:?} says", Quote(namespace)),
+                    "3MF without this extension",
+                ));
             }
         }
         Ok(())
@@ -200,10 +202,7 @@ impl Model {
             other => return Ok(self.start_extension_element(Some(Tag::Object), other)),
         };
         if matches!(object.shape, Shape::Mesh(_) | Shape::Components(_)) {
-            return Err(MeshFault::syntax(
-                None,
-                "has two shapes; an object has one".into(),
-            ));
+            return Err(MeshFault::malformed("has two shapes; an object has one"));
         }
         object.shape = shape;
         Ok(tag)
@@ -314,7 +313,7 @@ fn named_unit(name: &str) -> Result<Unit, MeshFault> {
         "foot" => Unit::Foot,
         _ => {
             let problem = format!("is in the unit {:?}, which there is not", Quote(name));
-            return Err(MeshFault::syntax(None, problem));
+            return Err(MeshFault::malformed(problem));
         }
     })
 }
@@ -326,13 +325,12 @@ fn parse_number<T: FromStr>(
     name: &str,
 ) -> Result<T, MeshFault> {
     let Some(value) = value else {
-        return Err(MeshFault::syntax(None, format!("{what} has no {name}")));
+        return Err(MeshFault::malformed(format!("{what} has no {name}")));
     };
     value.trim().parse().map_err(|_| {
-        let problem = format!(
+        MeshFault::malformed(format!(
             "{what} has {:?} instead of a number as its {name}",
             Quote(value)
-        );
-        MeshFault::syntax(None, problem)
+        ))
     })
 }

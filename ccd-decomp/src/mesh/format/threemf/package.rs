@@ -68,7 +68,7 @@ impl<'a> Package<'a> {
                 Ok(USUAL_MODEL.into())
             } else {
                 let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
-                Err(MeshFault::syntax(None, problem))
+                Err(MeshFault::malformed(problem))
             };
         }
         let found = self.read(RELATIONSHIPS, |xml| {
@@ -86,10 +86,7 @@ impl<'a> Package<'a> {
             }
         });
         let found = found.map_err(|fault| fault.at(format!("{RELATIONSHIPS:?}")))?;
-        found.ok_or_else(|| {
-            let problem = format!("its {RELATIONSHIPS:?} names no model");
-            MeshFault::syntax(None, problem)
-        })
+        found.ok_or_else(|| MeshFault::malformed(format!("its {RELATIONSHIPS:?} names no model")))
     }
 
     /// Unpacks and parses one model of the package.
@@ -113,7 +110,7 @@ impl<'a> Package<'a> {
             left,
         } = self;
         let Some(entry) = entries.get(&normalized_path(path)) else {
-            return Err(MeshFault::syntax(None, "is not in the package".into()));
+            return Err(MeshFault::malformed("is not in the package"));
         };
         let limit = *limit;
         let unpacking = Unpacking::new(archive, entry, left)?;
@@ -141,10 +138,10 @@ impl<'a> Unpacking<'a> {
         left: &'a mut u64,
     ) -> Result<Self, MeshFault> {
         if entry.encrypted {
-            return Err(MeshFault::Unsupported {
-                what: "an encrypted model".into(),
-                instead: "3MF without encryption",
-            });
+            return Err(MeshFault::unsupported(
+                "an encrypted model",
+                "3MF without encryption",
+            ));
         }
         let found = archive
             .get_entry(entry.wayfinder)
@@ -155,10 +152,10 @@ impl<'a> Unpacking<'a> {
                 Box::new(found.verifying_reader(DeflateDecoder::new(found.data())))
             }
             other => {
-                return Err(MeshFault::Unsupported {
-                    what: format!("an entry compressed by method {}", other.as_u16()),
-                    instead: "3MF compressed by deflate",
-                });
+                return Err(MeshFault::unsupported(
+                    format!("an entry compressed by method {}", other.as_u16()),
+                    "3MF compressed by deflate",
+                ));
             }
         };
         Ok(Unpacking {
@@ -192,5 +189,5 @@ pub(super) fn normalized_path(path: &str) -> String {
 
 fn zip_fault(error: &rawzip::Error) -> MeshFault {
     let error = error.to_string();
-    MeshFault::syntax(None, format!("its zip is not whole: {:?}", Quote(&error)))
+    MeshFault::malformed(format!("its zip is not whole: {:?}", Quote(&error)))
 }
