@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// A fault of a file, with the path of the file.
 #[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", Prefix(.file))]
+#[error("{}{fault}", prefix(.file.as_ref()))]
 pub struct FileError<F: fmt::Display> {
     /// The path of the file; `None` for content from a reader or from memory.
     pub file: Option<PathBuf>,
@@ -26,16 +26,8 @@ impl<F: fmt::Display> From<F> for FileError<F> {
     }
 }
 
-/// Formats the path of a file before a fault, if there is a file.
-struct Prefix<'a>(&'a Option<PathBuf>);
-
-impl fmt::Display for Prefix<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(file) => write!(f, "{}: ", file.display()),
-            None => Ok(()),
-        }
-    }
+fn prefix(file: Option<&PathBuf>) -> String {
+    file.map_or_else(String::new, |file| format!("{}: ", file.display()))
 }
 
 /// The first bytes of a Git LFS pointer.

@@ -171,27 +171,21 @@ impl Adjustments {
 
 /// The error for a word after a file name that describes no adjustment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("@{word}{}", Advice(.word))]
+#[error("@{word}{}", advice(.word))]
 pub struct UnknownAdjustment {
     /// The word that was not recognised.
     pub word: String,
 }
 
-/// Formats why a word describes no adjustment, and which words are accepted.
-struct Advice<'a>(&'a str);
-
-impl fmt::Display for Advice<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.strip_prefix("scale=") {
-            Some(factor) => write!(
-                f,
-                ": {factor} is no factor, which is a positive number; to mirror, use @mirror=x (or y, z)"
-            ),
-            None => f.write_str(
-                " means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), \
-                 @scale=0.001, @mirror=x (or y, z) or @surface",
-            ),
-        }
+/// Returns why a word describes no adjustment, and which words are accepted.
+fn advice(word: &str) -> String {
+    match word.strip_prefix("scale=") {
+        Some(factor) => format!(
+            ": {factor} is no factor, which is a positive number; to mirror, use @mirror=x (or y, z)"
+        ),
+        None => " means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), \
+                 @scale=0.001, @mirror=x (or y, z) or @surface"
+            .into(),
     }
 }
 

@@ -198,16 +198,14 @@ impl MeshFile {
     }
 
     fn find_part(&self, name_or_number: &str) -> Result<usize, MeshFault> {
-        let has_name = |name: Option<&str>| name == Some(name_or_number);
-        let names = self.part_names().enumerate();
-        let named: Vec<usize> = names
-            .filter_map(|(part, name)| has_name(name).then_some(part))
-            .collect();
-        let number = || name_or_number.parse::<usize>().ok();
+        let parts = 0..self.content.parts();
+        let has_name = |&part: &usize| self.content.name(part) == Some(name_or_number);
+        let named: Vec<usize> = parts.clone().filter(has_name).collect();
+        let number = || name_or_number.parse().ok();
         match named[..] {
             [part] => Ok(part),
             [] => number()
-                .filter(|&number| number < self.content.parts())
+                .filter(|number| parts.contains(number))
                 .ok_or_else(|| MeshFault::NoSuchPart {
                     part: name_or_number.into(),
                     parts: self.part_names().map(|name| name.map(Into::into)).collect(),

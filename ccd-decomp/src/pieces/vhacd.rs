@@ -103,10 +103,11 @@ pub(crate) fn approximate(
             let labels = labels::label_voxels(&target, &voxels, hulls);
             cover::points_by_part(&target, &voxels, &labels.ok_or(VhacdError::Library)?)
         }
-        None => vec![target.corners().collect()],
+        None => vec![target.triangles().flatten().collect()],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
-    let parts = merge::merge_to_count(parts.collect(), hulls as usize).map_err(VhacdError::Hull)?;
+    let parts = merge::merge_to_count(&parts.collect::<Vec<_>>(), hulls as usize);
+    let parts = parts.map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(target.farthest_coordinate());
     let excess = if is_convex {
         0.0

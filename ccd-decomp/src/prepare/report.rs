@@ -125,13 +125,7 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (one, many) = match self.kind {
-            PiecesKind::Primitive => ("primitive", "primitives"),
-            PiecesKind::Triangles => ("triangle", "triangles"),
-            PiecesKind::Patches => ("convex patch", "convex patches"),
-            PiecesKind::Hull => ("convex hull", "convex hulls"),
-            PiecesKind::Vhacd => ("approximate hull", "approximate hulls"),
-        };
+        let [_, one, many] = self.kind.names();
         let noun = if self.pieces == 1 { one } else { many };
         write!(f, "{} {noun}, ", self.pieces)?;
         match self.volume {
@@ -152,15 +146,22 @@ impl fmt::Display for Report {
     }
 }
 
+impl PiecesKind {
+    /// Returns the name of the kind, of one piece, and of several.
+    fn names(self) -> [&'static str; 3] {
+        match self {
+            PiecesKind::Primitive => ["primitive", "primitive", "primitives"],
+            PiecesKind::Triangles => ["triangles", "triangle", "triangles"],
+            PiecesKind::Patches => ["patches", "convex patch", "convex patches"],
+            PiecesKind::Hull => ["hull", "convex hull", "convex hulls"],
+            PiecesKind::Vhacd => ["vhacd", "approximate hull", "approximate hulls"],
+        }
+    }
+}
+
 impl fmt::Display for PiecesKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            PiecesKind::Primitive => "primitive",
-            PiecesKind::Triangles => "triangles",
-            PiecesKind::Patches => "patches",
-            PiecesKind::Hull => "hull",
-            PiecesKind::Vhacd => "vhacd",
-        })
+        f.pad(self.names()[0])
     }
 }
 

@@ -71,14 +71,6 @@ impl MeshSource {
             asked
         }
     }
-
-    fn whole(file: impl Into<PathBuf>) -> Self {
-        MeshSource {
-            file: file.into(),
-            part: None,
-            adjustments: Adjustments::NONE,
-        }
-    }
 }
 
 /// Splits a text into file name, mark (`#` or `@`), and rest.
@@ -100,7 +92,7 @@ impl FromStr for MeshSource {
     fn from_str(text: &str) -> Result<Self, UnknownAdjustment> {
         let Some((file, mark, rest)) = split_at_mark(text).filter(|_| !Path::new(text).is_file())
         else {
-            return Ok(MeshSource::whole(text));
+            return Ok(PathBuf::from(text).into());
         };
         let (mut part, mut words) = (None, Vec::new());
         if mark == '@' {
@@ -128,7 +120,11 @@ impl FromStr for MeshSource {
 /// Describes a whole mesh file without adjustments.
 impl From<PathBuf> for MeshSource {
     fn from(file: PathBuf) -> Self {
-        MeshSource::whole(file)
+        MeshSource {
+            file,
+            part: None,
+            adjustments: Adjustments::NONE,
+        }
     }
 }
 
@@ -139,7 +135,7 @@ impl TryFrom<OsString> for MeshSource {
     fn try_from(text: OsString) -> Result<Self, UnknownAdjustment> {
         match text.to_str() {
             Some(text) => text.parse(),
-            None => Ok(MeshSource::whole(text)),
+            None => Ok(PathBuf::from(text).into()),
         }
     }
 }

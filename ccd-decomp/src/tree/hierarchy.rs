@@ -149,7 +149,7 @@ fn halve(
     let spread = centres.iter().fold(Cuboid::EMPTY, |all, centre| {
         all.union(Cuboid::of_point(centre.at.into()))
     });
-    let axis = spread.longest_axis();
+    let axis = spread.extent().max_position();
     let half = centres.len() / 2;
     centres.select_nth_unstable_by(half, |a, b| {
         let order = a.at[axis].total_cmp(&b.at[axis]);

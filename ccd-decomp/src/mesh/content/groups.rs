@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// A partition of a list of faces into groups, which may have names. Each face is in one group, and each group has a
 /// face.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,
     /// By face, the number of its group; empty if all faces are in the first group.

@@ -37,7 +37,11 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     let buffers = Buffers::new(&root, container.binary, linked)?;
     let all_bytes = bytes.len() + linked.values().map(Vec::len).sum::<usize>();
     let allowance = Allowance::for_file(all_bytes as u64);
-    let accessors = Accessors::new(&root, &buffers, allowance);
+    let accessors = Accessors {
+        root: &root,
+        buffers: &buffers,
+        allowance,
+    };
     let Scene {
         objects,
         parts,

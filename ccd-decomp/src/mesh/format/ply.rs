@@ -124,7 +124,6 @@ fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
         Ok(())
     } else {
         let more = rest.len();
-
         let problem = format!("has {more} bytes more than its header announces");
         Err(MeshFault::malformed(problem))
     }

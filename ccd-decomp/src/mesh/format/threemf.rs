@@ -12,10 +12,9 @@ use crate::mesh::content::allowance::Allowance;
 use crate::mesh::content::assembly::{Assembly, Object, Part, PlacedObject};
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, Quote};
-use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
-use model::{Model, ModelObject, ObjectRef, Shape};
+use model::{Model, ModelObject, ObjectRef};
 use package::Package;
 use std::collections::BTreeMap;
 
@@ -168,10 +167,7 @@ impl<'a> Models<'a> {
         let mut objects = Vec::with_capacity(self.objects.len());
         for number in 0..self.objects.len() {
             let members = self.members(number)?;
-            let shape = match &mut self.objects[number].1.shape {
-                Shape::Mesh(polygons) => std::mem::take(polygons),
-                Shape::Components(_) | Shape::Foreign(_) => Polygons::default(),
-            };
+            let shape = std::mem::take(&mut self.objects[number].1.mesh);
             objects.push(Object { shape, members });
         }
         Ok(objects)
@@ -179,15 +175,12 @@ impl<'a> Models<'a> {
 
     fn members(&self, number: usize) -> Result<Vec<PlacedObject>, MeshFault> {
         let (model, object) = &self.objects[number];
-        let Shape::Components(components) = &object.shape else {
-            return Ok(Vec::new());
-        };
         let member = |(k, component): (usize, &ObjectRef)| {
             let place = || format!("{}, component {k}", self.object_name(number));
             let placed = self.placed(*model, component);
             placed.map_err(|fault| fault.at(place()))
         };
-        components.iter().enumerate().map(member).collect()
+        object.components.iter().enumerate().map(member).collect()
     }
 
     /// Checks that all used objects are triangle meshes. Returns the number of unused objects.
@@ -198,7 +191,7 @@ impl<'a> Models<'a> {
             if std::mem::replace(&mut seen[number], true) {
                 continue;
             }
-            if let Shape::Foreign(what) = &self.objects[number].1.shape {
+            if let Some(what) = &self.objects[number].1.foreign {
                 let fault = MeshFault::unsupported(
                     format!("a shape of another kind, {:?}", Quote(what)),
                     "a mesh of triangles",

@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 ///
 /// # Errors
 /// [`HullError`] if a point is out of range for exact predicates.
-pub(super) fn merge_to_count(parts: Vec<Vec<DVec3>>, most: usize) -> Result<Vec<Hull>, HullError> {
+pub(super) fn merge_to_count(parts: &[Vec<DVec3>], most: usize) -> Result<Vec<Hull>, HullError> {
     let measured = parts.par_iter().map(|points| MeasuredPart::new(points));
     let measured: Vec<MeasuredPart> = measured.collect::<Result<_, _>>()?;
     let mut parts: BTreeMap<usize, MeasuredPart> = measured.into_iter().enumerate().collect();

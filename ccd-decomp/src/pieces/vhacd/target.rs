@@ -50,14 +50,6 @@ impl<'a> Target<'a> {
         faces.map(|face| face.map(|v| vertices[v as usize]))
     }
 
-    pub(super) fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.triangles().flatten()
-    }
-
-    pub(super) fn faces(&self) -> &[[u32; 3]] {
-        self.mesh.faces()
-    }
-
     pub(super) fn is_closed(&self) -> bool {
         self.closed
     }
@@ -145,16 +137,8 @@ impl<'a> Target<'a> {
         let sum: f64 = weights.iter().sum();
         let on = corners.iter().zip(weights);
         let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
-        let reached = on.length();
-        // NaN counts as infinitely far.
-        let far = |offset: f64| {
-            if offset.is_nan() {
-                f64::INFINITY
-            } else {
-                offset
-            }
-        };
-        (if found.is_nan() { 0.0 } else { found }, far(reached))
+        let known = |length: f64, otherwise: f64| if length.is_nan() { otherwise } else { length };
+        (known(found, 0.0), known(on.length(), f64::INFINITY))
     }
 
     /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the

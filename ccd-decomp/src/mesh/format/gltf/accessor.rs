@@ -10,9 +10,9 @@ use ccd_core::order::greater;
 
 /// Reads accessors, and charges their elements to the limit on what the file may expand to.
 pub(super) struct Accessors<'a> {
-    root: &'a Root,
-    buffers: &'a Buffers<'a>,
-    allowance: Allowance,
+    pub(super) root: &'a Root,
+    pub(super) buffers: &'a Buffers<'a>,
+    pub(super) allowance: Allowance,
 }
 
 /// The component types of glTF accessors.
@@ -27,14 +27,6 @@ enum Component {
 }
 
 impl<'a> Accessors<'a> {
-    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, allowance: Allowance) -> Self {
-        Accessors {
-            root,
-            buffers,
-            allowance,
-        }
-    }
-
     /// Returns whether an accessor has uncompressed data, not only a compression extension.
     pub(super) fn has_bytes(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);

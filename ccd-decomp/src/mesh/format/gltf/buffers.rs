@@ -36,12 +36,12 @@ impl<'a> Buffers<'a> {
     /// Returns the bytes of a buffer view from `offset` on.
     pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
-        if about.extensions.meshopt.is_some() && self.is_empty(about.buffer) {
+        let buffer = self.bytes.get(about.buffer);
+        if about.extensions.meshopt.is_some() && buffer.is_none_or(Option::is_none) {
             return Err(extensions::meshopt_fault());
         }
         let found = || {
-            let buffer = element(&self.bytes, "buffer", about.buffer)?;
-            let Some(buffer) = buffer else {
+            let Some(buffer) = element(&self.bytes, "buffer", about.buffer)? else {
                 let problem = format!("buffer {} has neither bytes nor a file", about.buffer);
                 return Err(MeshFault::malformed(problem));
             };
@@ -54,7 +54,6 @@ impl<'a> Buffers<'a> {
             let within = range.and_then(|(start, end)| buffer.get(start as usize..end as usize));
             within.ok_or_else(|| {
                 let (bytes, buffer) = (buffer.len(), about.buffer);
-
                 MeshFault::malformed(format!(
                     "reaches beyond buffer {buffer}, which has {bytes} bytes"
                 ))
@@ -66,10 +65,6 @@ impl<'a> Buffers<'a> {
     /// Returns the stride of a buffer view in bytes, if the view states one.
     pub(super) fn stride(&self, view: usize) -> Option<u64> {
         self.root.buffer_views.get(view)?.byte_stride
-    }
-
-    fn is_empty(&self, buffer: usize) -> bool {
-        matches!(self.bytes.get(buffer), None | Some(None))
     }
 }
 
@@ -110,17 +105,13 @@ fn file_needed(name: String) -> MeshFault {
 
 /// Returns the reference to the file of a buffer; `None` for an embedded buffer.
 pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
-    let outside = buffer
-        .uri
-        .as_ref()
-        .filter(|uri| data_uri_payload(uri).is_none());
-    let reference = outside.map(|uri| {
-        Ok(Reference {
+    match &buffer.uri {
+        Some(uri) if data_uri_payload(uri).is_none() => Ok(Some(Reference {
             name: percent_decoded(uri)?,
             bytes: buffer.byte_length,
-        })
-    });
-    reference.transpose()
+        })),
+        _ => Ok(None),
+    }
 }
 
 /// Returns the encoded data of a data URI; `None` for any other URI.

@@ -54,14 +54,17 @@ impl<R: BufRead> Xml<R> {
         }
     }
 
-    pub(super) fn into_inner(self) -> R {
-        self.reader.into_inner()
-    }
-
     pub(super) fn next(&mut self) -> Result<XmlEvent<'_>, MeshFault> {
         self.buffer.clear();
         let event = self.reader.read_event_into(&mut self.buffer);
-        match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
+        let event = event.map_err(|error| {
+            let (error, position) = (error.to_string(), self.reader.buffer_position());
+            let error = Quote(&error);
+            MeshFault::malformed(format!(
+                "its XML is not valid before byte {position}: {error:?}"
+            ))
+        });
+        match event? {
             Event::Start(start) => {
                 self.depth += 1;
                 let (found, _) = self.reader.resolver().resolve_element(start.name());
@@ -119,7 +122,7 @@ impl<'a> Element<'a> {
         mut visit: impl FnMut(Option<&str>, &str, Cow<'s, str>),
     ) -> Result<(), MeshFault> {
         for attribute in self.start.attributes() {
-            let attribute = attribute.map_err(|error| problem(&error))?;
+            let attribute = attribute.map_err(|error| bad_attribute(&error))?;
             let value = attribute.normalized_value(XmlVersion::Explicit1_0);
             let prefix = attribute.key.prefix();
             let prefix = prefix.as_ref().map(|prefix| prefix.as_ref());
@@ -127,7 +130,7 @@ impl<'a> Element<'a> {
             visit(
                 prefix,
                 local.as_ref(),
-                value.map_err(|error| problem(&error))?,
+                value.map_err(|error| bad_attribute(&error))?,
             );
         }
         Ok(())
@@ -142,16 +145,7 @@ fn namespace<'r>(resolved: &'r ResolveResult<'_>) -> Option<&'r str> {
     }
 }
 
-fn fault(error: &quick_xml::Error, position: u64) -> MeshFault {
-    let error = error.to_string();
-
-    MeshFault::malformed(format!(
-        "its XML is not valid before byte {position}: {:?}",
-        Quote(&error)
-    ))
-}
-
-fn problem(error: &dyn std::fmt::Display) -> MeshFault {
+fn bad_attribute(error: &dyn std::fmt::Display) -> MeshFault {
     let error = error.to_string();
     MeshFault::malformed(format!("its XML has a bad attribute: {:?}", Quote(&error)))
 }
