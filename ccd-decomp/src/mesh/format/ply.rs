@@ -42,11 +42,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
                 let strips = read.iter().flat_map(|strip| triangles(&strip.corners));
                 strips.for_each(|triangle| polygons.push_face(triangle));
             }
-            other if element.count > 0 => {
+            other => {
                 let remarks = &mut polygons.remarks;
                 remarks.add_named("elements", other, element.count, None);
             }
-            _ => {}
         }
     }
     check_end(reader.get_ref())?;

@@ -32,10 +32,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     for model in &models.list {
         remarks.append(&model.remarks);
     }
-    if unused > 0 {
-        let what = "objects that the build does not place passed over";
-        remarks.add(what, unused, None);
-    }
+    let what = "objects that the build does not place passed over";
+    remarks.add(what, unused, None);
     let allowance = Allowance::for_file(models.package.unpacked_bytes() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
         MeshFault::malformed("is a component of itself").at(models.object_name(circle.object))

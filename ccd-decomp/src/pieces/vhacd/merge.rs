@@ -7,7 +7,6 @@ use crate::tolerance::COST_SAMPLE_POINTS;
 use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -26,50 +25,24 @@ pub(super) fn merge_to_count(parts: &[Vec<DVec3>], most: usize) -> Result<Vec<Hu
     let measured = parts.par_iter().map(|points| MeasuredPart::new(points));
     let measured: Vec<MeasuredPart> = measured.collect::<Result<_, _>>()?;
     let mut parts: BTreeMap<usize, MeasuredPart> = measured.into_iter().enumerate().collect();
-    let mut pairs = Vec::new();
-    for (&l, part) in &parts {
-        let before = parts.range(..l);
-        pairs.extend(before.map(|(&k, other)| Pair::new((k, other), (l, part))));
-    }
+    // The volume that merging two parts adds, by the larger number and the smaller.
+    let cost = |parts: &BTreeMap<usize, MeasuredPart>, k: usize, l: usize| {
+        ([l, k], parts[&k].merge_cost(&parts[&l]))
+    };
+    let pairs = (0..parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
+    let mut costs: BTreeMap<[usize; 2], f64> = pairs.map(|(k, l)| cost(&parts, k, l)).collect();
     // Each step removes one part.
     while parts.len() > most
-        && let Some(&Pair { ends: [k, l], .. }) = pairs.iter().min_by(|p, q| p.order(q))
+        && let Some((&[l, k], _)) = costs.iter().min_by(|p, q| p.1.total_cmp(q.1))
         && let (Some(one), Some(other)) = (parts.remove(&k), parts.remove(&l))
     {
-        pairs.retain(|pair| !pair.ends.iter().any(|end| [k, l].contains(end)));
+        costs.retain(|pair, _| !pair.iter().any(|end| [k, l].contains(end)));
         let merged = MeasuredPart::new(&[one.hull.points, other.hull.points].concat())?;
-        pairs.extend(parts.iter().map(|(&m, part)| {
-            if m < k {
-                Pair::new((m, part), (k, &merged))
-            } else {
-                Pair::new((k, &merged), (m, part))
-            }
-        }));
         parts.insert(k, merged);
+        let others = parts.keys().filter(|&&m| m != k);
+        costs.extend(others.map(|&m| cost(&parts, m.min(k), m.max(k))));
     }
     Ok(parts.into_values().map(|part| part.hull).collect())
-}
-
-/// Two parts by number, the smaller first, and the volume that merging them adds.
-struct Pair {
-    ends: [usize; 2],
-    cost: f64,
-}
-
-impl Pair {
-    fn new((k, one): (usize, &MeasuredPart), (l, other): (usize, &MeasuredPart)) -> Self {
-        Pair {
-            ends: [k, l],
-            cost: one.merge_cost(other),
-        }
-    }
-
-    /// Compares two pairs by cost, then by the larger number, then by the smaller one.
-    fn order(&self, other: &Pair) -> Ordering {
-        let [k, l] = self.ends;
-        let [m, n] = other.ends;
-        self.cost.total_cmp(&other.cost).then((l, k).cmp(&(n, m)))
-    }
 }
 
 struct MeasuredPart {

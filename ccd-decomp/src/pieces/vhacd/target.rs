@@ -161,13 +161,9 @@ impl<'a> Target<'a> {
 /// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.
 /// Returns `None` for other triangles.
 fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
-    let longer = |one: &(DVec3, DVec3, DVec3), other: &(DVec3, DVec3, DVec3)| {
-        let square = |of: &(DVec3, DVec3, DVec3)| of.0.distance_squared(of.1);
-        square(one).total_cmp(&square(other))
-    };
-    let (from, to, apex) = [(a, b, c), (b, c, a), (c, a, b)]
-        .into_iter()
-        .max_by(longer)?;
+    let square = |[from, to, _]: &[DVec3; 3]| from.distance_squared(*to);
+    let turned = [[a, b, c], [b, c, a], [c, a, b]].into_iter();
+    let [from, to, apex] = turned.max_by(|s, t| square(s).total_cmp(&square(t)))?;
     let side = to - from;
     let (square, area) = (side.length_squared(), side.cross(apex - from).length());
     // Written so that NaN is no needle.

@@ -55,10 +55,3 @@ pub(super) fn meshopt_fault() -> MeshFault {
         "glTF without compression",
     )
 }
-
-pub(super) fn instancing_fault() -> MeshFault {
-    MeshFault::unsupported(
-        "instances in a buffer (EXT_mesh_gpu_instancing)",
-        "glTF with a node for each instance",
-    )
-}

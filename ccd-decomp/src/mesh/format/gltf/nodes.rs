@@ -2,7 +2,7 @@
 
 use super::accessor::Accessors;
 use super::schema::Root;
-use super::{element, extensions, primitive, transform};
+use super::{element, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Object, Part, PlacedObject};
 use crate::mesh::error::{MeshFault, element_name};
@@ -71,7 +71,10 @@ impl Walk<'_> {
             }
             if let Some(mesh) = node.mesh {
                 let placed = match node.extensions.instancing {
-                    Some(_) => Err(extensions::instancing_fault()),
+                    Some(_) => Err(MeshFault::unsupported(
+                        "instances in a buffer (EXT_mesh_gpu_instancing)",
+                        "glTF with a node for each instance",
+                    )),
                     None => self.place(mesh, node.name.clone(), map),
                 };
                 placed.map_err(|fault| fault.at(place()))?;
@@ -127,9 +130,7 @@ impl Walk<'_> {
                 changing.count(),
             ),
         ] {
-            if count > 0 {
-                self.scene.remarks.add(what, count, None);
-            }
+            self.scene.remarks.add(what, count, None);
         }
     }
 
