@@ -44,7 +44,7 @@ impl Model {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
         ccd_file::write(path, |out| self.store(out))
-            .map_err(|error| StoreFault::Unwritable(error).in_file(path))
+            .map_err(|error| StoreError::new(path, StoreFault::Unwritable(error)))
     }
 
     /// Loads a model that [`Model::save`] stored.
@@ -59,7 +59,7 @@ impl Model {
         let path = path.as_ref();
         let file = File::open(path).map_err(StoreFault::Unreadable);
         file.and_then(|file| Model::unpack(BufReader::new(file)))
-            .map_err(|fault| fault.in_file(path))
+            .map_err(|fault| StoreError::new(path, fault))
     }
 
     /// Writes the model to any writer, in the format of [`Model::save`].

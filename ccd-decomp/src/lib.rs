@@ -101,6 +101,7 @@ pub use mesh::mesh_file::{MeshFile, NamedMesh};
 pub use mesh::remark::{Remark, Remarks};
 pub use mesh::repair::Repairs;
 pub use mesh::unit::{Unit, UnknownUnit};
+pub use messages::FileError;
 pub use pieces::patches::{Decomposition, Order, Patch, decompose};
 pub use pieces::vhacd::VhacdError;
 pub use prepare::error::PrepareError;

@@ -3,16 +3,31 @@
 use std::fmt;
 use std::path::PathBuf;
 
-/// Formats the path of a file before a fault, if there is a file.
-pub(crate) struct Prefix<'a>(pub(crate) &'a Option<PathBuf>);
+/// A fault of a file, with the path of the file.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{fault}", prefix(.file.as_ref()))]
+pub struct FileError<F: fmt::Display> {
+    /// The path of the file; `None` for content from a reader or from memory.
+    pub file: Option<PathBuf>,
+    /// The fault of the content.
+    pub fault: F,
+}
 
-impl fmt::Display for Prefix<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(file) => write!(f, "{}: ", file.display()),
-            None => Ok(()),
-        }
+impl<F: fmt::Display> FileError<F> {
+    pub(crate) fn new(file: impl Into<PathBuf>, fault: F) -> Self {
+        let file = Some(file.into());
+        FileError { file, fault }
     }
+}
+
+impl<F: fmt::Display> From<F> for FileError<F> {
+    fn from(fault: F) -> Self {
+        FileError { file: None, fault }
+    }
+}
+
+fn prefix(file: Option<&PathBuf>) -> String {
+    file.map_or_else(String::new, |file| format!("{}: ", file.display()))
 }
 
 /// The first bytes of a Git LFS pointer.

@@ -6,17 +6,18 @@ pub(crate) mod model;
 mod parts;
 pub(crate) mod report;
 
-use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose};
 use crate::pieces::vhacd::approximate;
 use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
+use crate::tolerance::AUTO_WORK;
+use crate::work::Work;
 use ccd_core::Volume;
 use error::PrepareError;
 use model::{Model, Prepared};
-use parts::{Choice, Parts, PieceTree};
+use parts::{Choice, Parts, triangle_tree};
 use report::Why;
 
 /// The kind of pieces that a body is made of.
@@ -91,37 +92,21 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 /// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
 /// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
-    // Both take equally long, and the hierarchy is nearly always needed.
+    let may_need_triangles = !matches!(detail, Detail::Patches(_) | Detail::Vhacd { .. });
+    // Both take equally long, and the triangles are nearly always needed.
     let (choice, triangles) = rayon::join(
         || Choice::new(mesh, detail),
-        || {
-            detail
-                .may_need_triangles()
-                .then(|| PieceTree::of_triangles(mesh))
-        },
+        || may_need_triangles.then(|| triangle_tree(mesh)),
     );
     choice?.into_model(mesh, triangles.transpose()?)
 }
 
-impl Detail {
-    /// Returns whether a model of this kind may contain the mesh's triangles.
-    fn may_need_triangles(self) -> bool {
-        match self {
-            Detail::Auto | Detail::Triangles | Detail::Surface | Detail::Hull => true,
-            Detail::Patches(_) | Detail::Vhacd { .. } => false,
-        }
-    }
-}
-
 impl Choice {
     fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
-        let edges = Edges::new(&mesh.welded_faces());
-        let (topology, turned) = Topology::from_edges(mesh, &edges);
-        // A mesh with reversed shells has other half-edges.
-        let edges = turned.is_none().then_some(edges);
+        let (topology, turned) = Topology::with_reoriented_mesh(mesh);
         let mesh = turned.as_ref().unwrap_or(mesh);
         let (parts, why) = match detail {
-            Detail::Auto => choose::choose(mesh, &topology, edges),
+            Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK)),
             Detail::Triangles | Detail::Surface => (Parts::Triangles, Why::Asked),
             Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
             Detail::Hull => {

@@ -134,18 +134,27 @@ impl BodySource {
             }
             BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
             BodySource::Mesh(ref source) => {
-                let adjustments = source.adjustments.and(adjustments)?;
-                return load_mesh(
-                    &MeshSource {
-                        adjustments,
-                        ..source.clone()
-                    },
-                    detail,
-                );
+                let source = MeshSource {
+                    adjustments: source.adjustments.and(adjustments)?,
+                    ..source.clone()
+                };
+                let (mesh, unit) = source.read()?;
+                let made = body_from_mesh(&mesh, source.detail(detail));
+                let prepared = in_file(source.to_string().as_ref(), made)?;
+                return Ok(Prepared { unit, ..prepared });
             }
         };
-        let unit = adjustments.target_unit();
+        let unit = adjustments.target_unit;
         Ok(Prepared { unit, ..prepared })
+    }
+
+    /// Describes the body in a file. The extension decides whether it is a stored body or a mesh.
+    pub fn of_file(path: PathBuf) -> Self {
+        if is_stored(&path) {
+            BodySource::Stored(path)
+        } else {
+            BodySource::Mesh(path.into())
+        }
     }
 
     /// Returns the paths of all files that the body is read from, including buffer files of a glTF.
@@ -161,29 +170,11 @@ impl BodySource {
     }
 }
 
-fn load_mesh(source: &MeshSource, detail: Detail) -> Result<Prepared, BodyError> {
-    let (mesh, unit) = source.read()?;
-    let made = body_from_mesh(&mesh, source.detail(detail));
-    let prepared = in_file(source.to_string().as_ref(), made)?;
-    Ok(Prepared { unit, ..prepared })
-}
-
 fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
     made.map_err(|error| BodyError::InFile {
         file: path.into(),
         error,
     })
-}
-
-impl BodySource {
-    /// Describes the body in a file. The extension decides whether it is a stored body or a mesh.
-    pub fn of_file(path: PathBuf) -> Self {
-        if is_stored(&path) {
-            BodySource::Stored(path)
-        } else {
-            BodySource::Mesh(path.into())
-        }
-    }
 }
 
 impl FromStr for BodySource {
@@ -194,45 +185,14 @@ impl FromStr for BodySource {
         if text.is_empty() {
             return Err(SourceError::Empty);
         }
-        // A mesh file has an extension.
-        if let Some(&(shape, expected)) = SHAPES.iter().find(|(shape, _)| *shape == text) {
-            return Err(SourceError::WrongCount {
-                shape,
-                expected,
-                given: 0,
-            });
+        let (shape, given) = match text.split_once(':') {
+            Some((shape, given)) => (shape, given.split(',').map(str::trim).collect()),
+            None => (text, Vec::new()),
+        };
+        if let Some(&(shape, expected)) = SHAPES.iter().find(|(known, _)| *known == shape) {
+            return parse_shape(shape, expected, &given);
         }
         match text.split_once(':') {
-            Some(("box", given)) => {
-                parse_lengths("box", given).map(|sides: [f64; 3]| BodySource::Box {
-                    half_extents: sides.into(),
-                })
-            }
-            Some(("sphere", given)) => {
-                parse_lengths("sphere", given).map(|[radius]| BodySource::Sphere { radius })
-            }
-            Some(("capsule", given)) => {
-                parse_lengths("capsule", given).map(|[radius, half_height]| BodySource::Capsule {
-                    radius,
-                    half_height,
-                })
-            }
-            Some(("cylinder", given)) => {
-                parse_round("cylinder", given).map(|(radius, half_height, excess)| {
-                    BodySource::Cylinder {
-                        radius,
-                        half_height,
-                        excess,
-                    }
-                })
-            }
-            Some(("cone", given)) => {
-                parse_round("cone", given).map(|(radius, half_height, excess)| BodySource::Cone {
-                    radius,
-                    half_height,
-                    excess,
-                })
-            }
             // A single letter is a drive letter.
             Some((shape, _)) if shape.len() > 1 && shape.chars().all(char::is_alphanumeric) => {
                 Err(SourceError::UnknownShape {
@@ -262,47 +222,55 @@ const SHAPES: [(&str, usize); 5] = [
     ("cone", 2),
 ];
 
-/// Parses the radius, half height and optional excess of a cylinder or cone.
-fn parse_round(shape: &'static str, given: &str) -> Result<(f64, f64, Option<f64>), SourceError> {
-    if given.matches(',').count() == 2 {
-        let [radius, half_height, excess] = parse_lengths(shape, given)?;
-        return Ok((radius, half_height, Some(excess)));
+/// Parses the lengths of a shape. A cylinder and a cone may have one more, the excess.
+fn parse_shape(
+    shape: &'static str,
+    expected: usize,
+    words: &[&str],
+) -> Result<BodySource, SourceError> {
+    let given = words.len();
+    let is_round = ["cylinder", "cone"].contains(&shape);
+    if given != expected && !(is_round && given == expected + 1) {
+        return Err(SourceError::WrongCount {
+            shape,
+            expected,
+            given,
+        });
     }
-    let [radius, half_height] = parse_lengths(shape, given)?;
-    Ok((radius, half_height, None))
+    let lengths = words.iter().map(|word| parse_length(shape, word));
+    let lengths: Vec<f64> = lengths.collect::<Result<_, _>>()?;
+    let (radius, excess) = (lengths[0], lengths.get(2).copied());
+    Ok(match shape {
+        "box" => BodySource::Box {
+            half_extents: DVec3::from_slice(&lengths),
+        },
+        "sphere" => BodySource::Sphere { radius },
+        "capsule" => BodySource::Capsule {
+            radius,
+            half_height: lengths[1],
+        },
+        "cylinder" => BodySource::Cylinder {
+            radius,
+            half_height: lengths[1],
+            excess,
+        },
+        _ => BodySource::Cone {
+            radius,
+            half_height: lengths[1],
+            excess,
+        },
+    })
 }
 
-fn parse_lengths<const N: usize>(
-    shape: &'static str,
-    given: &str,
-) -> Result<[f64; N], SourceError> {
-    let words: Vec<&str> = given.split(',').map(str::trim).collect();
-    let words: [&str; N] = words
-        .try_into()
-        .map_err(|words: Vec<_>| SourceError::WrongCount {
-            shape,
-            expected: N,
-            given: words.len(),
-        })?;
-    let mut lengths = [0.0; N];
-    for (length, word) in lengths.iter_mut().zip(words) {
-        *length = match word.parse::<f64>() {
-            Ok(value) if (0.0..=MAX_COORDINATE).contains(&value) => value,
-            Ok(value) if value > MAX_COORDINATE && value.is_finite() => {
-                return Err(SourceError::TooLong {
-                    shape,
-                    length: word.into(),
-                });
-            }
-            _ => {
-                return Err(SourceError::BadLength {
-                    shape,
-                    length: word.into(),
-                });
-            }
-        };
+fn parse_length(shape: &'static str, word: &str) -> Result<f64, SourceError> {
+    let length = word.to_owned();
+    match word.parse::<f64>() {
+        Ok(value) if (0.0..=MAX_COORDINATE).contains(&value) => Ok(value),
+        Ok(value) if value > MAX_COORDINATE && value.is_finite() => {
+            Err(SourceError::TooLong { shape, length })
+        }
+        _ => Err(SourceError::BadLength { shape, length }),
     }
-    Ok(lengths)
 }
 
 #[cfg(test)]

@@ -58,14 +58,11 @@ impl<T> Default for Tally<T> {
 
 impl<T: fmt::Display> fmt::Display for Tally<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.count)?;
-        for (k, element) in self.first.iter().enumerate() {
-            write!(f, "{}{element}", if k == 0 { " (" } else { ", " })?;
-        }
-        match (self.first.len(), self.count) {
-            (0, _) => Ok(()),
-            (named, count) if named < count => write!(f, ", …)"),
-            _ => write!(f, ")"),
+        let mut named: Vec<String> = self.first.iter().map(T::to_string).collect();
+        named.extend((named.len() < self.count).then(|| "…".into()));
+        match (self.count, named.join(", ")) {
+            (0, _) => write!(f, "0"),
+            (count, named) => write!(f, "{count} ({named})"),
         }
     }
 }

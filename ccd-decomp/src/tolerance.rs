@@ -156,11 +156,6 @@ pub(crate) const LENGTH_BINS: f64 = 16.0;
 /// The number of direction bins per unit of each coordinate of a unit vector.
 pub(crate) const DIRECTION_BINS: f64 = 64.0;
 
-/// The maximum number of points for the incremental hull without a conflict graph.
-///
-/// Unit: points. More: the time grows with their square. Fewer: the graph takes more time than it saves.
-pub(crate) const FEW_POINTS: usize = 32;
-
 /// The minimum number of pieces for which the two sides of a hull tree node are built in parallel.
 ///
 /// Unit: pieces. Fewer: tasks cost more than they gain. More: a core idles at the end.

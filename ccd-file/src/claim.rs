@@ -1,8 +1,7 @@
 //! Files that only one process writes at a time.
 
-use crate::temp_file::{error_with_path, place, sibling, write_buffered};
-use same_file::Handle;
-use std::fs::{self, File, TryLockError};
+use crate::temp_file::{TempFile, error_with_path, is_at, sibling, write_buffered};
+use std::fs::{File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -19,19 +18,9 @@ pub const PARTIAL: &str = ".partial";
 #[derive(Debug)]
 pub struct Claim {
     /// The open file, which is locked as long as it is open.
-    file: File,
-    partial: PathBuf,
-    target: PathBuf,
+    temporary: TempFile,
     /// The length in bytes of what an earlier process left in the file.
     left: u64,
-    end: DropAction,
-}
-
-/// What happens to a file that is dropped before it has its final name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum DropAction {
-    Removed,
-    Kept,
 }
 
 /// The maximum number of attempts to lock the file; other processes may finish between opening and locking.
@@ -68,18 +57,13 @@ impl Claim {
                     return Err(io::Error::new(io::ErrorKind::AlreadyExists, problem));
                 }
                 let left = about.len();
-                let end = if left == 0 {
-                    DropAction::Removed
-                } else {
-                    DropAction::Kept
-                };
-                return Ok(Claim {
+                let temporary = TempFile {
                     file,
-                    partial,
+                    path: partial,
                     target,
-                    left,
-                    end,
-                });
+                    is_kept: left > 0,
+                };
+                return Ok(Claim { temporary, left });
             }
         }
         Err(busy())
@@ -92,22 +76,22 @@ impl Claim {
 
     /// Returns the temporary path under which the file is written.
     pub fn partial(&self) -> &Path {
-        &self.partial
+        &self.temporary.path
     }
 
     /// Returns the final path of the file.
     pub fn target(&self) -> &Path {
-        &self.target
+        &self.temporary.target
     }
 
     /// Returns the target path with an ending appended to the file name.
     pub fn sibling(&self, ending: &str) -> PathBuf {
-        sibling(&self.target, ending)
+        sibling(&self.temporary.target, ending)
     }
 
     /// Returns the file: empty, or with the content that an earlier process left.
     pub fn file(&mut self) -> &mut File {
-        &mut self.file
+        &mut self.temporary.file
     }
 
     /// Writes the whole file, and renames it to its target.
@@ -116,7 +100,7 @@ impl Claim {
     /// Errors of `fill` and of [`Claim::place`].
     pub fn write(mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         self.cut(0)?;
-        write_buffered(&mut self.file, fill)?;
+        write_buffered(&mut self.temporary.file, fill)?;
         self.place()
     }
 
@@ -125,55 +109,28 @@ impl Claim {
     /// # Errors
     /// Errors of the operating system.
     pub fn cut(&mut self, bytes: u64) -> io::Result<()> {
-        self.file.set_len(bytes)?;
-        self.file.seek(SeekFrom::Start(bytes))?;
-        if bytes == 0 {
-            self.end = DropAction::Removed;
-        }
+        let TempFile { file, is_kept, .. } = &mut self.temporary;
+        file.set_len(bytes)?;
+        file.seek(SeekFrom::Start(bytes))?;
+        *is_kept &= bytes > 0;
         Ok(())
     }
 
     /// Keeps the file under its temporary name if the claim is dropped.
     pub fn keep(&mut self) {
-        self.end = DropAction::Kept;
+        self.temporary.is_kept = true;
     }
 
     /// Renames the complete file to its target.
     ///
     /// # Errors
     /// The file was removed or replaced, or the operating system fails.
-    pub fn place(mut self) -> io::Result<()> {
-        if !is_at(&self.file, &self.partial)? {
-            self.end = DropAction::Kept;
-            let partial = self.partial.display();
-            let problem = format!("{partial} was removed or replaced while it was written");
-            return Err(io::Error::new(io::ErrorKind::NotFound, problem));
-        }
-        place(&self.file, &self.partial, &self.target)?;
-        self.end = DropAction::Kept;
-        Ok(())
-    }
-}
-
-impl Drop for Claim {
-    fn drop(&mut self) {
-        if self.end == DropAction::Removed && is_at(&self.file, &self.partial).unwrap_or(false) {
-            // What stays behind does no harm.
-            let _ = fs::remove_file(&self.partial);
-        }
+    pub fn place(self) -> io::Result<()> {
+        self.temporary.place()
     }
 }
 
 fn busy() -> io::Error {
     let problem = "another run is writing it; wait for its end, or give another file";
     io::Error::new(io::ErrorKind::ResourceBusy, problem)
-}
-
-/// Returns whether a path still leads to an open file.
-fn is_at(file: &File, path: &Path) -> io::Result<bool> {
-    match Handle::from_path(path) {
-        Ok(there) => Ok(there == Handle::from_file(file.try_clone()?)?),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
-        Err(error) => Err(error),
-    }
 }

@@ -1,15 +1,20 @@
 //! Temporary files that are renamed to their final names.
 
+use same_file::Handle;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A file with a unique temporary name, removed on drop unless it is placed.
+/// A file under a temporary name beside its target, which it is renamed to when it is complete.
+#[derive(Debug)]
 pub(crate) struct TempFile {
     pub(crate) file: File,
-    part: Option<PathBuf>,
-    target: PathBuf,
+    /// The temporary path.
+    pub(crate) path: PathBuf,
+    pub(crate) target: PathBuf,
+    /// Whether the file is kept if it is dropped before it has its final name.
+    pub(crate) is_kept: bool,
 }
 
 impl TempFile {
@@ -18,35 +23,57 @@ impl TempFile {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         loop {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);
-            let part = sibling(&target, &format!(".{}-{count}.part", std::process::id()));
-            match File::create_new(&part) {
+            let path = sibling(&target, &format!(".{}-{count}.part", std::process::id()));
+            match File::create_new(&path) {
                 // Left behind by a process with the same id.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error_with_path(&part, &error)),
+                Err(error) => return Err(error_with_path(&path, &error)),
                 Ok(file) => {
-                    let part = Some(part);
-                    return Ok(TempFile { file, part, target });
+                    return Ok(TempFile {
+                        file,
+                        path,
+                        target,
+                        is_kept: false,
+                    });
                 }
             }
         }
     }
 
-    /// Renames the complete file to its target.
+    /// Renames the complete file to its target, after it is synced to disk.
     pub(crate) fn place(mut self) -> io::Result<()> {
-        if let Some(part) = &self.part {
-            place(&self.file, part, &self.target)?;
-            self.part = None;
+        if !is_at(&self.file, &self.path)? {
+            let path = self.path.display();
+            let problem = format!("{path} was removed or replaced while it was written");
+            return Err(io::Error::new(io::ErrorKind::NotFound, problem));
         }
+        if let Ok(there) = fs::metadata(&self.target) {
+            // Some file systems have no permissions to set.
+            let _ = self.file.set_permissions(there.permissions());
+        }
+        // Some file systems report a full disk only here.
+        self.file.sync_all()?;
+        fs::rename(&self.path, &self.target)?;
+        self.is_kept = true;
         Ok(())
     }
 }
 
 impl Drop for TempFile {
     fn drop(&mut self) {
-        if let Some(part) = &self.part {
+        if !self.is_kept && is_at(&self.file, &self.path).unwrap_or(false) {
             // A file that stays behind does no harm.
-            let _ = fs::remove_file(part);
+            let _ = fs::remove_file(&self.path);
         }
+    }
+}
+
+/// Returns whether a path still leads to an open file.
+pub(crate) fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    match Handle::from_path(path) {
+        Ok(there) => Ok(there == Handle::from_file(file.try_clone()?)?),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
     }
 }
 
@@ -60,17 +87,6 @@ pub(crate) fn write_buffered(
     // The rest of a failed write is dropped.
     drop(buffer.into_parts());
     filled
-}
-
-/// Renames a complete file to its target, after it is synced to disk.
-pub(crate) fn place(file: &File, part: &Path, target: &Path) -> io::Result<()> {
-    if let Ok(there) = fs::metadata(target) {
-        // Some file systems have no permissions to set.
-        let _ = file.set_permissions(there.permissions());
-    }
-    // Some file systems report a full disk only here.
-    file.sync_all()?;
-    fs::rename(part, target)
 }
 
 /// Returns the path with an ending appended to the file name.

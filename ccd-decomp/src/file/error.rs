@@ -1,19 +1,11 @@
 //! Errors of storing and loading bodies.
 
-use crate::messages::{LFS_ADVICE, Prefix};
+use crate::messages::{FileError, LFS_ADVICE};
 use std::fmt;
 use std::io;
-use std::path::{Path, PathBuf};
 
 /// An error of loading or storing a body.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", Prefix(.file))]
-pub struct StoreError {
-    /// The path of the file; `None` for a reader or writer in memory.
-    pub file: Option<PathBuf>,
-    /// The reason why the body was not loaded or stored.
-    pub fault: StoreFault,
-}
+pub type StoreError = FileError<StoreFault>;
 
 /// The reason why a body cannot be stored or loaded.
 #[derive(Debug, thiserror::Error)]
@@ -65,18 +57,5 @@ impl StoreFault {
         StoreFault::Invalid {
             problem: problem.to_string(),
         }
-    }
-
-    pub(super) fn in_file(self, file: &Path) -> StoreError {
-        StoreError {
-            file: Some(file.into()),
-            fault: self,
-        }
-    }
-}
-
-impl From<StoreFault> for StoreError {
-    fn from(fault: StoreFault) -> Self {
-        StoreError { file: None, fault }
     }
 }

@@ -27,7 +27,7 @@ proptest! {
         let mut listed = Vec::new();
         for (ends, uses) in Edges::new(&triangles).iter() {
             prop_assert!(!uses.is_empty());
-            listed.extend(uses.iter().map(|u| (ends, u.half_edge(), u.is_backward())));
+            listed.extend(uses.iter().map(|u| (ends, u.half_edge, u.is_backward)));
         }
         let mut expected = sorted(&triangles);
         expected.retain(|&([v, w], ..)| v != w);

@@ -1,12 +1,10 @@
 //! Incremental convex hulls in three dimensions, by exact predicates.
 
 mod conflicts;
-mod few;
 mod local_points;
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side_of};
-use crate::tolerance::FEW_POINTS;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -53,11 +51,7 @@ impl ExactHull {
     /// Computes the facets of the hull of all points; `None` if they are coplanar. O(n log n).
     pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
-        Some(if points.len() <= FEW_POINTS {
-            few::facets(points, simplex)
-        } else {
-            conflicts::facets(points, simplex)
-        })
+        Some(conflicts::facets(points, simplex))
     }
 
     /// Returns four points that span a tetrahedron: a triangle, and a point behind its plane. Returns `None` if all

@@ -20,11 +20,14 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adjustments {
-    stated_unit: Option<Unit>,
-    target_unit: Option<Unit>,
+    /// The unit of the numbers in the file.
+    pub(crate) stated_unit: Option<Unit>,
+    /// The unit to convert the coordinates to.
+    pub(crate) target_unit: Option<Unit>,
     /// The factors by which the coordinates are multiplied along each axis, neither 0 nor infinite.
     factors: DVec3,
-    is_hollow: bool,
+    /// Whether a closed mesh is treated as a hollow surface.
+    pub(crate) is_hollow: bool,
 }
 
 /// A coordinate axis.
@@ -120,21 +123,6 @@ impl Adjustments {
         })
     }
 
-    /// Returns the unit of the numbers in the file, if the adjustments set it.
-    pub(crate) fn stated_unit(&self) -> Option<Unit> {
-        self.stated_unit
-    }
-
-    /// Returns the unit to convert the coordinates to, if the adjustments set it.
-    pub(crate) fn target_unit(&self) -> Option<Unit> {
-        self.target_unit
-    }
-
-    /// Returns whether a closed mesh is treated as a hollow surface.
-    pub(crate) fn is_hollow(&self) -> bool {
-        self.is_hollow
-    }
-
     /// Returns the map from the file's coordinates to the adjusted ones; `None` if it is the identity.
     pub(crate) fn map(&self) -> Option<AffineMap> {
         let map = || DAffine3::from_scale(self.factors).into();
@@ -167,51 +155,37 @@ impl Adjustments {
     /// The word is no adjustment.
     pub(crate) fn with_word(self, word: &str) -> Result<Self, UnknownAdjustment> {
         let unknown = || UnknownAdjustment { word: word.into() };
-        let (name, value) = match word.split_once('=') {
-            Some((name, value)) => (name, Some(value)),
-            None => (word, None),
-        };
-        match (name, value) {
-            ("surface", None) => Ok(self.hollow()),
-            ("scale", Some(factor)) => {
-                let factor: f64 = factor.parse().map_err(|_| unknown())?;
-                self.scaled(factor).map_err(|_| unknown())
-            }
-            ("mirror", Some("x")) => Ok(self.mirrored(Axis::X)),
-            ("mirror", Some("y")) => Ok(self.mirrored(Axis::Y)),
-            ("mirror", Some("z")) => Ok(self.mirrored(Axis::Z)),
-            (unit, None) => {
-                let unit = unit.parse().map_err(|_| unknown())?;
-                Ok(self.stated_in(unit))
-            }
-            _ => Err(unknown()),
+        if let Some(factor) = word.strip_prefix("scale=") {
+            let factor: f64 = factor.parse().map_err(|_| unknown())?;
+            return self.scaled(factor).map_err(|_| unknown());
+        }
+        match word {
+            "surface" => Ok(self.hollow()),
+            "mirror=x" => Ok(self.mirrored(Axis::X)),
+            "mirror=y" => Ok(self.mirrored(Axis::Y)),
+            "mirror=z" => Ok(self.mirrored(Axis::Z)),
+            unit => Ok(self.stated_in(unit.parse().map_err(|_| unknown())?)),
         }
     }
 }
 
 /// The error for a word after a file name that describes no adjustment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("@{word}{}", Advice(.word))]
+#[error("@{word}{}", advice(.word))]
 pub struct UnknownAdjustment {
     /// The word that was not recognised.
     pub word: String,
 }
 
-/// Formats why a word describes no adjustment, and which words are accepted.
-struct Advice<'a>(&'a str);
-
-impl fmt::Display for Advice<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.strip_prefix("scale=") {
-            Some(factor) => write!(
-                f,
-                ": {factor} is no factor, which is a positive number; to mirror, use @mirror=x (or y, z)"
-            ),
-            None => f.write_str(
-                " means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), \
-                 @scale=0.001, @mirror=x (or y, z) or @surface",
-            ),
-        }
+/// Returns why a word describes no adjustment, and which words are accepted.
+fn advice(word: &str) -> String {
+    match word.strip_prefix("scale=") {
+        Some(factor) => format!(
+            ": {factor} is no factor, which is a positive number; to mirror, use @mirror=x (or y, z)"
+        ),
+        None => " means nothing after a file; use @mm (the unit of its numbers: um, mm, cm, m, in or ft), \
+                 @scale=0.001, @mirror=x (or y, z) or @surface"
+            .into(),
     }
 }
 

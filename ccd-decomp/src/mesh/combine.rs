@@ -74,12 +74,10 @@ impl TriangleMesh {
         if meshes.is_empty() {
             return Err(MeshFault::NoVertices.into());
         }
-        check_count("vertices", total_count(&meshes, |mesh| mesh.vertices.len()))?;
-        check_count("corners", 3 * total_count(&meshes, |mesh| mesh.faces.len()))?;
-        check_count(
-            "faces",
-            total_count(&meshes, |mesh| mesh.face_count as usize),
-        )?;
+        let total = |count: fn(&Self) -> usize| meshes.iter().map(|mesh| count(mesh)).sum();
+        check_count("vertices", total(|mesh| mesh.vertices.len()))?;
+        check_count("corners", total(|mesh| 3 * mesh.faces.len()))?;
+        check_count("faces", total(|mesh| mesh.face_count as usize))?;
         let (mut vertices, mut faces, mut ids) = (Vec::new(), Vec::new(), Vec::new());
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {
@@ -114,11 +112,6 @@ impl TriangleMesh {
         let Bounds { lo, hi } = Bounds::enclosing(corners.map(|&v| self.vertices[v as usize]));
         [lo, hi]
     }
-}
-
-fn total_count(meshes: &[&TriangleMesh], count: impl Fn(&TriangleMesh) -> usize) -> usize {
-    let counts = meshes.iter().map(|mesh| count(mesh));
-    counts.fold(0, usize::saturating_add)
 }
 
 #[cfg(test)]

@@ -7,9 +7,10 @@ pub(crate) mod groups;
 use super::error::MeshFault;
 use super::polygons::Polygons;
 use super::remark::Remarks;
-use super::unit::{Conversion, Unit};
+use super::unit::Unit;
 use assembly::Assembly;
 use groups::Groups;
+use std::ops::Range;
 
 /// The content of a mesh file as its reader returns it, not yet checked.
 #[derive(Debug)]
@@ -47,63 +48,32 @@ impl Content {
         }
     }
 
-    /// Returns the faces of one part. Vertices and faces are numbered from 0.
-    pub(crate) fn part(&self, part: usize, conversion: Conversion) -> Result<Polygons, MeshFault> {
-        let faces = match &self.layout {
-            Layout::List(polygons, groups) => {
-                convert_polygons(groups.part(polygons, part)?, conversion)
-            }
-            Layout::Assembly(assembly) => assembly.expand(part..part + 1, conversion)?,
-        };
-        Ok(self.with_remarks(faces))
-    }
-
-    /// Returns the faces of each part separately, like [`Content::part`].
-    pub(crate) fn all_parts(&self, conversion: Conversion) -> Result<Vec<Polygons>, MeshFault> {
-        let parts: Vec<Polygons> = match &self.layout {
-            Layout::List(polygons, groups) => {
-                let parts = groups.all(polygons)?.into_iter();
-                parts
-                    .map(|part| convert_polygons(part, conversion))
-                    .collect()
-            }
+    /// Returns the faces of some parts, each separately. Vertices and faces of a part are numbered from 0.
+    pub(crate) fn separate_parts(&self, parts: Range<usize>) -> Result<Vec<Polygons>, MeshFault> {
+        let mut separate: Vec<Polygons> = match &self.layout {
+            Layout::List(polygons, groups) => groups.copies(polygons, parts)?,
             Layout::Assembly(assembly) => {
-                let parts = 0..assembly.parts.len();
                 assembly.check_size(parts.clone())?;
-                let alone = parts.map(|part| assembly.expand(part..part + 1, conversion));
+                let alone = parts.map(|part| assembly.expand(part..part + 1));
                 alone.collect::<Result<_, _>>()?
             }
         };
-        Ok(parts
-            .into_iter()
-            .map(|part| self.with_remarks(part))
-            .collect())
+        for part in &mut separate {
+            part.remarks = self.remarks.clone();
+        }
+        Ok(separate)
     }
 
     /// Returns all faces as one list. Those of a list keep the file's numbers; those of an assembly are numbered part
     /// by part.
-    pub(crate) fn all_faces(self, conversion: Conversion) -> Result<Polygons, MeshFault> {
-        let mut faces = match self.layout {
-            Layout::List(polygons, _) => convert_polygons(polygons, conversion),
-            Layout::Assembly(assembly) => assembly.expand(0..assembly.parts.len(), conversion)?,
+    pub(crate) fn all_faces(self) -> Result<Polygons, MeshFault> {
+        let faces = match self.layout {
+            Layout::List(polygons, _) => polygons,
+            Layout::Assembly(assembly) => assembly.expand(0..assembly.parts.len())?,
         };
-        faces.remarks = self.remarks;
-        Ok(faces)
+        let remarks = self.remarks;
+        Ok(Polygons { remarks, ..faces })
     }
-
-    fn with_remarks(&self, faces: Polygons) -> Polygons {
-        let remarks = self.remarks.clone();
-        Polygons { remarks, ..faces }
-    }
-}
-
-fn convert_polygons(mut polygons: Polygons, conversion: Conversion) -> Polygons {
-    if conversion != Conversion::NONE {
-        for vertex in &mut polygons.vertices {
-            *vertex = conversion.apply(*vertex);
-        }
-    }
-    polygons
 }
 
 /// Wraps a list of faces without groups as the content of a file.

@@ -1,20 +1,12 @@
 //! What can be wrong with a mesh file: its content, its size, or a format that is not read.
 
-use crate::messages::{LFS_ADVICE, Prefix};
+use crate::messages::{FileError, LFS_ADVICE};
 use ccd_core::limits::MAX_COORDINATE;
 use std::fmt;
 use std::io;
-use std::path::PathBuf;
 
-/// The error of reading a mesh: the file, and its fault.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", Prefix(.file))]
-pub struct MeshError {
-    /// The path of the file; `None` for a mesh from a reader or from memory.
-    pub file: Option<PathBuf>,
-    /// The fault, which names the line and the element.
-    pub fault: MeshFault,
-}
+/// The error of reading a mesh: the file, and its fault, which names the line and the element.
+pub type MeshError = FileError<MeshFault>;
 
 /// The fault of a mesh. Lines are numbered from 1; faces and vertices from 0, both in the file's order.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +19,7 @@ pub enum MeshFault {
     #[error("is a folder; name a mesh in it, such as a .glb, .3mf, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension names no known format.
-    #[error("{}", Extension(.extension))]
+    #[error("{}", extension_advice(.extension))]
     UnknownExtension {
         /// The file extension after the last dot; empty without a dot.
         extension: String,
@@ -68,7 +60,7 @@ pub enum MeshFault {
         fault: Box<MeshFault>,
     },
     /// The file has no part of that name or number.
-    #[error("has no part {part:?}; {}", Parts(.parts))]
+    #[error("has no part {part:?}; {}", list_of_parts(.parts))]
     NoSuchPart {
         /// The name or number that was requested.
         part: String,
@@ -76,7 +68,7 @@ pub enum MeshFault {
         parts: Vec<Option<String>>,
     },
     /// Several parts of the file have the requested name.
-    #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), Numbers(.numbers))]
+    #[error("has {} parts {part:?}; give the number of one: {}", .numbers.len(), list_of_numbers(.numbers))]
     AmbiguousPart {
         /// The name that was requested.
         part: String,
@@ -109,7 +101,7 @@ pub enum MeshFault {
     #[error("has no faces; export it as triangles or polygons, not as points or lines")]
     NoFaces,
     /// The content does not follow the format.
-    #[error("{}{problem}; mend it or export the mesh again", Line(*.line))]
+    #[error("{}{problem}; mend it or export the mesh again", line_prefix(*.line))]
     Syntax {
         /// The line number, if the format is text.
         line: Option<usize>,
@@ -123,7 +115,7 @@ pub enum MeshFault {
         missing: String,
     },
     /// A coordinate is NaN or infinite.
-    #[error("{}vertex {vertex} is NaN or infinite; give it finite coordinates", Line(*.line))]
+    #[error("{}vertex {vertex} is NaN or infinite; give it finite coordinates", line_prefix(*.line))]
     NotFinite {
         /// The number of the vertex.
         vertex: usize,
@@ -131,7 +123,7 @@ pub enum MeshFault {
         line: Option<usize>,
     },
     /// A coordinate exceeds the supported range.
-    #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", Line(*.line))]
+    #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", line_prefix(*.line))]
     TooLarge {
         /// The number of the vertex.
         vertex: usize,
@@ -139,7 +131,7 @@ pub enum MeshFault {
         line: Option<usize>,
     },
     /// A face has a vertex number that does not exist.
-    #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {base}", Line(*.line))]
+    #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {base}", line_prefix(*.line))]
     NoSuchVertex {
         /// The number of the face.
         face: usize,
@@ -153,7 +145,7 @@ pub enum MeshFault {
         base: u8,
     },
     /// A face has fewer than three corners.
-    #[error("{}face {face} has {corners} corners; remove it or give it three", Line(*.line))]
+    #[error("{}face {face} has {corners} corners; remove it or give it three", line_prefix(*.line))]
     TooFewCorners {
         /// The number of the face.
         face: usize,
@@ -182,6 +174,23 @@ impl MeshFault {
         MeshFault::Syntax { line, problem }
     }
 
+    /// Creates the error of content that does not follow a format without lines.
+    pub(crate) fn malformed(problem: impl Into<String>) -> Self {
+        MeshFault::syntax(None, problem.into())
+    }
+
+    /// Creates the error of content that is not supported, and of what to export instead.
+    pub(crate) fn unsupported(what: impl Into<String>, instead: &'static str) -> Self {
+        let what = what.into();
+        MeshFault::Unsupported { what, instead }
+    }
+
+    /// Creates the error of a file that ends before an element is complete.
+    pub(crate) fn truncated(missing: impl Into<String>) -> Self {
+        let missing = missing.into();
+        MeshFault::Truncated { missing }
+    }
+
     /// Wraps the fault with the name of the element that has it.
     pub(crate) fn at(self, place: impl Into<String>) -> Self {
         MeshFault::At {
@@ -189,37 +198,19 @@ impl MeshFault {
             fault: Box::new(self),
         }
     }
-
-    pub(crate) fn in_file(self, file: impl Into<PathBuf>) -> MeshError {
-        MeshError {
-            file: Some(file.into()),
-            fault: self,
-        }
-    }
 }
 
 /// The maximum length of a syntax message, in characters.
 const QUOTED: usize = 200;
 
-impl From<MeshFault> for MeshError {
-    fn from(fault: MeshFault) -> Self {
-        MeshError { file: None, fault }
-    }
-}
-
-struct Extension<'a>(&'a str);
-
-impl fmt::Display for Extension<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            "" => write!(f, "has no extension, which tells the format of a mesh; ")?,
-            other => write!(f, "{other:?} is not the extension of a mesh; ")?,
-        }
-        match conversion_advice(self.0) {
-            Some(advice) => f.write_str(&advice),
-            None => write!(f, "use .gltf, .glb, .3mf, .obj, .stl, .ply or .off"),
-        }
-    }
+fn extension_advice(extension: &str) -> String {
+    let problem = match extension {
+        "" => "has no extension, which tells the format of a mesh".into(),
+        other => format!("{other:?} is not the extension of a mesh"),
+    };
+    let advice = conversion_advice(extension);
+    let advice = advice.unwrap_or("use .gltf, .glb, .3mf, .obj, .stl, .ply or .off".into());
+    format!("{problem}; {advice}")
 }
 
 /// Returns advice on converting CAD surfaces to a mesh.
@@ -257,42 +248,28 @@ fn conversion_advice(extension: &str) -> Option<String> {
 /// The maximum number of part names in a message.
 const NAMED_PARTS: usize = 20;
 
-struct Parts<'a>(&'a [Option<String>]);
-
-impl fmt::Display for Parts<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            [] => return write!(f, "it has none"),
-            [None] => return write!(f, "it has one, without a name: 0"),
-            _ => write!(f, "its parts are ")?,
+fn list_of_parts(parts: &[Option<String>]) -> String {
+    let label = |(number, name): (usize, &Option<String>)| match name {
+        Some(name) => format!("{number} {:?}", Quote(name)),
+        None => number.to_string(),
+    };
+    let named = parts.iter().enumerate().take(NAMED_PARTS).map(label);
+    let named = named.collect::<Vec<_>>().join(", ");
+    match parts.len() {
+        0 => "it has none".into(),
+        1 if parts == [None] => "it has one, without a name: 0".into(),
+        all if all > NAMED_PARTS => {
+            let more = all - NAMED_PARTS;
+            format!("its parts are {named} and {more} more")
         }
-        for (number, name) in self.0.iter().enumerate().take(NAMED_PARTS) {
-            let separator = if number == 0 { "" } else { ", " };
-            match name {
-                Some(name) => write!(f, "{separator}{number} {:?}", Quote(name))?,
-                None => write!(f, "{separator}{number}")?,
-            }
-        }
-        match self.0.len() {
-            all if all > NAMED_PARTS => write!(f, " and {} more", all - NAMED_PARTS),
-            _ => Ok(()),
-        }
+        _ => format!("its parts are {named}"),
     }
 }
 
-struct Numbers<'a>(&'a [usize]);
-
-impl fmt::Display for Numbers<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, number) in self.0.iter().enumerate().take(NAMED_PARTS) {
-            write!(f, "{}{number}", if k == 0 { "" } else { ", " })?;
-        }
-        if self.0.len() > NAMED_PARTS {
-            write!(f, ", …")
-        } else {
-            Ok(())
-        }
-    }
+fn list_of_numbers(numbers: &[usize]) -> String {
+    let named = numbers.iter().take(NAMED_PARTS).map(usize::to_string);
+    let more = (numbers.len() > NAMED_PARTS).then(|| "…".into());
+    named.chain(more).collect::<Vec<_>>().join(", ")
 }
 
 /// A name from a file, quoted and truncated for messages.
@@ -318,13 +295,6 @@ pub(crate) fn element_name(kind: &str, number: impl fmt::Display, name: Option<&
 /// The maximum length of a name in a message, in characters.
 const QUOTED_NAME: usize = 80;
 
-struct Line(Option<usize>);
-
-impl fmt::Display for Line {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(line) => write!(f, "line {line}: "),
-            None => Ok(()),
-        }
-    }
+fn line_prefix(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!("line {line}: "))
 }

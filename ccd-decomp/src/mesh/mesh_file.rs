@@ -4,6 +4,7 @@ use super::TriangleMesh;
 use super::content::Content;
 use super::error::{MeshError, MeshFault, element_name};
 use super::format::{Format, LinkedFiles, Reference};
+use super::polygons::Polygons;
 use super::unit::{Conversion, Unit};
 use std::fs::{self, File};
 use std::io::Read;
@@ -65,7 +66,7 @@ impl MeshFile {
         };
         match read() {
             Ok(content) => Ok(MeshFile::new(content, Some(path.into()))),
-            Err(fault) => Err(fault.in_file(path)),
+            Err(fault) => Err(MeshError::new(path, fault)),
         }
     }
 
@@ -155,12 +156,11 @@ impl MeshFile {
     pub fn part(&self, name_or_number: &str) -> Result<TriangleMesh, MeshError> {
         let made = || {
             let part = self.find_part(name_or_number)?;
-            let polygons = self.content.part(part, self.conversion);
-            polygons
-                .and_then(TriangleMesh::from_polygons)
-                .map_err(|fault| fault.at(self.part_label(part)))
+            let separate = self.content.separate_parts(part..part + 1);
+            let mesh = separate.and_then(|mut one| mesh(one.swap_remove(0), self.conversion));
+            mesh.map_err(|fault| fault.at(self.part_label(part)))
         };
-        made().map_err(|fault| self.error(fault))
+        made().map_err(|fault| error(fault, &self.path))
     }
 
     /// Returns the meshes of all parts, each with its name.
@@ -168,11 +168,11 @@ impl MeshFile {
     /// # Errors
     /// [`MeshFault::At`] with the number and name of a part, and its fault.
     pub fn into_parts(self) -> Result<Vec<NamedMesh>, MeshError> {
-        let parts = self.content.all_parts(self.conversion);
-        let parts = parts.map_err(|fault| self.error(fault))?.into_iter();
+        let parts = self.content.separate_parts(0..self.content.parts());
+        let parts = parts.map_err(|fault| error(fault, &self.path))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
-            let mesh = TriangleMesh::from_polygons(polygons)
-                .map_err(|fault| self.error(fault.at(self.part_label(part))))?;
+            let mesh = mesh(polygons, self.conversion)
+                .map_err(|fault| error(fault.at(self.part_label(part)), &self.path))?;
             let name = self.content.name(part).map(str::to_owned);
             Ok(NamedMesh { name, mesh })
         });
@@ -192,23 +192,20 @@ impl MeshFile {
             path,
             ..
         } = self;
-        let whole = content.all_faces(conversion);
-        whole
-            .and_then(TriangleMesh::from_polygons)
-            .map_err(|fault| error(fault, path.as_deref()))
+        let whole = content.all_faces();
+        let mesh = whole.and_then(|polygons| mesh(polygons, conversion));
+        mesh.map_err(|fault| error(fault, &path))
     }
 
     fn find_part(&self, name_or_number: &str) -> Result<usize, MeshFault> {
-        let has_name = |name: Option<&str>| name == Some(name_or_number);
-        let names = self.part_names().enumerate();
-        let named: Vec<usize> = names
-            .filter_map(|(part, name)| has_name(name).then_some(part))
-            .collect();
-        let number = || name_or_number.parse::<usize>().ok();
+        let parts = 0..self.content.parts();
+        let has_name = |&part: &usize| self.content.name(part) == Some(name_or_number);
+        let named: Vec<usize> = parts.clone().filter(has_name).collect();
+        let number = || name_or_number.parse().ok();
         match named[..] {
             [part] => Ok(part),
             [] => number()
-                .filter(|&number| number < self.content.parts())
+                .filter(|number| parts.contains(number))
                 .ok_or_else(|| MeshFault::NoSuchPart {
                     part: name_or_number.into(),
                     parts: self.part_names().map(|name| name.map(Into::into)).collect(),
@@ -223,10 +220,6 @@ impl MeshFile {
     /// Returns the name of a part for messages.
     fn part_label(&self, part: usize) -> String {
         element_name("part", part, self.content.name(part))
-    }
-
-    fn error(&self, fault: MeshFault) -> MeshError {
-        error(fault, self.path.as_deref())
     }
 }
 
@@ -244,14 +237,24 @@ pub(crate) fn files_of(path: &Path) -> Result<Vec<PathBuf>, MeshError> {
         }
         Ok(files)
     };
-    found().map_err(|fault: MeshFault| fault.in_file(path))
+    found().map_err(|fault| MeshError::new(path, fault))
 }
 
-fn error(fault: MeshFault, path: Option<&Path>) -> MeshError {
-    match path {
-        Some(path) => fault.in_file(path),
-        None => fault.into(),
+fn error(fault: MeshFault, path: &Option<PathBuf>) -> MeshError {
+    MeshError {
+        file: path.clone(),
+        fault,
     }
+}
+
+/// Creates the mesh of polygons, with their coordinates converted.
+fn mesh(mut polygons: Polygons, conversion: Conversion) -> Result<TriangleMesh, MeshFault> {
+    if conversion != Conversion::NONE {
+        for vertex in &mut polygons.vertices {
+            *vertex = conversion.apply(*vertex);
+        }
+    }
+    TriangleMesh::from_polygons(polygons)
 }
 
 fn open(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {

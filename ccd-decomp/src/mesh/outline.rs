@@ -3,27 +3,10 @@
 use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
 use spade::handles::FixedVertexHandle;
-use spade::{
-    ConstrainedDelaunayTriangulation, HasPosition, HierarchyHintGenerator, Point2, Triangulation,
-};
+use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
 use std::panic::catch_unwind;
 
-type Plane = ConstrainedDelaunayTriangulation<Corner, (), (), (), HierarchyHintGenerator<f64>>;
-
-/// A corner of the polygon, projected to a coordinate plane.
-#[derive(Clone, Copy)]
-struct Corner {
-    number: usize,
-    place: Point2<f64>,
-}
-
-impl HasPosition for Corner {
-    type Scalar = f64;
-
-    fn position(&self) -> Point2<f64> {
-        self.place
-    }
-}
+type Plane = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
 /// Triangulates a polygon of `n` corners into `n − 2` triangles, oriented like the polygon. Triangles are given by
 /// corner numbers.
@@ -41,8 +24,9 @@ impl HasPosition for Corner {
 pub(super) fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let places = project(points)?;
     // A fault of the library may panic; the fan is used then.
-    let (plane, at) = catch_unwind(|| triangulate_constrained(&places)).ok()??;
-    let mut triangles = triangles_inside(&plane, &at)?;
+    let order = insertion_order(&places)?;
+    let (plane, at) = catch_unwind(|| triangulate_constrained(&places, &order)).ok()??;
+    let mut triangles = triangles_inside(&plane, &at, &order)?;
     triangles.sort_unstable();
     (triangles.len() == points.len() - 2).then_some(triangles)
 }
@@ -66,19 +50,20 @@ fn project(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
 
 /// Triangulates the points with the outline as constraint edges. Returns the triangulation's vertex for each point;
 /// `None` if it fails.
-fn triangulate_constrained(places: &[Point2<f64>]) -> Option<(Plane, Vec<FixedVertexHandle>)> {
+fn triangulate_constrained(
+    places: &[Point2<f64>],
+    order: &[usize],
+) -> Option<(Plane, Vec<FixedVertexHandle>)> {
     let count = places.len();
-    let order = insertion_order(places)?;
     let mut plane = Plane::new();
     let mut at = vec![FixedVertexHandle::from_index(0); count];
     for (done, &number) in order.iter().enumerate() {
-        let place = places[number];
-        at[number] = plane.insert(Corner { number, place }).ok()?;
+        at[number] = plane.insert(places[number]).ok()?;
         if plane.num_vertices() == done {
             return None;
         }
     }
-    for number in order {
+    for &number in order {
         let [from, to] = [at[number], at[(number + 1) % count]];
         // An edge through a corner would be several.
         if plane.try_add_constraint(from, to).len() != 1 {
@@ -115,7 +100,11 @@ fn hash(number: u64) -> u64 {
 }
 
 /// Collects the triangles of a triangulation that are inside the outline.
-fn triangles_inside(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usize; 3]>> {
+fn triangles_inside(
+    plane: &Plane,
+    at: &[FixedVertexHandle],
+    order: &[usize],
+) -> Option<Vec<[usize; 3]>> {
     let mut seen = vec![false; plane.num_all_faces()];
     let (mut stack, count) = (Vec::new(), at.len());
     for k in 0..count {
@@ -129,7 +118,7 @@ fn triangles_inside(plane: &Plane, at: &[FixedVertexHandle]) -> Option<Vec<[usiz
             continue;
         }
         let face = plane.face(face);
-        let mut corners = face.vertices().map(|v| v.data().number);
+        let mut corners = face.vertices().map(|v| order[v.index()]);
         let least = (0..3).min_by_key(|&k| corners[k])?;
         corners.rotate_left(least);
         triangles.push(corners);

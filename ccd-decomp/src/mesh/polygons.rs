@@ -62,6 +62,12 @@ impl Polygons {
         Ok(())
     }
 
+    /// Adds a face with the given vertex numbers of its corners.
+    pub(crate) fn push_face(&mut self, corners: impl IntoIterator<Item = i64>) {
+        self.corners.extend(corners);
+        self.ends.push(self.corners.len());
+    }
+
     pub(super) fn faces(&self) -> impl Iterator<Item = &[i64]> {
         (0..self.ends.len()).map(|face| self.face_corners(face))
     }

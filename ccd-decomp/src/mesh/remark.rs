@@ -33,10 +33,11 @@ impl Remarks {
         self.0.is_empty()
     }
 
-    /// Adds `count` elements to the remark about `what`, or makes a new remark.
+    /// Adds `count` elements to the remark about `what`, or makes a new remark unless there are none.
     pub(crate) fn add(&mut self, what: &str, count: usize, line: Option<usize>) {
         let full = self.0.len() >= KINDS;
         match self.0.iter_mut().find(|remark| remark.what == what) {
+            _ if count == 0 => {}
             Some(remark) => remark.count += count,
             None if full && what != OTHERS => self.add(OTHERS, count, line),
             None => self.0.push(Remark {
@@ -77,9 +78,7 @@ impl fmt::Display for Remark {
 
 impl fmt::Display for Remarks {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, remark) in self.iter().enumerate() {
-            write!(f, "{}{remark}", if k == 0 { "" } else { "; " })?;
-        }
-        Ok(())
+        let all: Vec<String> = self.iter().map(Remark::to_string).collect();
+        f.write_str(&all.join("; "))
     }
 }

@@ -94,15 +94,14 @@ impl fmt::Display for Repairs {
             (&self.zero_area, "faces without area kept"),
             (&self.unreferenced, "vertices unused"),
         ];
-        let mut separator = "";
-        for (tally, what) in notes.iter().filter(|(tally, _)| !tally.is_empty()) {
-            write!(f, "{separator}{what}: {tally}")?;
-            separator = "; ";
-        }
-        match (separator, self.remarks.is_empty()) {
-            ("", true) => write!(f, "no repairs"),
-            (_, true) => Ok(()),
-            _ => write!(f, "{separator}{}", self.remarks),
+        let notes = notes.iter().filter(|(tally, _)| !tally.is_empty());
+        let mut notes: Vec<String> = notes
+            .map(|(tally, what)| format!("{what}: {tally}"))
+            .collect();
+        notes.extend((!self.remarks.is_empty()).then(|| self.remarks.to_string()));
+        match &notes[..] {
+            [] => write!(f, "no repairs"),
+            notes => f.write_str(&notes.join("; ")),
         }
     }
 }

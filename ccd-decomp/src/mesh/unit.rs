@@ -48,25 +48,24 @@ impl Unit {
 
     /// Returns the symbol of the unit in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
     pub fn symbol(self) -> &'static str {
-        match self {
-            Unit::Micrometre => "um",
-            Unit::Millimetre => "mm",
-            Unit::Centimetre => "cm",
-            Unit::Metre => "m",
-            Unit::Inch => "in",
-            Unit::Foot => "ft",
-        }
+        self.facts().0
     }
 
-    /// Returns the length of the unit in micrometres, a whole number for all units.
-    fn micrometres(self) -> u32 {
+    /// Returns the name of the unit in a 3MF.
+    #[cfg(feature = "3mf")]
+    pub(crate) fn name_in_3mf(self) -> &'static str {
+        self.facts().1
+    }
+
+    /// Returns the symbol of the unit, its name in a 3MF, and its length in micrometres, a whole number for all units.
+    fn facts(self) -> (&'static str, &'static str, u32) {
         match self {
-            Unit::Micrometre => 1,
-            Unit::Millimetre => 1_000,
-            Unit::Centimetre => 10_000,
-            Unit::Metre => 1_000_000,
-            Unit::Inch => 25_400,
-            Unit::Foot => 304_800,
+            Unit::Micrometre => ("um", "micron", 1),
+            Unit::Millimetre => ("mm", "millimeter", 1_000),
+            Unit::Centimetre => ("cm", "centimeter", 10_000),
+            Unit::Metre => ("m", "meter", 1_000_000),
+            Unit::Inch => ("in", "inch", 25_400),
+            Unit::Foot => ("ft", "foot", 304_800),
         }
     }
 }
@@ -104,7 +103,7 @@ impl Conversion {
     };
 
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
-        let (from, to) = (from.micrometres(), to.micrometres());
+        let [from, to] = [from, to].map(|unit| unit.facts().2);
         let common = greatest_common_divisor(from, to);
         Conversion {
             numerator: f64::from(from / common),

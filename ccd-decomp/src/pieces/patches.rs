@@ -17,7 +17,8 @@ use crate::solid::manifold::{Dihedral, Manifold};
 use crate::tolerance::PATCH_POLYGONS;
 use crate::work::Work;
 use growing_patch::{GrowingPatch, Join};
-use order::{Frontier, seed_order};
+use order::seed_order;
+use std::collections::VecDeque;
 
 /// A decomposition of a solid's surface into convex patches.
 #[derive(Clone, Debug)]
@@ -104,19 +105,22 @@ impl PatchGrower<'_, '_> {
     fn grow_patch(&mut self, seed: u32, patch: u32) -> GrowingPatch {
         let mut region = GrowingPatch::new(self.flats, seed);
         self.in_patch[seed as usize] = true;
-        let mut frontier = Frontier::new(self.order);
+        let mut frontier = VecDeque::new();
         self.push_neighbours(&mut frontier, seed);
         // A flat patch takes no coplanar polygon, because the union need not be convex. These are tried again once the
         // patch has volume.
         let mut in_plane = Vec::new();
         // Polygons are pushed when another one joins, and each joins once.
-        while let Some(next) = frontier.pop() {
+        while let Some(next) = self.order.pop(&mut frontier) {
             let tried = &mut self.last_tried_by[next as usize];
-            if self.in_patch[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
+            if self.in_patch[next as usize]
+                || *tried == patch
+                || region.flats.len() >= PATCH_POLYGONS
+            {
                 continue;
             }
             *tried = patch;
-            self.work.spend(region.hull().facets().len());
+            self.work.spend(region.hull.facets().len());
             match region.join(self.manifold, self.flats, next, self.work) {
                 Join::Refused => {}
                 Join::InPlane => in_plane.push(next),
@@ -125,7 +129,7 @@ impl PatchGrower<'_, '_> {
                     self.push_neighbours(&mut frontier, next);
                     for waiting in in_plane.drain(..) {
                         self.last_tried_by[waiting as usize] = u32::MAX;
-                        frontier.push(waiting);
+                        frontier.push_back(waiting);
                     }
                 }
             }
@@ -134,10 +138,10 @@ impl PatchGrower<'_, '_> {
     }
 
     /// Adds the neighbours of a polygon to the frontier, except beyond reflex edges.
-    fn push_neighbours(&self, frontier: &mut Frontier, flat: u32) {
+    fn push_neighbours(&self, frontier: &mut VecDeque<u32>, flat: u32) {
         for &edge in &self.flats.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {
-                frontier.push(self.flats.of_face(self.manifold.twin(edge) / 3));
+                frontier.push_back(self.flats.of_face(self.manifold.twin(edge) / 3));
             }
         }
     }

@@ -9,13 +9,12 @@
 
 mod cover;
 mod excess;
-mod extremes;
 mod labels;
 mod merge;
 mod target;
 mod voxels;
 
-use crate::hull::{HullError, hull};
+use crate::hull::HullError;
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::solid::manifold::Manifold;
@@ -23,7 +22,6 @@ use crate::solid::star_shaped::is_star_shaped;
 use crate::solid::topology::Topology;
 use crate::tolerance;
 use ccd_core::{Facet, Hull, Origin, Polytope};
-use rayon::prelude::*;
 use target::Target;
 use voxels::Voxels;
 
@@ -102,21 +100,14 @@ pub(crate) fn approximate(
     let voxels = Voxels::new(&target, hulls).filter(|_| hulls > 1 && !is_convex);
     let parts = match voxels {
         Some(voxels) => {
-            let (contents, labels) = rayon::join(
-                || cover::classify_voxels(&target, &voxels),
-                || labels::label_voxels(&target, &voxels, hulls),
-            );
-            let labels = labels.ok_or(VhacdError::Library)?;
-            cover::points_by_part(&target, &voxels, &contents, labels)
+            let labels = labels::label_voxels(&target, &voxels, hulls);
+            cover::points_by_part(&target, &voxels, &labels.ok_or(VhacdError::Library)?)
         }
-        None => vec![cover::remove_duplicates(target.corners().collect())],
+        None => vec![target.triangles().flatten().collect()],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
-    let parts: Vec<Hull> = merge::merge_to_count(parts.collect(), hulls as usize)
-        .par_iter()
-        .map(|points| hull(points))
-        .collect::<Result<_, HullError>>()
-        .map_err(VhacdError::Hull)?;
+    let parts = merge::merge_to_count(&parts.collect::<Vec<_>>(), hulls as usize);
+    let parts = parts.map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(target.farthest_coordinate());
     let excess = if is_convex {
         0.0

@@ -2,7 +2,6 @@
 
 use super::parts::Parts;
 use super::report::{Estimate, Why};
-use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose_flats};
@@ -11,30 +10,14 @@ use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegion, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
-use crate::tolerance::{AUTO_WORK, PATCH_COST, PieceCost, RESTING_QUERY_SHARE, TRIANGLE_COST};
+use crate::tolerance::{PATCH_COST, PieceCost, RESTING_QUERY_SHARE, TRIANGLE_COST};
 use crate::work::Work;
 
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
 ///
-/// Intersection tests and decomposition are slow: they run only if the result would be used, within a
-/// [budget](AUTO_WORK).
-///
-/// The edges are those between the mesh's welded vertices, if they are known.
-pub(super) fn choose(
-    mesh: &TriangleMesh,
-    topology: &Topology,
-    edges: Option<Edges>,
-) -> (Parts, Why) {
-    choose_within_budget(mesh, topology, edges, &Work::with_steps(AUTO_WORK))
-}
-
-fn choose_within_budget(
-    mesh: &TriangleMesh,
-    topology: &Topology,
-    edges: Option<Edges>,
-    work: &Work,
-) -> (Parts, Why) {
-    let manifold = match Manifold::from_edges(mesh, topology, edges) {
+/// Intersection tests and decomposition are slow: they run only if the result would be used, within a budget.
+pub(super) fn choose(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (Parts, Why) {
+    let manifold = match Manifold::without_intersection_check(mesh, topology) {
         Ok(manifold) => manifold,
         Err(error) => return only_triangles(error),
     };

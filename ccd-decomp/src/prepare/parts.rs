@@ -29,10 +29,7 @@ pub(super) struct Choice {
 }
 
 /// The pieces of a body, and a hierarchy over them.
-pub(super) struct PieceTree {
-    pieces: Pieces,
-    hierarchy: Hierarchy,
-}
+type PieceTree = (Pieces, Hierarchy);
 
 impl Choice {
     /// Creates the model from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
@@ -43,79 +40,59 @@ impl Choice {
         triangles: Option<PieceTree>,
     ) -> Result<Model, PrepareError> {
         let volume = self.volume;
-        let mut report = Report::new(self.parts.kind(), self.why, volume);
+        let mut report = Report::new(PiecesKind::Triangles, self.why, volume);
         let triangles = || match (triangles, &self.turned) {
             (Some(triangles), None) => Ok(triangles),
-            (Some(triangles), Some(turned)) => triangles.with_corners_of(turned),
-            (None, turned) => PieceTree::of_triangles(turned.as_ref().unwrap_or(mesh)),
+            (_, turned) => triangle_tree(turned.as_ref().unwrap_or(mesh)),
         };
-        let (tree, surface) = match self.parts {
+        let ((pieces, hierarchy), surface) = match self.parts {
             Parts::Triangles => (triangles()?, None),
             Parts::Patches(Decomposition { patches }) => {
+                report.kind = PiecesKind::Patches;
                 report.virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
-                (PieceTree::of_polytopes(&polytopes)?, None)
+                (polytope_tree(&polytopes)?, None)
             }
-            Parts::Hull(polytope) => (PieceTree::of_polytopes(&[*polytope])?, Some(triangles()?)),
+            Parts::Hull(polytope) => {
+                report.kind = PiecesKind::Hull;
+                (polytope_tree(&[*polytope])?, Some(triangles()?))
+            }
             Parts::Vhacd(approximation) => {
+                report.kind = PiecesKind::Vhacd;
                 report.inflated_by = approximation.uncovered;
                 report.sticks_out = approximation.sticks_out;
                 let polytopes = &approximation.polytopes;
                 report.virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
-                (PieceTree::of_polytopes(polytopes)?, None)
+                (polytope_tree(polytopes)?, None)
             }
         };
         report.triangles = mesh.faces().len();
-        report.pieces = tree.pieces.len();
-        report.tree_nodes = tree.hierarchy.nodes().len();
+        report.pieces = pieces.len();
+        report.tree_nodes = hierarchy.nodes().len();
         report.topology = Some(self.topology);
         report.repairs = mesh.repairs().clone();
         Ok(Model {
-            pieces: tree.pieces,
-            hierarchy: tree.hierarchy,
+            pieces,
+            hierarchy,
             volume,
             hull_tree: None,
-            surface: surface.map(|tree| (tree.pieces, tree.hierarchy)),
+            surface,
             report,
         })
     }
 }
 
-impl PieceTree {
-    /// Creates one piece for each triangle of a mesh.
-    pub(super) fn of_triangles(mesh: &TriangleMesh) -> Result<Self, PrepareError> {
-        PieceTree::over_pieces(triangles(mesh)?)
-    }
-
-    fn of_polytopes(polytopes: &[Polytope]) -> Result<Self, PrepareError> {
-        PieceTree::over_pieces(Pieces::polytopes(polytopes)?)
-    }
-
-    fn over_pieces(pieces: Pieces) -> Result<Self, PrepareError> {
-        let hierarchy = build_hierarchy(&pieces)?;
-        Ok(PieceTree { pieces, hierarchy })
-    }
-
-    /// Replaces the triangles by those of a reoriented mesh, which differs only in the order of corners. The
-    /// hierarchy stays valid.
-    fn with_corners_of(self, turned: &TriangleMesh) -> Result<Self, PrepareError> {
-        let pieces = triangles(turned)?;
-        Ok(PieceTree { pieces, ..self })
-    }
+/// Creates one piece for each triangle of a mesh, and their hierarchy.
+pub(super) fn triangle_tree(mesh: &TriangleMesh) -> Result<PieceTree, PrepareError> {
+    let faces = mesh.welded_faces();
+    tree_over(Pieces::triangles(mesh.vertices(), &faces, mesh.face_ids())?)
 }
 
-impl Parts {
-    fn kind(&self) -> PiecesKind {
-        match self {
-            Parts::Triangles => PiecesKind::Triangles,
-            Parts::Patches(_) => PiecesKind::Patches,
-            Parts::Hull(_) => PiecesKind::Hull,
-            Parts::Vhacd(_) => PiecesKind::Vhacd,
-        }
-    }
+fn polytope_tree(polytopes: &[Polytope]) -> Result<PieceTree, PrepareError> {
+    tree_over(Pieces::polytopes(polytopes)?)
 }
 
-fn triangles(mesh: &TriangleMesh) -> Result<Pieces, PrepareError> {
-    let pieces = Pieces::triangles(mesh.vertices(), &mesh.welded_faces(), mesh.face_ids());
-    Ok(pieces?)
+fn tree_over(pieces: Pieces) -> Result<PieceTree, PrepareError> {
+    let hierarchy = build_hierarchy(&pieces)?;
+    Ok((pieces, hierarchy))
 }

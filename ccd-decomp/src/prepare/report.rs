@@ -117,24 +117,15 @@ impl Report {
         };
         let topology = self.topology.as_ref().filter(|t| !plain(t));
         let repairs = Some(&self.repairs).filter(|r| !r.is_empty());
-        match (topology, repairs) {
-            (Some(topology), Some(repairs)) => format!("{topology}; {repairs}"),
-            (Some(topology), None) => topology.to_string(),
-            (None, Some(repairs)) => repairs.to_string(),
-            (None, None) => String::new(),
-        }
+        let remarks = topology.map(Topology::to_string).into_iter();
+        let remarks = remarks.chain(repairs.map(Repairs::to_string));
+        remarks.collect::<Vec<_>>().join("; ")
     }
 }
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (one, many) = match self.kind {
-            PiecesKind::Primitive => ("primitive", "primitives"),
-            PiecesKind::Triangles => ("triangle", "triangles"),
-            PiecesKind::Patches => ("convex patch", "convex patches"),
-            PiecesKind::Hull => ("convex hull", "convex hulls"),
-            PiecesKind::Vhacd => ("approximate hull", "approximate hulls"),
-        };
+        let [_, one, many] = self.kind.names();
         let noun = if self.pieces == 1 { one } else { many };
         write!(f, "{} {noun}, ", self.pieces)?;
         match self.volume {
@@ -155,15 +146,22 @@ impl fmt::Display for Report {
     }
 }
 
+impl PiecesKind {
+    /// Returns the name of the kind, of one piece, and of several.
+    fn names(self) -> [&'static str; 3] {
+        match self {
+            PiecesKind::Primitive => ["primitive", "primitive", "primitives"],
+            PiecesKind::Triangles => ["triangles", "triangle", "triangles"],
+            PiecesKind::Patches => ["patches", "convex patch", "convex patches"],
+            PiecesKind::Hull => ["hull", "convex hull", "convex hulls"],
+            PiecesKind::Vhacd => ["vhacd", "approximate hull", "approximate hulls"],
+        }
+    }
+}
+
 impl fmt::Display for PiecesKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            PiecesKind::Primitive => "primitive",
-            PiecesKind::Triangles => "triangles",
-            PiecesKind::Patches => "patches",
-            PiecesKind::Hull => "hull",
-            PiecesKind::Vhacd => "vhacd",
-        })
+        f.pad(self.names()[0])
     }
 }
 

@@ -70,13 +70,13 @@ impl BoxTree {
         // Used only if axis-aligned boxes leave too many elements.
         let (met, apart) = (Cell::new(0), OnceCell::new());
         let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
-            if !bounds.meets(region.bounds()) {
+            if !bounds.meets(&region.bounds) {
                 return true;
             }
             met.set(met.get() + 1);
             met.get() > BOXES_BEFORE_ORIENTED
                 && apart
-                    .get_or_init(|| SeparationTests::for_shape(region.shape()))
+                    .get_or_init(|| SeparationTests::for_shape(&region.shape))
                     .separates(oriented)
         };
         self.all_except_far(is_far, work, |element| holds(element.face))

@@ -3,7 +3,7 @@
 use super::box_tree::BoxTree;
 use super::element::Element;
 use super::oriented_box::OrientedBox;
-use super::planes::{separating_planes, separating_planes_in_plane};
+use super::planes::separating_planes;
 use super::region::{Hull, Shape};
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
@@ -88,15 +88,6 @@ impl Fan {
         })
     }
 
-    /// Returns whether a triangle lies in the plane of a flat fan without the hub as a corner.
-    fn is_coplanar_off_hub(&self, corners: &[DVec3; 3]) -> bool {
-        let level = |plane: [DVec3; 3]| {
-            let mut sides = corners.iter().map(|&corner| side(plane, corner));
-            sides.all(|side| side == Ordering::Equal)
-        };
-        !corners.contains(&self.hub) && self.plane.is_some_and(level)
-    }
-
     pub(super) fn bounds(&self) -> Bounds {
         let hub = Bounds::enclosing([self.hub]);
         self.rim.bounds().map_or(hub, |rim| rim.union(hub))
@@ -115,12 +106,7 @@ impl Fan {
         {
             return true;
         }
-        let planes = match shape {
-            Shape::Triangle(corners) if self.is_coplanar_off_hub(corners) => {
-                separating_planes_in_plane(corners, self.hub)
-            }
-            _ => separating_planes(shape, self.hub),
-        };
+        let planes = separating_planes(shape, self.hub);
         let is_far = |_: &Bounds, oriented: &OrientedBox| {
             planes.iter().any(|plane| plane.has_in_front(oriented))
         };

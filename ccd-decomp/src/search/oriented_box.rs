@@ -3,7 +3,7 @@
 use super::element::Element;
 use crate::tolerance::box_rounding;
 use ccd_core::glam::DVec3;
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::greater;
 use ccd_core::rounding::U64;
 use ccd_core::vector::unit;
 
@@ -104,48 +104,6 @@ fn dot_with_each(axes: &[DVec3; 3], offset: DVec3) -> DVec3 {
         axes[1].dot(offset),
         axes[2].dot(offset),
     )
-}
-
-/// The interval that a shape covers along a unit vector.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
-    base: DVec3,
-    direction: DVec3,
-    lo: f64,
-    hi: f64,
-    reach: f64,
-}
-
-impl Extent {
-    /// Computes the interval that some points cover along a unit vector.
-    pub(super) fn along(points: &[DVec3], direction: DVec3) -> Self {
-        let base = points[0];
-        let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-        let (lo, hi, reach) = points.iter().fold(none, |(lo, hi, reach), &p| {
-            let along = direction.dot(p - base);
-            (
-                lesser(lo, along),
-                greater(hi, along),
-                greater(reach, p.abs().max_element()),
-            )
-        });
-        Extent {
-            base,
-            direction,
-            lo,
-            hi,
-            reach,
-        }
-    }
-
-    /// Returns whether a box is certainly outside the interval, along the same unit vector.
-    pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
-        let along = self.direction.dot(oriented.centre - self.base);
-        let reach = greater(self.reach, oriented.reach);
-        let depth = oriented.support(self.direction) + box_rounding(self.direction, reach);
-        // Written so that NaN does not miss.
-        along - depth > self.hi || along + depth < self.lo
-    }
 }
 
 #[cfg(test)]

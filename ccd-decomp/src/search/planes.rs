@@ -1,11 +1,10 @@
 //! Tests by planes that separate oriented boxes from a shape.
 
-use super::oriented_box::{Extent, OrientedBox};
+use super::oriented_box::OrientedBox;
 use super::region::{Hull, Shape};
 use crate::exact::predicates::{Projection, side, turn_along};
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::height_rounding;
-use ccd_core::vector::unit;
 use std::cmp::Ordering;
 
 /// A plane through a point, with a normal of any length.
@@ -85,65 +84,31 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
 }
 
 /// The tests by which oriented boxes are separated from a shape.
-pub(super) struct SeparationTests<'a> {
-    points: &'a [DVec3],
-    extents: Vec<Extent>,
-    planes: Vec<Plane>,
+pub(super) enum SeparationTests<'a> {
+    /// The axes of a box against the points that span the shape.
+    Points(&'a [DVec3]),
+    /// Planes that have the shape behind them.
+    Planes(Vec<Plane>),
 }
 
 impl<'a> SeparationTests<'a> {
     pub(super) fn for_shape(shape: &'a Shape) -> Self {
-        let apart = |points, extents| SeparationTests {
-            points,
-            extents,
-            planes: Vec::new(),
-        };
         match shape {
-            Shape::Segment(ends) => apart(ends, Vec::new()),
-            Shape::Triangle(corners) => apart(corners, extents(corners)),
-            Shape::Inside(Hull { facets, .. }) => SeparationTests {
-                planes: facets
-                    .iter()
-                    .take(TESTED_FACETS)
-                    .map(|&facet| Plane::through(facet))
-                    .collect(),
-                ..apart(&[], Vec::new())
-            },
+            Shape::Segment(ends) => SeparationTests::Points(ends),
+            Shape::Triangle(corners) => SeparationTests::Points(corners),
+            Shape::Inside(Hull { facets, .. }) => {
+                let tested = facets.iter().take(TESTED_FACETS);
+                SeparationTests::Planes(tested.map(|&facet| Plane::through(facet)).collect())
+            }
         }
     }
 
     pub(super) fn separates(&self, oriented: &OrientedBox) -> bool {
-        self.extents.iter().any(|extent| extent.misses(oriented))
-            || self.planes.iter().any(|plane| plane.has_in_front(oriented))
-            || !self.points.is_empty() && oriented.is_separated_from(self.points)
+        match self {
+            SeparationTests::Points(points) => oriented.is_separated_from(points),
+            SeparationTests::Planes(planes) => planes.iter().any(|of| of.has_in_front(oriented)),
+        }
     }
-}
-
-/// Computes the intervals of a triangle along its normal, and in its plane along the normals of its sides.
-fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
-    let [a, b, c] = *corners;
-    let sides = [b - a, c - b, a - c].map(|side| unit(side).unwrap_or(DVec3::ZERO));
-    let normal = unit(sides[0].cross(sides[1])).unwrap_or(DVec3::ZERO);
-    let across = sides.map(|side| side.cross(normal));
-    let directions = [normal].into_iter().chain(across).filter_map(unit);
-    directions
-        .map(|direction| Extent::along(corners, direction))
-        .collect()
-}
-
-/// Returns planes like [`separating_planes`], for a triangle coplanar with the fan. They are parallel to a coordinate
-/// axis, through the hub and a corner, and along the edges.
-pub(super) fn separating_planes_in_plane(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
-    let mut planes = Vec::new();
-    if contains_point(*corners, hub) {
-        return planes;
-    }
-    for k in 0..3 {
-        let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
-        add_axis_parallel_planes(&mut planes, [hub, p], &[q, r], hub);
-        add_axis_parallel_planes(&mut planes, [p, q], &[r], hub);
-    }
-    planes
 }
 
 /// Adds the separating planes through the line `p q`, parallel to a coordinate axis. They have some points on or

@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 /// A region to search: a shape, and its bounding box.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
-    bounds: Bounds,
-    shape: Shape,
+    pub(crate) bounds: Bounds,
+    pub(super) shape: Shape,
 }
 
 #[derive(Clone, Debug)]
@@ -43,11 +43,6 @@ impl Region {
         }
     }
 
-    /// Returns the bounding box of the region.
-    pub(crate) fn bounds(&self) -> &Bounds {
-        &self.bounds
-    }
-
     /// Creates the region inside both a box and a hull, given by its corners and facets.
     pub(crate) fn inside(corners: Vec<DVec3>, mut facets: Vec<[DVec3; 3]>, bounds: Bounds) -> Self {
         // A triangle near a hull but outside is most likely in front of a large facet.
@@ -60,9 +55,5 @@ impl Region {
         facets.sort_by(larger);
         let shape = Shape::Inside(Hull { corners, facets });
         Region { bounds, shape }
-    }
-
-    pub(super) fn shape(&self) -> &Shape {
-        &self.shape
     }
 }

@@ -1,7 +1,7 @@
 //! Merges the coplanar triangles of a mesh into convex polygons.
 
 use super::manifold::{Dihedral, Manifold};
-use crate::disjoint_sets::DisjointSets;
+use crate::disjoint_sets::{DisjointSets, members};
 use crate::exact::predicates::Projection;
 use crate::half_edges::HalfEdge;
 use crate::hull::polygons::strict_corners;
@@ -211,11 +211,11 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     /// Returns the polygons that the regions have become.
     pub(crate) fn into_flats(mut self) -> Flats {
         let flat_of = self.regions.numbers();
-        let count = flat_of.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut flats = vec![Flat::default(); count];
-        for (face, &number) in (0..).zip(&flat_of) {
-            flats[number as usize].faces.push(face);
-        }
+        let flat = |faces: Vec<u32>| Flat {
+            faces,
+            ..Flat::default()
+        };
+        let mut flats: Vec<Flat> = members(&flat_of).into_iter().map(flat).collect();
         for (number, flat) in flats.iter_mut().enumerate() {
             let outer =
                 |&h: &HalfEdge| flat_of[self.manifold.twin(h) as usize / 3] as usize != number;

@@ -3,7 +3,7 @@
 use super::error::DecomposeError;
 use super::topology::{Orientation, Topology};
 use crate::exact::predicates::{Projection, is_degenerate, side, too_fine};
-use crate::half_edges::{Edges, HalfEdge};
+use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::tally::Tally;
@@ -47,16 +47,6 @@ impl<'m> Manifold<'m> {
         mesh: &'m TriangleMesh,
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
-        Manifold::from_edges(mesh, topology, None)
-    }
-
-    /// Creates the manifold like [`Manifold::without_intersection_check`]. `edges` are the edges between welded
-    /// vertices, if they are known.
-    pub(crate) fn from_edges(
-        mesh: &'m TriangleMesh,
-        topology: &Topology,
-        edges: Option<Edges>,
-    ) -> Result<Self, DecomposeError> {
         if let Some(vertex) = too_fine(mesh.vertices()) {
             return Err(DecomposeError::TooFine { vertex });
         }
@@ -65,9 +55,8 @@ impl<'m> Manifold<'m> {
                 topology: Box::new(topology.clone()),
             });
         }
-        let turned = topology.orientation() == Orientation::Inward;
         let mut faces = mesh.welded_faces();
-        if turned {
+        if topology.orientation() == Orientation::Inward {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
         let is_flat = |&face: &u32| is_degenerate(mesh.triangle(face));
@@ -76,10 +65,7 @@ impl<'m> Manifold<'m> {
         for face in flat_faces.collect::<Vec<u32>>() {
             flat.add(mesh.face_ids()[face as usize]);
         }
-        // Half-edges of reversed faces have other numbers.
-        let edges = edges.filter(|_| !turned);
-        let edges = edges.unwrap_or_else(|| Edges::new(&faces));
-        match edges.twins(faces.len()) {
+        match twins(&faces) {
             Some(twins) if flat.is_empty() => Ok(Manifold {
                 mesh,
                 faces,

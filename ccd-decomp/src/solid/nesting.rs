@@ -66,8 +66,6 @@ struct Surroundings {
     shells: Vec<u32>,
     /// Whether a surrounding shell intersects this one.
     crossed: bool,
-    /// Whether the surrounding shells could not be determined.
-    unknown: bool,
 }
 
 impl<'m> Shells<'m> {
@@ -86,18 +84,12 @@ impl<'m> Shells<'m> {
 
     fn nesting(&self) -> Nesting {
         let exact = too_fine(self.mesh.vertices()).is_none();
-        let around: Vec<Surroundings> = (0..self.faces_of.len() as u32)
-            .map(|shell| {
-                if exact {
-                    self.surroundings(shell)
-                } else {
-                    Surroundings {
-                        unknown: true,
-                        ..Surroundings::default()
-                    }
-                }
-            })
+        let shells = 0..self.faces_of.len() as u32;
+        let found: Vec<Option<Surroundings>> = shells
+            .map(|shell| exact.then(|| self.surroundings(shell)).flatten())
             .collect();
+        let is_unknown: Vec<bool> = found.iter().map(Option::is_none).collect();
+        let around: Vec<Surroundings> = found.into_iter().map(Option::unwrap_or_default).collect();
         let orientations: Vec<i32> = self
             .faces_of
             .iter()
@@ -109,11 +101,7 @@ impl<'m> Shells<'m> {
         let mut sides = vec![1; around.len()];
         let mut unclear = Tally::default();
         for shell in order {
-            let Surroundings {
-                shells,
-                crossed,
-                unknown,
-            } = &around[shell];
+            let Surroundings { shells, crossed } = &around[shell];
             let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
             let outermost = shells.iter().map(|&k| k as usize);
             let outermost = outermost.min_by_key(|&k| around[k].shells.len());
@@ -123,7 +111,7 @@ impl<'m> Shells<'m> {
                 1 => -1,
                 _ => 1,
             };
-            if *unknown || *crossed && windings > 0 && as_around != Some(1) {
+            if is_unknown[shell] || *crossed && windings > 0 && as_around != Some(1) {
                 unclear.add(self.name_in_reports(shell));
             }
         }
@@ -159,23 +147,16 @@ impl<'m> Shells<'m> {
         }
     }
 
-    fn surroundings(&self, shell: u32) -> Surroundings {
-        let Some(mut shells) = self.shells_winding_about(shell) else {
-            return Surroundings {
-                unknown: true,
-                ..Surroundings::default()
-            };
-        };
+    /// Returns the shells that surround a shell; `None` if they cannot be determined.
+    fn surroundings(&self, shell: u32) -> Option<Surroundings> {
+        let mut shells = self.shells_winding_about(shell)?;
         if shells.is_empty() {
-            return Surroundings::default();
+            return Some(Surroundings::default());
         }
-        let crossed = self.shells_crossing(shell);
-        shells.retain(|other| !crossed.contains(other));
-        Surroundings {
-            shells,
-            crossed: !crossed.is_empty(),
-            unknown: false,
-        }
+        let crossing = self.shells_crossing(shell);
+        shells.retain(|other| !crossing.contains(other));
+        let crossed = !crossing.is_empty();
+        Some(Surroundings { shells, crossed })
     }
 
     /// Returns the other shells whose winding number about a shell is not 0; `None` if every ray meets an edge or

@@ -62,17 +62,12 @@ impl Topology {
     /// any.
     pub(crate) fn with_reoriented_mesh(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let edges = Edges::new(&mesh.welded_faces());
-        Topology::from_edges(mesh, &edges)
-    }
-
-    /// Computes the same as [`Topology::with_reoriented_mesh`], given the edges between welded vertices.
-    pub(crate) fn from_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
             ..Topology::default()
         };
         for ([v, w], uses) in edges.iter() {
-            let backward = uses.iter().filter(|of| of.is_backward()).count();
+            let backward = uses.iter().filter(|of| of.is_backward).count();
             let tally = match (uses.len(), 2 * backward == uses.len()) {
                 (2, true) => continue,
                 (1, _) => &mut topology.boundary,
@@ -85,7 +80,7 @@ impl Topology {
         if !topology.is_closed() {
             return (topology, None);
         }
-        let nesting = Nesting::new(mesh, edges);
+        let nesting = Nesting::new(mesh, &edges);
         topology.wrong_way = nesting.wrong;
         topology.unclear = nesting.unclear;
         let turned =

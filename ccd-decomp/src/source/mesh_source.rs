@@ -43,10 +43,10 @@ impl MeshSource {
     /// [`MeshError`], which names the file.
     pub fn read(&self) -> Result<(TriangleMesh, Option<Unit>), MeshError> {
         let mut file = MeshFile::read(&self.file)?;
-        if let Some(unit) = self.adjustments.stated_unit() {
+        if let Some(unit) = self.adjustments.stated_unit {
             file = file.stated_in(unit);
         }
-        if let Some(unit) = self.adjustments.target_unit() {
+        if let Some(unit) = self.adjustments.target_unit {
             file = file.in_unit(unit);
         }
         let unit = file.unit();
@@ -54,32 +54,21 @@ impl MeshSource {
             Some(part) => file.part(part)?,
             None => file.into_mesh()?,
         };
-        match self.adjustments.map() {
-            Some(map) => {
-                let mapped = mesh.transformed(map);
-                Ok((
-                    mapped.map_err(|error| error.fault.in_file(&self.file))?,
-                    unit,
-                ))
-            }
-            None => Ok((mesh, unit)),
-        }
+        let mesh = match self.adjustments.map() {
+            Some(map) => mesh
+                .transformed(map)
+                .map_err(|error| MeshError::new(&self.file, error.fault))?,
+            None => mesh,
+        };
+        Ok((mesh, unit))
     }
 
     /// Returns the kind of pieces to make: `asked`, or a surface if the mesh is to be hollow.
     pub fn detail(&self, asked: Detail) -> Detail {
-        if self.adjustments.is_hollow() {
+        if self.adjustments.is_hollow {
             Detail::Surface
         } else {
             asked
-        }
-    }
-
-    fn whole(file: impl Into<PathBuf>) -> Self {
-        MeshSource {
-            file: file.into(),
-            part: None,
-            adjustments: Adjustments::NONE,
         }
     }
 }
@@ -103,7 +92,7 @@ impl FromStr for MeshSource {
     fn from_str(text: &str) -> Result<Self, UnknownAdjustment> {
         let Some((file, mark, rest)) = split_at_mark(text).filter(|_| !Path::new(text).is_file())
         else {
-            return Ok(MeshSource::whole(text));
+            return Ok(PathBuf::from(text).into());
         };
         let (mut part, mut words) = (None, Vec::new());
         if mark == '@' {
@@ -131,7 +120,11 @@ impl FromStr for MeshSource {
 /// Describes a whole mesh file without adjustments.
 impl From<PathBuf> for MeshSource {
     fn from(file: PathBuf) -> Self {
-        MeshSource::whole(file)
+        MeshSource {
+            file,
+            part: None,
+            adjustments: Adjustments::NONE,
+        }
     }
 }
 
@@ -142,7 +135,7 @@ impl TryFrom<OsString> for MeshSource {
     fn try_from(text: OsString) -> Result<Self, UnknownAdjustment> {
         match text.to_str() {
             Some(text) => text.parse(),
-            None => Ok(MeshSource::whole(text)),
+            None => Ok(PathBuf::from(text).into()),
         }
     }
 }

@@ -27,13 +27,13 @@ pub(crate) fn on_edge_distance(farthest: f64) -> f64 {
 }
 
 /// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
-/// axis. `direction` is the axis, of length about 1. It covers the difference of points and the extent of the box,
-/// for coordinates up to `reach`, in the same unit.
+/// axis. `direction` is the axis, of length about 1. It covers the difference of the point and the box's centre, and the
+/// sum of the box's half length and its slack, for coordinates up to `reach`, in the same unit.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a difference
-/// is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as there is one of the
-/// box and one of the shape. The box's half lengths are at most `2√3 m`, and the product of each with the direction is
-/// off by `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are used, plus a term for underflow.
+/// is off by `2u m` in every coordinate and its length along the direction by `8u d m`. The half length is at most
+/// `2√3 m`, and its sum with the slack and this bound is off by `8u d m`, as `d` is at least 1. That is 16u; 128u are
+/// used, plus a term for underflow.
 pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }

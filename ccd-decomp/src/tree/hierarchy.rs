@@ -7,7 +7,7 @@ mod reinsert;
 use crate::bounds::Bounds;
 use crate::tolerance::MAX_CLUSTER_PIECES;
 use crate::tree::slot::Slot;
-use agglomerate::{Workspace, agglomerate};
+use agglomerate::agglomerate;
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
 use nodes::{Below, Cuboid, Node};
@@ -92,10 +92,13 @@ const PIECES_PER_TASK: usize = 4096;
 /// Splits leaves at the medians of their centres into clusters, and agglomerates each cluster. Returns the nodes, the
 /// root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
-    let mut centres: Vec<Centre> = leaves.iter().map(Centre::new).collect();
+    let centres = (0..).zip(leaves).map(|(piece, leaf)| Centre {
+        at: leaf.cuboid.centre().to_array(),
+        piece,
+    });
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
     if let Some(slot) = Slot::whole(&mut nodes) {
-        Splitter { leaves }.build_subtree(&mut centres, slot);
+        build_subtree(leaves, &mut centres.collect::<Vec<_>>(), slot);
     }
     nodes
 }
@@ -107,62 +110,33 @@ struct Centre {
     piece: u32,
 }
 
-impl Centre {
-    fn new(leaf: &Node) -> Self {
-        Centre {
-            at: leaf.cuboid.centre().to_array(),
-            piece: leaf.below.index(),
-        }
-    }
-}
-
-struct Splitter<'l> {
-    leaves: &'l [Node],
-}
-
-impl Splitter<'_> {
-    /// Builds the subtree over some pieces, in parallel if they are many.
-    fn build_subtree(&self, centres: &mut [Centre], slot: Slot<'_, Node>) {
-        if centres.len() <= PIECES_PER_TASK {
-            return self.build_sequentially(centres, slot, &mut Workspace::default());
-        }
-        halve(centres, slot, |[left, right]| {
-            rayon::join(
-                || self.build_subtree(left.0, left.1),
-                || self.build_subtree(right.0, right.1),
-            );
+/// Builds the subtree over some pieces, in parallel if they are many.
+fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) {
+    if centres.len() > MAX_CLUSTER_PIECES {
+        let is_shared = centres.len() > PIECES_PER_TASK;
+        return halve(centres, slot, |[left, right]| {
+            let build_left = || build_subtree(leaves, left.0, left.1);
+            let build_right = || build_subtree(leaves, right.0, right.1);
+            if is_shared {
+                rayon::join(build_left, build_right);
+            } else {
+                build_left();
+                build_right();
+            }
         });
     }
-
-    fn build_sequentially(
-        &self,
-        centres: &mut [Centre],
-        slot: Slot<'_, Node>,
-        workspace: &mut Workspace,
-    ) {
-        if centres.len() > MAX_CLUSTER_PIECES {
-            return halve(centres, slot, |sides| {
-                for (centres, slot) in sides {
-                    self.build_sequentially(centres, slot, workspace);
-                }
-            });
-        }
-        let leaf = |centre: &Centre| self.leaves[centre.piece as usize];
-        let [root, others @ ..] = agglomerate(centres.iter().map(leaf), workspace) else {
-            return;
-        };
-        // Node k > 0 of the small tree becomes node k + offset of the large one.
-        let moved = |node: &Node| Node {
-            below: match node.below {
-                Below::Children(child) => Below::Children(child - 1 + slot.first),
-                leaf => leaf,
-            },
-            ..*node
-        };
-        *slot.node = moved(root);
-        for (to, from) in slot.below.iter_mut().zip(others) {
-            *to = moved(from);
-        }
+    let of_cluster = centres.iter().map(|centre| leaves[centre.piece as usize]);
+    let tree = agglomerate(&of_cluster.collect::<Vec<_>>());
+    // Node k > 0 of the small tree becomes node k + offset of the large one.
+    let moved = |node: &Node| Node {
+        below: match node.below {
+            Below::Children(child) => Below::Children(child - 1 + slot.first),
+            leaf => leaf,
+        },
+        ..*node
+    };
+    for (to, from) in std::iter::once(slot.node).chain(slot.below).zip(&tree) {
+        *to = moved(from);
     }
 }
 
@@ -175,7 +149,7 @@ fn halve(
     let spread = centres.iter().fold(Cuboid::EMPTY, |all, centre| {
         all.union(Cuboid::of_point(centre.at.into()))
     });
-    let axis = spread.longest_axis();
+    let axis = spread.extent().max_position();
     let half = centres.len() / 2;
     centres.select_nth_unstable_by(half, |a, b| {
         let order = a.at[axis].total_cmp(&b.at[axis]);

@@ -17,7 +17,7 @@ fn adjustments_add_up() {
     let wanted = Adjustments::NONE.converted_to(Unit::Metre);
     let units = stated.and(&wanted).unwrap();
     assert_eq!(
-        (units.stated_unit(), units.target_unit()),
+        (units.stated_unit, units.target_unit),
         (Some(Unit::Inch), Some(Unit::Metre))
     );
     assert_eq!(Adjustments::NONE.map(), None);

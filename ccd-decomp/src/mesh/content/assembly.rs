@@ -4,7 +4,6 @@ use super::allowance::{Allowance, cost};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
-use crate::mesh::unit::Conversion;
 use std::ops::Range;
 
 /// A list of objects, and the parts of a scene that place them.
@@ -74,18 +73,14 @@ impl Assembly {
     }
 
     /// Returns the triangles of some parts, one part after the other.
-    pub(super) fn expand(
-        &self,
-        parts: Range<usize>,
-        conversion: Conversion,
-    ) -> Result<Polygons, MeshFault> {
+    pub(super) fn expand(&self, parts: Range<usize>) -> Result<Polygons, MeshFault> {
         self.check_size(parts.clone())?;
         let mut all = Polygons::default();
         let parts = self.parts[parts].iter();
         let mut waiting: Vec<PlacedObject> = parts.rev().map(|part| part.placed).collect();
         while let Some(PlacedObject { object, map }) = waiting.pop() {
             let Object { shape, members } = &self.objects[object];
-            append_image(&mut all, shape, &map, conversion);
+            append_image(&mut all, shape, &map);
             waiting.extend(members.iter().rev().map(|member| PlacedObject {
                 object: member.object,
                 map: map.after(&member.map),
@@ -106,58 +101,39 @@ impl Assembly {
 
 /// Appends the image of a shape under an affine map. A mirroring map reverses the triangles, so that a solid stays
 /// one.
-fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap, conversion: Conversion) {
+fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap) {
     let first = all.vertices.len() as i64;
-    let image = |&point| conversion.apply(map.apply(point));
+    let image = |&point| map.apply(point);
     all.vertices.extend(shape.vertices.iter().map(image));
     let mirrors = map.mirrors();
     for triangle in shape.faces() {
         let start = all.corners.len();
-        all.corners
-            .extend(triangle.iter().map(|corner| first + corner));
+        all.push_face(triangle.iter().map(|corner| first + corner));
         if mirrors {
             all.corners[start + 1..].reverse();
         }
-        all.ends.push(all.corners.len());
     }
 }
 
 /// Sorts the objects so that each comes after its members. Returns an error if one contains itself.
 fn members_first(objects: &[Object]) -> Result<Vec<usize>, Cycle> {
-    let mut owners = vec![Vec::new(); objects.len()];
-    let mut waits_for = vec![0_usize; objects.len()];
-    for (k, object) in objects.iter().enumerate() {
-        waits_for[k] = object.members.len();
-        for member in &object.members {
-            owners[member.object].push(k);
+    let mut order = Vec::with_capacity(objects.len());
+    let (mut is_begun, mut is_done) = (vec![false; objects.len()], vec![false; objects.len()]);
+    // An object waits twice: until it is begun, and below its members until they are done.
+    let mut waiting: Vec<(usize, bool)> = (0..objects.len()).map(|k| (k, false)).collect();
+    while let Some((object, ends)) = waiting.pop() {
+        if ends {
+            is_done[object] = true;
+            order.push(object);
+        } else if !std::mem::replace(&mut is_begun[object], true) {
+            waiting.push((object, true));
+            let members = objects[object].members.iter();
+            waiting.extend(members.map(|member| (member.object, false)));
+        } else if !is_done[object] {
+            return Err(Cycle { object });
         }
     }
-    let mut order: Vec<usize> = (0..objects.len()).filter(|&k| waits_for[k] == 0).collect();
-    let mut next = 0;
-    while let Some(&done) = order.get(next) {
-        next += 1;
-        for &owner in &owners[done] {
-            waits_for[owner] -= 1;
-            if waits_for[owner] == 0 {
-                order.push(owner);
-            }
-        }
-    }
-    match find_cycle(objects, &waits_for) {
-        None => Ok(order),
-        Some(object) => Err(Cycle { object }),
-    }
-}
-
-/// Finds an object on a cycle: follows members without a place in the order until one repeats.
-fn find_cycle(objects: &[Object], waits_for: &[usize]) -> Option<usize> {
-    let mut object = waits_for.iter().position(|&count| count > 0)?;
-    let mut seen = vec![false; objects.len()];
-    while !std::mem::replace(&mut seen[object], true) {
-        let mut members = objects[object].members.iter();
-        object = members.find(|member| waits_for[member.object] > 0)?.object;
-    }
-    Some(object)
+    Ok(order)
 }
 
 #[cfg(test)]

@@ -2,10 +2,11 @@
 
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
+use std::ops::Range;
 
 /// A partition of a list of faces into groups, which may have names. Each face is in one group, and each group has a
 /// face.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,
     /// By face, the number of its group; empty if all faces are in the first group.
@@ -21,65 +22,42 @@ impl Groups {
         }
     }
 
-    /// Copies the faces of one group, and the vertices that they use, in the list's order.
-    pub(super) fn part(&self, list: &Polygons, group: usize) -> Result<Polygons, MeshFault> {
-        let mut faces = self.faces(list);
-        Ok(Copier::new(list)?.copy(&faces.swap_remove(group)))
-    }
-
-    /// Copies the faces of each group into a list of its own, like [`Groups::part`].
-    pub(super) fn all(&self, list: &Polygons) -> Result<Vec<Polygons>, MeshFault> {
-        let mut copier = Copier::new(list)?;
-        let faces = self.faces(list);
-        Ok(faces.iter().map(|faces| copier.copy(faces)).collect())
-    }
-
-    /// Returns the face numbers of each group.
-    fn faces(&self, list: &Polygons) -> Vec<Vec<u32>> {
+    /// Copies the faces of some groups, each into a list of its own with the vertices that it uses, in the order of
+    /// `list`.
+    pub(super) fn copies(
+        &self,
+        list: &Polygons,
+        groups: Range<usize>,
+    ) -> Result<Vec<Polygons>, MeshFault> {
+        list.check_corners()?;
         let mut faces = vec![Vec::new(); self.names.len()];
         for face in 0..list.ends.len() {
             let group = self.of_face.get(face).copied().unwrap_or(0);
-            faces[group as usize].push(face as u32);
+            faces[group as usize].push(face);
         }
-        faces
+        let mut numbers = vec![0; list.vertices.len()];
+        let copies = faces[groups].iter();
+        Ok(copies.map(|of| copy(list, of, &mut numbers)).collect())
     }
 }
 
-/// A copier of faces from one list, which renumbers the vertices.
-struct Copier<'a> {
-    list: &'a Polygons,
-    /// By vertex, its number in the copy. Only entries of copied vertices are valid.
-    numbers: Vec<i64>,
-}
-
-impl<'a> Copier<'a> {
-    fn new(list: &'a Polygons) -> Result<Self, MeshFault> {
-        list.check_corners()?;
-        Ok(Copier {
-            list,
-            numbers: vec![0; list.vertices.len()],
-        })
+/// Copies some faces of a list, and renumbers their vertices. `numbers` is a buffer: by vertex, its number in the copy.
+fn copy(list: &Polygons, faces: &[usize], numbers: &mut [i64]) -> Polygons {
+    let mut part = Polygons::default();
+    for &face in faces {
+        part.push_face(list.face_corners(face).iter().copied());
+        part.face_lines.extend(list.face_lines.get(face));
     }
-
-    fn copy(&mut self, faces: &[u32]) -> Polygons {
-        let Copier { list, numbers } = self;
-        let mut part = Polygons::default();
-        for &face in faces {
-            part.corners.extend(list.face_corners(face as usize));
-            part.ends.push(part.corners.len());
-            part.face_lines.extend(list.face_lines.get(face as usize));
-        }
-        let mut used: Vec<usize> = part.corners.iter().map(|&v| v as usize).collect();
-        used.sort_unstable();
-        used.dedup();
-        for vertex in used {
-            numbers[vertex] = part.vertices.len() as i64;
-            part.vertices.push(list.vertices[vertex]);
-            part.vertex_lines.extend(list.vertex_lines.get(vertex));
-        }
-        for corner in &mut part.corners {
-            *corner = numbers[*corner as usize];
-        }
-        part
+    let mut used: Vec<usize> = part.corners.iter().map(|&v| v as usize).collect();
+    used.sort_unstable();
+    used.dedup();
+    for vertex in used {
+        numbers[vertex] = part.vertices.len() as i64;
+        part.vertices.push(list.vertices[vertex]);
+        part.vertex_lines.extend(list.vertex_lines.get(vertex));
     }
+    for corner in &mut part.corners {
+        *corner = numbers[*corner as usize];
+    }
+    part
 }

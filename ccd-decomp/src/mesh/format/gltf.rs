@@ -23,7 +23,7 @@ use accessor::Accessors;
 use buffers::Buffers;
 use container::Container;
 use nodes::Scene;
-use schema::{BufferList, Root};
+use schema::Root;
 use std::collections::BTreeMap;
 
 /// Reads a glTF as an assembly of parts.
@@ -37,16 +37,19 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     let buffers = Buffers::new(&root, container.binary, linked)?;
     let all_bytes = bytes.len() + linked.values().map(Vec::len).sum::<usize>();
     let allowance = Allowance::for_file(all_bytes as u64);
-    let accessors = Accessors::new(&root, &buffers, allowance);
+    let accessors = Accessors {
+        root: &root,
+        buffers: &buffers,
+        allowance,
+    };
     let Scene {
         objects,
         parts,
         remarks,
     } = nodes::scene(&root, accessors)?;
     // A mesh has no members.
-    let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
-        MeshFault::syntax(None, format!("mesh {} holds itself", circle.object))
-    })?;
+    let assembly = Assembly::new(objects, parts, allowance)
+        .map_err(|circle| MeshFault::malformed(format!("mesh {} holds itself", circle.object)))?;
     Ok(Content {
         unit: Some(Unit::Metre),
         layout: Layout::Assembly(assembly),
@@ -60,9 +63,9 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         return Ok(Vec::new());
     }
     let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
-    let list = BufferList::read(Container::read(unmarked)?.json)?;
+    let root = Root::read(Container::read(unmarked)?.json)?;
     let mut needed = BTreeMap::new();
-    for (k, buffer) in list.buffers.iter().enumerate() {
+    for (k, buffer) in root.buffers.iter().enumerate() {
         let reference = buffers::reference(buffer);
         if let Some(Reference { name, bytes }) =
             reference.map_err(|fault| fault.at(element_name("buffer", k, None)))?
@@ -81,10 +84,9 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
 fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();
-        MeshFault::syntax(
-            None,
-            format!("names {kind} {number}, but there are {count}, numbered from 0"),
-        )
+        MeshFault::malformed(format!(
+            "names {kind} {number}, but there are {count}, numbered from 0"
+        ))
     })
 }
 

@@ -122,9 +122,8 @@ impl Reader {
         }
         polygons.ends.push(polygons.corners.len());
         polygons.face_lines.push(line);
-        for labels in [&mut self.objects, &mut self.groups] {
-            labels.of_face.push(labels.current);
-        }
+        self.objects.add_face();
+        self.groups.add_face();
         Ok(())
     }
 
@@ -151,15 +150,15 @@ impl Reader {
                 });
             }
         }
-        let groups = if self.objects.has_names() {
-            self.objects.into_groups()
+        let labels = if self.objects.has_names() {
+            self.objects
         } else {
-            self.groups.into_groups()
+            self.groups
         };
         Ok(Content {
             unit: None,
             remarks: std::mem::take(&mut self.polygons.remarks),
-            layout: Layout::List(self.polygons, groups),
+            layout: Layout::List(self.polygons, labels.groups),
         })
     }
 }
@@ -176,46 +175,36 @@ fn vertex_number(corner: &str) -> Option<i64> {
     (rest_is_valid && numbers.next().is_none()).then_some(vertex)
 }
 
-/// The names that one keyword, `o` or `g`, gives to faces.
+/// The groups of faces that one keyword, `o` or `g`, names. They are numbered by their first face.
 #[derive(Default)]
 struct Labels {
-    /// The number of each name, from 1, in the file's order. The number 0 means that a face has no name.
-    numbers: HashMap<String, u32>,
-    current: u32,
-    of_face: Vec<u32>,
+    groups: Groups,
+    /// The number of each group, by its name.
+    numbers: HashMap<Option<String>, u32>,
+    current: Option<String>,
 }
 
 impl Labels {
     fn set_current(&mut self, name: &str) {
-        let next = self.numbers.len() as u32 + 1;
-        self.current = match self.numbers.get(name) {
-            _ if name.is_empty() => 0,
+        self.current = (!name.is_empty()).then(|| name.to_owned());
+    }
+
+    fn add_face(&mut self) {
+        let Groups { names, of_face } = &mut self.groups;
+        let number = match self.numbers.get(&self.current) {
             Some(&number) => number,
-            None => *self.numbers.entry(name.into()).or_insert(next),
+            None => {
+                names.push(self.current.clone());
+                let number = names.len() as u32 - 1;
+                *self.numbers.entry(self.current.clone()).or_insert(number)
+            }
         };
+        of_face.push(number);
     }
 
     /// Returns whether any face has a name.
     fn has_names(&self) -> bool {
-        self.of_face.iter().any(|&label| label > 0)
-    }
-
-    /// Converts the names to groups of faces, numbered by their first face.
-    fn into_groups(self) -> Groups {
-        let mut labels = vec![None; self.numbers.len() + 1];
-        for (name, number) in self.numbers {
-            labels[number as usize] = Some(name);
-        }
-        let mut numbers = vec![None; labels.len()];
-        let (mut names, mut of_face) = (Vec::new(), self.of_face);
-        for label in &mut of_face {
-            let known = *label as usize;
-            *label = *numbers[known].get_or_insert_with(|| {
-                names.push(labels[known].take());
-                names.len() as u32 - 1
-            });
-        }
-        Groups { names, of_face }
+        self.groups.names.iter().any(Option::is_some)
     }
 }
 
@@ -241,17 +230,13 @@ const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp
 /// # Errors
 /// The statement defines faces.
 fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(), MeshFault> {
-    let unsupported = |what: &str, instead| {
-        Err(MeshFault::Unsupported {
-            what: what.to_owned(),
-            instead,
-        })
-    };
     match keyword {
         "surf" | "bsp" | "bzp" | "cdp" => {
-            return unsupported("a free-form surface", "polygons");
+            return Err(MeshFault::unsupported("a free-form surface", "polygons"));
         }
-        "call" | "csh" => return unsupported("a call of another file", "one file"),
+        "call" | "csh" => {
+            return Err(MeshFault::unsupported("a call of another file", "one file"));
+        }
         "l" => remarks.add("lines passed over", 1, Some(line)),
         "p" => remarks.add("points passed over", 1, Some(line)),
         "curv" | "cdc" => remarks.add("curves passed over", 1, Some(line)),
@@ -259,7 +244,7 @@ fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(
         "V" | "F" => {
             let known = keyword.to_ascii_lowercase();
             let problem = format!("{keyword:?} instead of {known:?}");
-            return Err(MeshFault::syntax(None, problem));
+            return Err(MeshFault::malformed(problem));
         }
         other => remarks.add_named("statements", other, 1, Some(line)),
     }

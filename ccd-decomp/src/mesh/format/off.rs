@@ -54,18 +54,15 @@ fn read_counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u6
         // (4) or a dimension (n) would change the meaning of the position.
         let known = ["", "ST", "C", "N", "STC", "STN", "CN", "STCN", "NC"];
         if !known.contains(&prefix) {
-            return Err(MeshFault::Unsupported {
-                what: format!("{keyword:?}"),
-                instead: "OFF in three dimensions",
-            });
+            return Err(MeshFault::unsupported(
+                format!("{keyword:?}"),
+                "OFF in three dimensions",
+            ));
         }
         line.words.next();
         match line.words.clone().next() {
             Some(word) if word.eq_ignore_ascii_case("binary") => {
-                return Err(MeshFault::Unsupported {
-                    what: "binary OFF".into(),
-                    instead: "text",
-                });
+                return Err(MeshFault::unsupported("binary OFF", "text"));
             }
             Some(_) => {}
             None => line = lines.next_line(|| "the numbers of vertices and faces".into())?,

@@ -35,22 +35,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         match element.name.as_str() {
             "vertex" => polygons.vertices = read.into_iter().map(|vertex| vertex.point).collect(),
             FACE => {
-                for face in read {
-                    polygons.corners.extend(face.corners);
-                    polygons.ends.push(polygons.corners.len());
-                }
+                read.into_iter()
+                    .for_each(|face| polygons.push_face(face.corners));
             }
             STRIPS => {
-                for triangle in read.iter().flat_map(|strip| triangles(&strip.corners)) {
-                    polygons.corners.extend(triangle);
-                    polygons.ends.push(polygons.corners.len());
-                }
+                let strips = read.iter().flat_map(|strip| triangles(&strip.corners));
+                strips.for_each(|triangle| polygons.push_face(triangle));
             }
-            other if element.count > 0 => {
+            other => {
                 let remarks = &mut polygons.remarks;
                 remarks.add_named("elements", other, element.count, None);
             }
-            _ => {}
         }
     }
     check_end(reader.get_ref())?;
@@ -129,7 +124,7 @@ fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
     } else {
         let more = rest.len();
         let problem = format!("has {more} bytes more than its header announces");
-        Err(MeshFault::syntax(None, problem))
+        Err(MeshFault::malformed(problem))
     }
 }
 
@@ -165,7 +160,7 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     for element in header.elements.values() {
         if element.count > bytes {
             let missing = format!("all {} elements {:?}", element.count, element.name);
-            return Err(MeshFault::Truncated { missing });
+            return Err(MeshFault::truncated(missing));
         }
     }
     let Some(vertex) = header.elements.get("vertex") else {
@@ -215,7 +210,7 @@ fn check_property(
         }
         Some(_) => return Ok(()),
     };
-    Err(MeshFault::syntax(None, problem))
+    Err(MeshFault::malformed(problem))
 }
 
 fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
@@ -225,8 +220,8 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
         let prefix = error.line().map(|line| format!("Line {line}: "));
         let problem = text.strip_prefix(prefix.as_deref().unwrap_or_default());
         let problem = problem.unwrap_or(&text).trim_end_matches('.');
-        let missing = format!("what its header announces ({problem})");
-        return MeshFault::Truncated { missing };
+
+        return MeshFault::truncated(format!("what its header announces ({problem})"));
     }
     // The library quotes the line; the rest of its message names its own types.
     let quoted = text

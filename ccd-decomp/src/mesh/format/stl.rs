@@ -54,18 +54,17 @@ fn facet_count(bytes: &[u8]) -> Option<u32> {
 
 fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let Some(facets) = facet_count(bytes) else {
-        let missing = "the header of 84 bytes".into();
-        return Err(MeshFault::Truncated { missing });
+        return Err(MeshFault::truncated("the header of 84 bytes"));
     };
     let content = &bytes[HEADER_BYTES + COUNT_BYTES..];
     let room = content.len() / FACET_BYTES;
     if room < facets as usize {
         let missing = format!("facet {room} of the {facets} that it announces");
-        return Err(MeshFault::Truncated { missing });
+        return Err(MeshFault::truncated(missing));
     }
     if room > facets as usize {
         let problem = format!("announces {facets} facets, but has room for {room}");
-        return Err(MeshFault::syntax(None, problem));
+        return Err(MeshFault::malformed(problem));
     }
     let mut facets = Facets::default();
     for facet in content.as_chunks::<FACET_BYTES>().0 {

@@ -8,15 +8,13 @@ mod package;
 mod transform;
 mod xml;
 
-use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::Allowance;
 use crate::mesh::content::assembly::{Assembly, Object, Part, PlacedObject};
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, Quote};
-use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
-use model::{Model, ObjectRef, Shape};
+use model::{Model, ModelObject, ObjectRef};
 use package::Package;
 use std::collections::BTreeMap;
 
@@ -26,25 +24,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
         return Err(MeshFault::NoVertices);
     }
     let mut models = Models::read(Package::open(bytes)?)?;
-    let unit = models.list[0].model.unit.unwrap_or(Unit::Millimetre);
+    let unit = models.common_unit()?;
     let parts = models.parts()?;
-    let objects = models.objects()?;
+    let objects = models.assembly_objects()?;
     let unused = models.check_used_objects(&objects, &parts)?;
     let mut remarks = Remarks::default();
-    for Named { model, .. } in &models.list {
+    for model in &models.list {
         remarks.append(&model.remarks);
     }
-    if unused > 0 {
-        remarks.add(
-            "objects that the build does not place passed over",
-            unused,
-            None,
-        );
-    }
+    let what = "objects that the build does not place passed over";
+    remarks.add(what, unused, None);
     let allowance = Allowance::for_file(models.package.unpacked_bytes() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
-        let problem = "is a component of itself".into();
-        MeshFault::syntax(None, problem).at(models.object_name(circle.object))
+        MeshFault::malformed("is a component of itself").at(models.object_name(circle.object))
     })?;
     Ok(Content {
         unit: Some(unit),
@@ -56,18 +48,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
 /// The models of a package: the root model first, then the models that it refers to.
 struct Models<'a> {
     package: Package<'a>,
-    list: Vec<Named>,
+    list: Vec<Model>,
     /// The number of each model in the package, by its path.
     numbers: BTreeMap<String, usize>,
-    /// The assembly's object number, by model number and object id in that model.
+    /// The objects of all models, each with the number of its model.
+    objects: Vec<(usize, ModelObject)>,
+    /// The number of each object, by model number and object id in that model.
     object_numbers: BTreeMap<(usize, u32), usize>,
-    /// The model number and the index there of each object of the assembly.
-    places: Vec<(usize, usize)>,
-}
-
-struct Named {
-    path: String,
-    model: Model,
 }
 
 impl<'a> Models<'a> {
@@ -78,138 +65,120 @@ impl<'a> Models<'a> {
             package,
             list: Vec::new(),
             numbers: BTreeMap::new(),
+            objects: Vec::new(),
             object_numbers: BTreeMap::new(),
-            places: Vec::new(),
         };
-        models.model_number(&first)?;
+        models.read_model(&first)?;
         let mut next = 0;
-        while let Some(Named { model, .. }) = models.list.get(next) {
+        while let Some(model) = models.list.get(next) {
             for path in model.referenced_models() {
-                models.model_number(&path)?;
+                models.read_model(&path)?;
             }
             next += 1;
         }
         models.number_objects()?;
-        models.check_units()?;
         Ok(models)
     }
 
-    /// Returns the number of the model at a path, and reads the model on the first call.
-    fn model_number(&mut self, path: &str) -> Result<usize, MeshFault> {
+    /// Reads the model at a path, unless it was read before.
+    fn read_model(&mut self, path: &str) -> Result<(), MeshFault> {
         let key = package::normalized_path(path);
-        if let Some(&number) = self.numbers.get(&key) {
-            return Ok(number);
+        if !self.numbers.contains_key(&key) {
+            let model = self.package.model(path);
+            let model = model.map_err(|fault| fault.at(format!("{:?}", Quote(path))))?;
+            self.numbers.insert(key, self.list.len());
+            let path = path.into();
+            self.list.push(Model { path, ..model });
         }
-        let model = self.package.model(path);
-        let model = model.map_err(|fault| fault.at(format!("{:?}", Quote(path))))?;
-        self.numbers.insert(key, self.list.len());
-        let path = path.into();
-        self.list.push(Named { path, model });
-        Ok(self.list.len() - 1)
+        Ok(())
     }
 
     fn number_objects(&mut self) -> Result<(), MeshFault> {
-        for (number, Named { path, model }) in self.list.iter().enumerate() {
-            for (k, object) in model.objects.iter().enumerate() {
-                let new = self
+        for (number, model) in self.list.iter_mut().enumerate() {
+            for object in model.objects.drain(..) {
+                let key = (number, object.id);
+                if self
                     .object_numbers
-                    .insert((number, object.id), self.places.len());
-                if new.is_some() {
+                    .insert(key, self.objects.len())
+                    .is_some()
+                {
                     let problem = format!("has two objects {}", object.id);
-                    return Err(MeshFault::syntax(None, problem).at(format!("{:?}", Quote(path))));
+                    let place = format!("{:?}", Quote(&model.path));
+                    return Err(MeshFault::malformed(problem).at(place));
                 }
-                self.places.push((number, k));
+                self.objects.push((number, object));
             }
         }
         Ok(())
     }
 
-    /// Checks that all models are in the unit of the first one.
-    fn check_units(&self) -> Result<(), MeshFault> {
-        let unit = self.list[0].model.unit.unwrap_or(Unit::Millimetre);
-        let differs = |named: &&Named| named.model.unit.is_some_and(|other| other != unit);
+    /// Returns the unit of the first model, and checks that it is that of all models.
+    fn common_unit(&self) -> Result<Unit, MeshFault> {
+        let unit = self.list[0].unit.unwrap_or(Unit::Millimetre);
+        let differs = |model: &&Model| model.unit.is_some_and(|other| other != unit);
         match self.list.iter().find(differs) {
-            None => Ok(()),
-            Some(Named { path, .. }) => Err(MeshFault::Unsupported {
-                what: format!("the model {:?} in another unit than {unit}", Quote(path)),
-                instead: "models in one unit",
-            }),
+            None => Ok(unit),
+            Some(Model { path, .. }) => Err(MeshFault::unsupported(
+                format!("the model {:?} in another unit than {unit}", Quote(path)),
+                "models in one unit",
+            )),
         }
     }
 
     /// Returns the parts of the assembly: the build items of the root model.
     fn parts(&self) -> Result<Vec<Part>, MeshFault> {
-        let items = &self.list[0].model.items;
+        let items = &self.list[0].items;
         if items.is_empty() {
-            let problem = "has no items in its build: nothing of it is to be made".into();
-            return Err(MeshFault::syntax(None, problem));
+            return Err(MeshFault::malformed(
+                "has no items in its build: nothing of it is to be made",
+            ));
         }
         let part = |(k, item): (usize, &ObjectRef)| {
-            let found = self.find_object(0, item);
-            let object = found.map_err(|fault| fault.at(format!("item {k} of the build")))?;
-            let placed = PlacedObject {
-                object,
-                map: item.map,
-            };
-            let (model, place) = self.places[object];
-            let own = self.list[model].model.objects[place].name.clone();
+            let placed = self.placed(0, item);
+            let placed = placed.map_err(|fault| fault.at(format!("item {k} of the build")))?;
+            let own = self.objects[placed.object].1.name.clone();
             let name = own.or(item.part_number.clone());
             Ok(Part { name, placed })
         };
         items.iter().enumerate().map(part).collect()
     }
 
-    /// Returns the object number that a build item or component of the model `from` refers to.
-    fn find_object(&self, from: usize, used: &ObjectRef) -> Result<usize, MeshFault> {
+    /// Returns what a build item or component of the model `from` places.
+    fn placed(&self, from: usize, used: &ObjectRef) -> Result<PlacedObject, MeshFault> {
         let model = match &used.path {
             None => Some(&from),
             Some(path) => self.numbers.get(&package::normalized_path(path)),
         };
         let object = model.and_then(|&model| self.object_numbers.get(&(model, used.object)));
-        object.copied().ok_or_else(|| {
-            let problem = format!("names object {}, which there is not", used.object);
-            MeshFault::syntax(None, problem)
-        })
+        let map = used.map;
+        match object {
+            Some(&object) => Ok(PlacedObject { object, map }),
+            None => Err(MeshFault::malformed(format!(
+                "names object {}, which there is not",
+                used.object
+            ))),
+        }
     }
 
-    /// Returns all objects of the assembly, with the shapes moved out of the models.
-    fn objects(&mut self) -> Result<Vec<Object>, MeshFault> {
-        let mut objects = Vec::with_capacity(self.places.len());
-        for number in 0..self.places.len() {
-            let (model, place) = self.places[number];
-            let shape = &mut self.list[model].model.objects[place].shape;
-            let object = match shape {
-                Shape::Mesh(polygons) => Object {
-                    shape: std::mem::take(polygons),
-                    members: Vec::new(),
-                },
-                Shape::Components(_) => Object {
-                    shape: Polygons::default(),
-                    members: self.members(number)?,
-                },
-                Shape::Foreign(_) => Object::default(),
-            };
-            objects.push(object);
+    /// Returns all objects of the assembly, with the meshes moved out of the models.
+    fn assembly_objects(&mut self) -> Result<Vec<Object>, MeshFault> {
+        let mut objects = Vec::with_capacity(self.objects.len());
+        for number in 0..self.objects.len() {
+            let members = self.members(number)?;
+            let shape = std::mem::take(&mut self.objects[number].1.mesh);
+            objects.push(Object { shape, members });
         }
         Ok(objects)
     }
 
     fn members(&self, number: usize) -> Result<Vec<PlacedObject>, MeshFault> {
-        let (model, place) = self.places[number];
-        let Shape::Components(components) = &self.list[model].model.objects[place].shape else {
-            return Ok(Vec::new());
-        };
+        let (model, object) = &self.objects[number];
         let member = |(k, component): (usize, &ObjectRef)| {
-            let found = self.find_object(model, component);
-            let at =
-                |fault: MeshFault| fault.at(format!("{}, component {k}", self.object_name(number)));
-            let map: AffineMap = component.map;
-            Ok(PlacedObject {
-                object: found.map_err(at)?,
-                map,
-            })
+            let place = || format!("{}, component {k}", self.object_name(number));
+            let placed = self.placed(*model, component);
+            placed.map_err(|fault| fault.at(place()))
         };
-        components.iter().enumerate().map(member).collect()
+        object.components.iter().enumerate().map(member).collect()
     }
 
     /// Checks that all used objects are triangle meshes. Returns the number of unused objects.
@@ -220,12 +189,11 @@ impl<'a> Models<'a> {
             if std::mem::replace(&mut seen[number], true) {
                 continue;
             }
-            let (model, place) = self.places[number];
-            if let Shape::Foreign(what) = &self.list[model].model.objects[place].shape {
-                let fault = MeshFault::Unsupported {
-                    what: format!("a shape of another kind, {:?}", Quote(what)),
-                    instead: "a mesh of triangles",
-                };
+            if let Some(what) = &self.objects[number].1.foreign {
+                let fault = MeshFault::unsupported(
+                    format!("a shape of another kind, {:?}", Quote(what)),
+                    "a mesh of triangles",
+                );
                 return Err(fault.at(self.object_name(number)));
             }
             waiting.extend(objects[number].members.iter().map(|member| member.object));
@@ -235,9 +203,8 @@ impl<'a> Models<'a> {
 
     /// Returns the name of an object of the assembly for messages.
     fn object_name(&self, number: usize) -> String {
-        let (model, place) = self.places[number];
-        let Named { path, model } = &self.list[model];
-        let object = &model.objects[place];
+        let (model, object) = &self.objects[number];
+        let path = &self.list[*model].path;
         model::object_name(Some(path), object.id, object.name.as_deref())
     }
 }

@@ -32,7 +32,7 @@ fn lengths_are_those_of_the_units() {
 
 /// Returns a coordinate in another unit as an exact fraction.
 fn exact(x: f64, from: Unit, to: Unit) -> RBig {
-    let ratio = RBig::from(from.micrometres()) / RBig::from(to.micrometres());
+    let ratio = RBig::from(from.facts().2) / RBig::from(to.facts().2);
     RBig::try_from(x).unwrap() * ratio
 }
 

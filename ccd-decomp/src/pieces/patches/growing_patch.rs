@@ -16,8 +16,9 @@ use std::cmp::Ordering;
 
 /// A set of polygons of a mesh and their hull. The hull lies inside the solid, and all polygons are on its boundary.
 pub(super) struct GrowingPatch {
-    flats: Vec<u32>,
-    hull: ExactHull,
+    /// The polygons of the patch, in the order in which they joined.
+    pub(super) flats: Vec<u32>,
+    pub(super) hull: ExactHull,
     has_volume: bool,
 }
 
@@ -38,20 +39,6 @@ impl GrowingPatch {
             hull: ExactHull::from_polygon(&flats.get(seed).corners),
             has_volume: false,
         }
-    }
-
-    /// Returns the number of polygons in the patch.
-    pub(super) fn len(&self) -> usize {
-        self.flats.len()
-    }
-
-    /// Returns the polygons of the patch, in the order in which they joined.
-    pub(super) fn flats(&self) -> &[u32] {
-        &self.flats
-    }
-
-    pub(super) fn hull(&self) -> &ExactHull {
-        &self.hull
     }
 
     /// Returns the facets of the hull, with coplanar triangles merged; a flat hull has two facets.

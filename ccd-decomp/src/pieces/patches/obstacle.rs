@@ -16,12 +16,8 @@ pub(super) struct Obstacle<'a> {
     corner_facets: OnceCell<Vec<(u32, u32)>>,
 }
 
-/// An edge of a hull, with the facets on both sides.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    ends: [u32; 2],
-    facets: [u32; 2],
-}
+/// An edge of a hull: its ends, and the facets on both sides.
+type Edge = ([u32; 2], [u32; 2]);
 
 impl<'a> Obstacle<'a> {
     /// Prepares the tests for a hull with volume.
@@ -73,13 +69,13 @@ impl<'a> Obstacle<'a> {
         let p = triangle[k];
         let facets = self.hull.facets().iter();
         let sides: Vec<Ordering> = facets.map(|&f| side_of(self.points, f, p)).collect();
-        let is_outline = |edge: &&Edge| {
-            let [s, t] = edge.facets.map(|f| sides[f as usize]);
+        let is_outline = |(_, facets): &&Edge| {
+            let [s, t] = facets.map(|f| sides[f as usize]);
             s != t || s == Ordering::Equal
         };
         let next = triangle[(k + 1) % 3];
-        self.edges().iter().filter(is_outline).any(|edge| {
-            let [a, b] = edge.ends;
+        let mut outline = self.edges().iter().filter(is_outline);
+        outline.any(|&([a, b], _)| {
             self.separates([a, b, p], triangle)
                 || self.separates([p, next, a], triangle)
                 || self.separates([p, next, b], triangle)
@@ -106,10 +102,7 @@ impl<'a> Obstacle<'a> {
         self.edges.get_or_init(|| {
             let edges = Edges::new(self.hull.facets());
             let edge = |(ends, uses): ([u32; 2], &[EdgeUse])| match *uses {
-                [one, other] => Some(Edge {
-                    ends,
-                    facets: [one.face(), other.face()],
-                }),
+                [one, other] => Some((ends, [one.face(), other.face()])),
                 _ => None,
             };
             edges.iter().filter_map(edge).collect()

@@ -52,28 +52,12 @@ fn steps_to_reflex(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     height
 }
 
-/// The queue of polygons that a growing patch is to try next.
-pub(super) struct Frontier {
-    order: Order,
-    waiting: VecDeque<u32>,
-}
-
-impl Frontier {
-    pub(super) fn new(order: Order) -> Self {
-        Frontier {
-            order,
-            waiting: VecDeque::new(),
-        }
-    }
-
-    pub(super) fn push(&mut self, flat: u32) {
-        self.waiting.push_back(flat);
-    }
-
-    pub(super) fn pop(&mut self) -> Option<u32> {
-        match self.order {
-            Order::Cresting | Order::BreadthFirst => self.waiting.pop_front(),
-            Order::DepthFirst => self.waiting.pop_back(),
+impl Order {
+    /// Removes the polygon that a growing patch tries next from those that wait.
+    pub(super) fn pop(self, waiting: &mut VecDeque<u32>) -> Option<u32> {
+        match self {
+            Order::Cresting | Order::BreadthFirst => waiting.pop_front(),
+            Order::DepthFirst => waiting.pop_back(),
         }
     }
 }

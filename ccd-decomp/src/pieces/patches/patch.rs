@@ -22,7 +22,7 @@ pub struct Patch {
 
 impl Patch {
     pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &GrowingPatch) -> Self {
-        let members: Vec<&Flat> = region.flats().iter().map(|&f| flats.get(f)).collect();
+        let members: Vec<&Flat> = region.flats.iter().map(|&f| flats.get(f)).collect();
         let mut faces: Vec<u32> = members
             .iter()
             .flat_map(|f| f.faces.iter().copied())

@@ -8,80 +8,36 @@
 
 use super::target::Target;
 use super::voxels::{Cell, Voxels};
-use crate::exact::predicates::lexicographic;
 use crate::tolerance::on_edge_distance;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use rayon::prelude::*;
 
-/// The relation of a voxel to the solid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum VoxelClass {
-    /// The voxel is not classified yet.
-    Unknown,
-    /// The voxel meets the surface.
-    Surface,
-    /// The voxel lies inside the solid.
-    Full,
-    /// The voxel lies outside the solid.
-    Nothing,
-}
-
 /// Returns points for each part. Their hull, enlarged by the rounding of cuts, contains the solid within the voxels
 /// of the part.
 pub(super) fn points_by_part(
     target: &Target<'_>,
     voxels: &Voxels,
-    contents: &[VoxelClass],
-    mut labels: Vec<u32>,
+    labels: &[u32],
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
     let mut parts = vec![Vec::new(); count];
     let near = on_edge_distance(target.farthest_coordinate());
     let triangles: Vec<_> = target.triangles().collect();
-    let pieces: Vec<_> = triangles
+    let on_surface: Vec<_> = triangles
         .par_chunks(TRIANGLES_PER_TASK)
-        .map(|triangles| cut_triangles(triangles, voxels, &labels, near))
+        .flat_map_iter(|triangles| cut_triangles(triangles, voxels, labels, near))
         .collect();
-    for (part, point) in pieces.into_iter().flatten() {
+    let inside = corners_between_parts(target, voxels, labels);
+    for (part, point) in on_surface.into_iter().chain(inside) {
         parts[part as usize].push(point);
     }
-    for (label, content) in labels.iter_mut().zip(contents) {
-        if *content == VoxelClass::Nothing {
-            *label = NO_PART;
-        }
-    }
-    add_corners(target, voxels, contents, &labels, &mut parts);
-    parts.into_par_iter().map(remove_duplicates).collect()
+    parts
 }
-
-/// The label of a voxel outside the solid.
-const NO_PART: u32 = u32::MAX;
 
 /// The number of triangles in a parallel task.
 const TRIANGLES_PER_TASK: usize = 1024;
-
-/// Classifies every voxel as on the surface, inside or outside.
-pub(super) fn classify_voxels(target: &Target<'_>, voxels: &Voxels) -> Vec<VoxelClass> {
-    let triangles: Vec<_> = target.triangles().collect();
-    let met = |triangles: &[[DVec3; 3]]| {
-        let mut cells = Vec::new();
-        for &triangle in triangles {
-            voxels.for_each_voxel_met(triangle, |cell| cells.push(cell));
-        }
-        cells.sort_unstable();
-        cells.dedup();
-        cells
-    };
-    let met: Vec<_> = triangles.par_chunks(TRIANGLES_PER_TASK).map(met).collect();
-    let mut contents = vec![VoxelClass::Unknown; voxels.len()];
-    for cell in met.into_iter().flatten() {
-        contents[cell] = VoxelClass::Surface;
-    }
-    classify_remaining(target, voxels, &mut contents);
-    contents
-}
 
 /// Cuts triangles at the voxels of different parts. Returns the corners of the polygons, each with its part number.
 fn cut_triangles(
@@ -122,73 +78,33 @@ fn remove_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> V
     points
 }
 
-/// Removes duplicate points.
-pub(super) fn remove_duplicates(mut points: Vec<DVec3>) -> Vec<DVec3> {
-    points.sort_unstable_by(|&p, &q| lexicographic(p, q));
-    points.dedup();
-    points
-}
-
-/// Classifies the voxels that do not meet the surface: connected ones are all inside or all outside.
-fn classify_remaining(target: &Target<'_>, voxels: &Voxels, contents: &mut [VoxelClass]) {
-    let mut stack = Vec::new();
-    for seed in 0..contents.len() {
-        if contents[seed] != VoxelClass::Unknown {
-            continue;
-        }
-        let content = if target.winds_about(voxels.corner(voxels.cell_of(seed)), &Work::unbounded())
-        {
-            VoxelClass::Full
-        } else {
-            VoxelClass::Nothing
-        };
-        contents[seed] = content;
-        stack.push(seed);
-        while let Some(cell) = stack.pop() {
-            for next in voxels.neighbours(voxels.cell_of(cell)) {
-                if contents[next] == VoxelClass::Unknown {
-                    contents[next] = content;
-                    stack.push(next);
-                }
-            }
-        }
-    }
-}
-
-/// Adds each voxel corner that is in the solid to every part with a voxel at that corner. Corners whose eight voxels
-/// all belong to one part are left out.
-fn add_corners(
+/// Returns each voxel corner that is in the solid, with every part that has a voxel at that corner. Corners whose
+/// eight voxels all belong to one part are left out.
+fn corners_between_parts(
     target: &Target<'_>,
     voxels: &Voxels,
-    contents: &[VoxelClass],
     labels: &[u32],
-    parts: &mut [Vec<DVec3>],
-) {
+) -> Vec<(u32, DVec3)> {
     let [x, y, z] = voxels.counts();
-    for i in 0..=x {
-        for j in 0..=y {
-            for k in 0..=z {
-                let mut around: Vec<usize> = cells_around(voxels, [i, j, k]).collect();
-                let first = labels[around[0]];
-                if around.len() == 8 && around.iter().all(|&cell| labels[cell] == first) {
-                    continue;
-                }
-                let corner = voxels.corner([i, j, k]);
-                let has = |content| around.iter().any(|&cell| contents[cell] == content);
-                let inside = match (has(VoxelClass::Full), has(VoxelClass::Nothing)) {
-                    (true, _) => true,
-                    (_, true) => false,
-                    _ => target.winds_about(corner, &Work::unbounded()),
-                };
-                if inside {
-                    around.sort_unstable_by_key(|&cell| labels[cell]);
-                    around.dedup_by_key(|cell| labels[*cell]);
-                    let labelled = around.iter().filter(|&&cell| labels[cell] != NO_PART);
-                    labelled.for_each(|&cell| parts[labels[cell] as usize].push(corner));
-                }
+    let of_layer = |i: usize| {
+        let places = (0..=y).flat_map(|j| (0..=z).map(move |k| [i, j, k]));
+        let mut found = Vec::new();
+        for place in places {
+            let mut around: Vec<u32> = cells_around(voxels, place)
+                .map(|cell| labels[cell])
+                .collect();
+            let is_complete = around.len() == 8;
+            around.sort_unstable();
+            around.dedup();
+            let is_between = around.len() > 1 || !is_complete;
+            let corner = voxels.corner(place);
+            if is_between && target.winds_about(corner, &Work::unbounded()) {
+                found.extend(around.into_iter().map(|part| (part, corner)));
             }
         }
-    }
+        found
+    };
+    (0..=x).into_par_iter().flat_map_iter(of_layer).collect()
 }
 
 /// Iterates over the voxels around a grid corner, up to eight.

@@ -11,8 +11,7 @@ use ccd_core::glam::{BVec3, DVec3};
 use ccd_core::order::{greater, lesser};
 use part_planes::PartPlanes;
 use rayon::prelude::*;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use std::collections::BTreeMap;
 
 /// Returns an upper bound of the distance from the solid to any point of the parts.
 ///
@@ -30,13 +29,15 @@ pub(super) fn excess_bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
         parts: &parts,
         steps_spent: 0,
         largest_distance: 0.0,
-        heap: BinaryHeap::new(),
+        waiting: BTreeMap::new(),
+        examined: 0,
     };
     for part in 0..parts.len() {
         search.examine_part(part);
     }
     while search.split_worst(floor) {}
-    let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
+    let open = search.waiting.last_key_value();
+    let open = open.map_or(0.0, |(_, cell)| cell.bound);
     greater(open, search.largest_distance)
 }
 
@@ -56,7 +57,10 @@ struct Search<'a> {
     steps_spent: u64,
     /// The largest distance from the solid to a point of a part that was found.
     largest_distance: f64,
-    heap: BinaryHeap<BoundedBox>,
+    /// The boxes that wait, by bound and by the order in which they were examined. Bounds are positive: their bits are
+    /// in the order of their values.
+    waiting: BTreeMap<(u64, u64), BoundedBox>,
+    examined: u64,
 }
 
 /// A box with an upper bound on the distance from the solid to the part within the box.
@@ -113,8 +117,8 @@ impl Search<'_> {
         );
         let worst: Vec<BoundedBox> = (0..BATCH)
             .map_while(|_| {
-                let is_worth_it = self.heap.peek()?.bound > target;
-                is_worth_it.then(|| self.heap.pop()).flatten()
+                let worst = self.waiting.last_entry()?;
+                (worst.get().bound > target).then(|| worst.remove())
             })
             .collect();
         let parts: Vec<_> = worst
@@ -128,13 +132,16 @@ impl Search<'_> {
         examined
             .into_iter()
             .for_each(|examined| self.record(examined));
-        !worst.is_empty() && self.steps_spent < EXCESS_WORK && self.heap.len() < EXCESS_BOXES
+        !worst.is_empty() && self.steps_spent < EXCESS_WORK && self.waiting.len() < EXCESS_BOXES
     }
 
     fn record(&mut self, examined: Examined) {
         self.steps_spent += examined.steps_spent;
         self.largest_distance = greater(self.largest_distance, examined.distance);
-        self.heap.extend(examined.cell);
+        self.examined += 1;
+        let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined);
+        self.waiting
+            .extend(examined.cell.map(|cell| (key(&cell), cell)));
     }
 
     /// Computes the bound of the box `bounds`, which lies within the examined box `within`.
@@ -187,32 +194,3 @@ fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
         ]
     })
 }
-
-impl Ord for BoundedBox {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let place = |cell: &BoundedBox| cell.bounds[0].to_array();
-        let ties = || {
-            let (p, q) = (place(self), place(other));
-            let along = |axis: usize| p[axis].total_cmp(&q[axis]);
-            along(0)
-                .then(along(1))
-                .then(along(2))
-                .then(self.part.cmp(&other.part))
-        };
-        self.bound.total_cmp(&other.bound).then_with(ties)
-    }
-}
-
-impl PartialOrd for BoundedBox {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for BoundedBox {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for BoundedBox {}

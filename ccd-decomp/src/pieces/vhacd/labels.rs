@@ -64,7 +64,7 @@ fn run_vhacd(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([u
     let scale = f64::from(voxels.resolution() - 1);
     let scaled = |p: DVec3| Vector::from((voxels.in_grid_units(p) / scale).to_array());
     let points: Vec<Vector> = target.triangles().flatten().map(scaled).collect();
-    let faces: Vec<[u32; 3]> = (0..target.faces().len() as u32)
+    let faces: Vec<[u32; 3]> = (0..target.triangles().len() as u32)
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
         .collect();
     // The library asserts conditions that rounding can violate.

@@ -1,107 +1,69 @@
 //! Merges parts of a decomposition, the pair with the least added hull volume first.
 
-use super::extremes::{extreme_points, remove_inner_points};
 use crate::bounds::Bounds;
 use crate::hull::exact_hull::ExactHull;
+use crate::hull::{HullError, hull};
 use crate::tolerance::COST_SAMPLE_POINTS;
+use ccd_core::Hull;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
-/// Merges parts, given by points, until at most `most` are left. Each step merges the pair whose common hull adds the
-/// least volume.
+/// Returns the hulls of parts, which are given by points, after merging them until at most `most` are left. Each step
+/// merges the pair whose common hull adds the least volume.
 ///
 /// # Complexity
 /// O(n²) hulls of few points each, for any number of a part's points. Boxes replace the hulls of disjoint parts.
 ///
 /// # Guarantee
 /// The hull of merged parts contains these parts. Rounded volumes only affect the choice.
-pub(super) fn merge_to_count(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
-    let mut merger = PartMerger::new(parts);
+///
+/// # Errors
+/// [`HullError`] if a point is out of range for exact predicates.
+pub(super) fn merge_to_count(parts: &[Vec<DVec3>], most: usize) -> Result<Vec<Hull>, HullError> {
+    let measured = parts.par_iter().map(|points| MeasuredPart::new(points));
+    let measured: Vec<MeasuredPart> = measured.collect::<Result<_, _>>()?;
+    let mut parts: BTreeMap<usize, MeasuredPart> = measured.into_iter().enumerate().collect();
+    // The volume that merging two parts adds, by the larger number and the smaller.
+    let cost = |parts: &BTreeMap<usize, MeasuredPart>, k: usize, l: usize| {
+        ([l, k], parts[&k].merge_cost(&parts[&l]))
+    };
+    let pairs = (0..parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
+    let mut costs: BTreeMap<[usize; 2], f64> = pairs.map(|(k, l)| cost(&parts, k, l)).collect();
     // Each step removes one part.
-    while merger.count > most && merger.merge_cheapest_pair() {}
-    let parts = merger.parts.into_iter().flatten();
-    parts.map(|part| part.points).collect()
-}
-
-struct PartMerger {
-    parts: Vec<Option<MeasuredPart>>,
-    count: usize,
-    /// The volume that merging the parts `k < l` adds, at `[l][k]`.
-    merge_costs: Vec<Vec<f64>>,
+    while parts.len() > most
+        && let Some((&[l, k], _)) = costs.iter().min_by(|p, q| p.1.total_cmp(q.1))
+        && let (Some(one), Some(other)) = (parts.remove(&k), parts.remove(&l))
+    {
+        costs.retain(|pair, _| !pair.iter().any(|end| [k, l].contains(end)));
+        let merged = MeasuredPart::new(&[one.hull.points, other.hull.points].concat())?;
+        parts.insert(k, merged);
+        let others = parts.keys().filter(|&&m| m != k);
+        costs.extend(others.map(|&m| cost(&parts, m.min(k), m.max(k))));
+    }
+    Ok(parts.into_values().map(|part| part.hull).collect())
 }
 
 struct MeasuredPart {
-    points: Vec<DVec3>,
-    /// A few of the part's points, whose hull is nearly as large as that of all.
+    hull: Hull,
+    /// A few of the hull's corners, whose hull is nearly as large.
     sample_points: Vec<DVec3>,
     /// The volume of the hull of the sample points.
     volume: f64,
     bounds: Bounds,
 }
 
-impl PartMerger {
-    fn new(parts: Vec<Vec<DVec3>>) -> Self {
-        let measured = |points: Vec<DVec3>| Some(MeasuredPart::new(points));
-        let parts: Vec<_> = parts.into_par_iter().map(measured).collect();
-        let mut merger = PartMerger {
-            count: parts.len(),
-            merge_costs: parts
-                .iter()
-                .enumerate()
-                .map(|(k, _)| vec![0.0; k])
-                .collect(),
-            parts,
-        };
-        for l in 0..merger.parts.len() {
-            for k in 0..l {
-                merger.merge_costs[l][k] = merger.pair_cost(k, l);
-            }
-        }
-        merger
-    }
-
-    fn pair_cost(&self, k: usize, l: usize) -> f64 {
-        match (&self.parts[k], &self.parts[l]) {
-            (Some(one), Some(other)) => one.merge_cost(other),
-            _ => f64::INFINITY,
-        }
-    }
-
-    /// Merges the pair with the least added volume. Returns whether there was one.
-    fn merge_cheapest_pair(&mut self) -> bool {
-        let live = |k: usize| self.parts[k].is_some();
-        let pairs = (0..self.parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
-        let best = pairs
-            .filter(|&(k, l)| live(k) && live(l))
-            .min_by(|&(k, l), &(m, n)| self.merge_costs[l][k].total_cmp(&self.merge_costs[n][m]));
-        let Some((k, l)) = best else {
-            return false;
-        };
-        if let (Some(mut one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
-            one.points.extend(other.points);
-            self.parts[k] = Some(MeasuredPart::new(one.points));
-        }
-        self.count -= 1;
-        for other in 0..self.parts.len() {
-            if other != k && self.parts[other].is_some() {
-                let (low, high) = (k.min(other), k.max(other));
-                self.merge_costs[high][low] = self.pair_cost(low, high);
-            }
-        }
-        true
-    }
-}
-
 impl MeasuredPart {
-    fn new(points: Vec<DVec3>) -> Self {
-        let points = remove_inner_points(points);
-        let sample_points = extreme_points(&points, COST_SAMPLE_POINTS);
-        MeasuredPart {
+    fn new(points: &[DVec3]) -> Result<Self, HullError> {
+        let hull = hull(points)?;
+        let sample_points = extreme_points(&hull.points, COST_SAMPLE_POINTS);
+        Ok(MeasuredPart {
             volume: volume(&sample_points).unwrap_or(0.0),
-            bounds: Bounds::enclosing(points.iter().copied()),
+            bounds: Bounds::enclosing(hull.points.iter().copied()),
             sample_points,
-            points,
-        }
+            hull,
+        })
     }
 
     /// Returns the volume that merging two parts adds. Boxes are larger than hulls, so that disjoint parts are merged
@@ -115,6 +77,34 @@ impl MeasuredPart {
     }
 }
 
+/// Returns the extreme points in `directions` evenly spread directions, without duplicates, in the order of the list.
+///
+/// The directions are spread evenly over the box of the points, stretched to a cube.
+fn extreme_points(points: &[DVec3], directions: u32) -> Vec<DVec3> {
+    let Bounds { lo, hi } = Bounds::enclosing(points.iter().copied());
+    let stretch = |x: f64| if x > 0.0 { x.recip() } else { 0.0 };
+    let scale = DVec3::from_array((hi - lo).to_array().map(stretch));
+    let mut found: Vec<usize> = (0..directions)
+        .filter_map(|k| {
+            let direction_of = scale * direction(k, directions);
+            let along = points.iter().map(|&p| direction_of.dot(p - lo)).enumerate();
+            let best = along.reduce(|best, next| if next.1 > best.1 { next } else { best });
+            best.map(|(place, _)| place)
+        })
+        .collect();
+    found.sort_unstable();
+    found.dedup();
+    found.into_iter().map(|place| points[place]).collect()
+}
+
+/// Returns the `k`-th of `count` evenly spread directions (golden-angle spiral).
+fn direction(k: u32, count: u32) -> DVec3 {
+    let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(count);
+    let radius = (1.0 - z * z).sqrt();
+    let angle = PI * (3.0 - 5.0_f64.sqrt()) * f64::from(k);
+    DVec3::new(radius * angle.cos(), radius * angle.sin(), z)
+}
+
 /// Returns the rounded volume of the hull of points; `None` if they are coplanar.
 fn volume(points: &[DVec3]) -> Option<f64> {
     let at = |v: u32| points[v as usize] - points[0];
@@ -122,3 +112,6 @@ fn volume(points: &[DVec3]) -> Option<f64> {
     let six = triangles.map(|[a, b, c]| at(a).dot(at(b).cross(at(c))));
     Some(six.sum::<f64>() / 6.0)
 }
+
+#[cfg(test)]
+mod tests;

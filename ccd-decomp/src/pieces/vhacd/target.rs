@@ -50,14 +50,6 @@ impl<'a> Target<'a> {
         faces.map(|face| face.map(|v| vertices[v as usize]))
     }
 
-    pub(super) fn corners(&self) -> impl Iterator<Item = DVec3> {
-        self.triangles().flatten()
-    }
-
-    pub(super) fn faces(&self) -> &[[u32; 3]] {
-        self.mesh.faces()
-    }
-
     pub(super) fn is_closed(&self) -> bool {
         self.closed
     }
@@ -145,16 +137,8 @@ impl<'a> Target<'a> {
         let sum: f64 = weights.iter().sum();
         let on = corners.iter().zip(weights);
         let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
-        let reached = on.length();
-        // NaN counts as infinitely far.
-        let far = |offset: f64| {
-            if offset.is_nan() {
-                f64::INFINITY
-            } else {
-                offset
-            }
-        };
-        (if found.is_nan() { 0.0 } else { found }, far(reached))
+        let known = |length: f64, otherwise: f64| if length.is_nan() { otherwise } else { length };
+        (known(found, 0.0), known(on.length(), f64::INFINITY))
     }
 
     /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the
@@ -177,13 +161,9 @@ impl<'a> Target<'a> {
 /// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.
 /// Returns `None` for other triangles.
 fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
-    let longer = |one: &(DVec3, DVec3, DVec3), other: &(DVec3, DVec3, DVec3)| {
-        let square = |of: &(DVec3, DVec3, DVec3)| of.0.distance_squared(of.1);
-        square(one).total_cmp(&square(other))
-    };
-    let (from, to, apex) = [(a, b, c), (b, c, a), (c, a, b)]
-        .into_iter()
-        .max_by(longer)?;
+    let square = |[from, to, _]: &[DVec3; 3]| from.distance_squared(*to);
+    let turned = [[a, b, c], [b, c, a], [c, a, b]].into_iter();
+    let [from, to, apex] = turned.max_by(|s, t| square(s).total_cmp(&square(t)))?;
     let side = to - from;
     let (square, area) = (side.length_squared(), side.cross(apex - from).length());
     // Written so that NaN is no needle.

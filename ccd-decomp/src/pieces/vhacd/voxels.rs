@@ -128,24 +128,6 @@ impl Voxels {
         })
     }
 
-    /// Calls `visit` with the index of every voxel that a triangle meets.
-    pub(super) fn for_each_voxel_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
-        let [xs, ys, zs] = self.voxel_ranges(triangle);
-        let (mut slab, mut beam, mut part) = (Vec::new(), Vec::new(), Vec::new());
-        for i in xs {
-            self.clip_to_layers(&triangle, 0, i..=i, &mut slab);
-            for j in ys.clone() {
-                self.clip_to_layers(&slab, 1, j..=j, &mut beam);
-                for k in zs.clone() {
-                    self.clip_to_layers(&beam, 2, k..=k, &mut part);
-                    if !part.is_empty() {
-                        visit(self.index([i, j, k]));
-                    }
-                }
-            }
-        }
-    }
-
     /// Cuts a triangle where part labels change. Calls `visit` with each label and a polygon, whose hull, enlarged by
     /// the margin, contains the triangle within the label's voxels.
     ///

@@ -2,10 +2,11 @@ use super::*;
 use crate::solid::bounding_solid;
 use crate::solid::manifold::Dihedral;
 use crate::test_meshes::{block, cubes, merged_meshes, placed, tetrahedron};
+use crate::tolerance::AUTO_WORK;
 use ccd_core::glam::DVec3;
 
 fn why(mesh: &TriangleMesh) -> Why {
-    let (parts, why) = choose(mesh, &Topology::of(mesh), None);
+    let (parts, why) = choose(mesh, &Topology::of(mesh), &Work::with_steps(AUTO_WORK));
     let fits = match why {
         Why::Convex => matches!(parts, Parts::Hull(_)),
         Why::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
@@ -115,8 +116,7 @@ fn slow_decompositions_stay_triangles() {
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
-        let (parts, why) =
-            choose_within_budget(&mesh, &Topology::of(&mesh), None, &Work::with_steps(steps));
+        let (parts, why) = choose(&mesh, &Topology::of(&mesh), &Work::with_steps(steps));
         assert_eq!(why, Why::TooLong);
         assert!(matches!(parts, Parts::Triangles));
     }

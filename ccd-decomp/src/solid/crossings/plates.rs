@@ -114,7 +114,7 @@ impl<'a, 'm> Plates<'a, 'm> {
                 return false;
             }
         }
-        self.bounds.all_meeting(region.bounds(), |number| {
+        self.bounds.all_meeting(&region.bounds, |number| {
             if number == own {
                 return true;
             }

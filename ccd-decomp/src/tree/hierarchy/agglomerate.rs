@@ -5,40 +5,19 @@ use super::nodes::{Below, Cuboid, Node};
 use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
-/// The scratch memory of agglomerations, for reuse.
-#[derive(Debug, Default)]
-pub(super) struct Workspace {
-    leaves: Vec<Node>,
-    order: Vec<(u64, u64)>,
-    row: Vec<Node>,
-    next: Vec<Node>,
-    prices: Vec<[f32; SEARCH_DISTANCE]>,
-    best: Vec<usize>,
-    tree: Vec<Node>,
-}
-
 /// Builds a tree over leaves. The root comes first, then pairs of siblings, parents before children.
 ///
 /// # Complexity
 /// O(n log n) if a constant share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as for boxes
 /// with a common centre.
-pub(super) fn agglomerate(
-    leaves: impl Iterator<Item = Node>,
-    workspace: &mut Workspace,
-) -> &[Node] {
-    let Workspace {
-        row, next, tree, ..
-    } = workspace;
-    workspace.leaves.clear();
-    workspace.leaves.extend(leaves);
-    let Some(&first) = workspace.leaves.first() else {
-        return &[];
+pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
+    let Some(&first) = leaves.first() else {
+        return Vec::new();
     };
-    tree.clear();
-    tree.resize(2 * workspace.leaves.len() - 1, first);
+    let mut tree = vec![first; 2 * leaves.len() - 1];
     // The tree is filled from its end.
     let mut free = tree.len();
-    sort_along_curve(&workspace.leaves, &mut workspace.order, row);
+    let mut row = sorted_along_curve(leaves);
     for pass in 0.. {
         if row.len() == 1 {
             break;
@@ -48,9 +27,8 @@ pub(super) fn agglomerate(
         } else {
             SEARCH_DISTANCE
         };
-        let best = &mut workspace.best;
-        best_neighbours(row, reach, &mut workspace.prices, best);
-        next.clear();
+        let best = best_neighbours(&row, reach);
+        let mut next = Vec::with_capacity(row.len());
         for (index, &node) in row.iter().enumerate() {
             let other = best[index];
             if best[other] != index {
@@ -64,22 +42,17 @@ pub(super) fn agglomerate(
                 });
             }
         }
-        std::mem::swap(row, next);
+        row = next;
     }
     tree[0] = row[0];
     tree
 }
 
 /// Finds the best neighbour of every node in a row: the one with the smallest joint box, the last of equals.
-fn best_neighbours(
-    row: &[Node],
-    reach: usize,
-    prices: &mut Vec<[f32; SEARCH_DISTANCE]>,
-    best: &mut Vec<usize>,
-) {
-    best.clear();
-    // The costs of pairing a node with later ones; old values are overwritten before use.
-    prices.resize(prices.len().max(row.len()), [0.0; SEARCH_DISTANCE]);
+fn best_neighbours(row: &[Node], reach: usize) -> Vec<usize> {
+    let mut best = Vec::with_capacity(row.len());
+    // The costs of pairing a node with later ones.
+    let mut prices = vec![[0.0; SEARCH_DISTANCE]; row.len()];
     for index in 0..row.len() {
         let (mut least, mut other) = (f32::INFINITY, index);
         for before in index.saturating_sub(reach)..index {
@@ -97,19 +70,21 @@ fn best_neighbours(
         }
         best.push(other);
     }
+    best
 }
 
-/// Sorts leaves by the Morton codes of their box centres.
-fn sort_along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>) {
+/// Returns leaves sorted by the Morton codes of their box centres.
+fn sorted_along_curve(leaves: &[Node]) -> Vec<Node> {
     let all = leaves
         .iter()
         .fold(Cuboid::EMPTY, |all, leaf| all.union(leaf.cuboid));
-    order.clear();
-    let codes = leaves.iter().zip(0..);
-    order.extend(codes.map(|(leaf, index)| (morton(all.relative_position(leaf.cuboid)), index)));
+    let code = |leaf: &Node| morton(all.relative_position(leaf.cuboid));
+    let mut order: Vec<(u64, u64)> = leaves.iter().map(code).zip(0..).collect();
     order.sort_unstable_by_key(|&(code, _)| code);
-    row.clear();
-    row.extend(order.iter().map(|&(_, index)| leaves[index as usize]));
+    order
+        .iter()
+        .map(|&(_, leaf)| leaves[leaf as usize])
+        .collect()
 }
 
 /// Returns the Morton code of a point: the interleaved 21 leading bits of its coordinates in the unit interval.

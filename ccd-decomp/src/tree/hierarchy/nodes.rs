@@ -38,15 +38,6 @@ impl Cuboid {
         self.hi - self.lo
     }
 
-    pub(super) fn longest_axis(self) -> usize {
-        let size = self.extent();
-        match (size.x < size.y, size.x < size.z, size.y < size.z) {
-            (true, _, false) => 1,
-            (true, _, true) | (false, true, _) => 2,
-            (false, false, _) => 0,
-        }
-    }
-
     /// Returns half of the surface area, the cost of a node: it is proportional to the probability of a visit.
     pub(super) fn half_area(self) -> f32 {
         let size = self.extent();
@@ -73,15 +64,6 @@ pub(super) enum Below {
     Piece(u32),
     /// An inner node, by the index of its first child. The second child follows it.
     Children(u32),
-}
-
-impl Below {
-    /// Returns the index of the leaf's piece, or of the first child.
-    pub(super) fn index(self) -> u32 {
-        match self {
-            Below::Piece(index) | Below::Children(index) => index,
-        }
-    }
 }
 
 impl Node {

@@ -3,7 +3,6 @@ use crate::MeshFault;
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::Allowance;
 use crate::mesh::polygons::Polygons;
-use crate::mesh::unit::Conversion;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
 
@@ -53,7 +52,7 @@ fn members_are_placed_in_order() {
     else {
         panic!("there is no circle");
     };
-    let all = assembly.expand(0..2, Conversion::NONE).unwrap();
+    let all = assembly.expand(0..2).unwrap();
     let firsts: Vec<f64> = all.vertices.iter().step_by(3).map(|v| v.x).collect();
     assert_eq!(firsts, [10.0, 21.0, 22.0, 0.0]);
     assert_eq!(all.corners, (0..12).collect::<Vec<i64>>());
@@ -108,7 +107,7 @@ fn doubling_is_refused_before_it_is_done() {
         else {
             panic!("there is no circle");
         };
-        let fault = assembly.expand(0..1, Conversion::NONE).unwrap_err();
+        let fault = assembly.expand(0..1).unwrap_err();
         assert!(matches!(fault, MeshFault::Repeats { .. }), "{fault}");
     }
 }

@@ -10,9 +10,9 @@ use ccd_core::order::greater;
 
 /// Reads accessors, and charges their elements to the limit on what the file may expand to.
 pub(super) struct Accessors<'a> {
-    root: &'a Root,
-    buffers: &'a Buffers<'a>,
-    allowance: Allowance,
+    pub(super) root: &'a Root,
+    pub(super) buffers: &'a Buffers<'a>,
+    pub(super) allowance: Allowance,
 }
 
 /// The component types of glTF accessors.
@@ -26,23 +26,7 @@ enum Component {
     F32,
 }
 
-/// The elements of an accessor in memory, at a constant stride.
-struct StridedElements<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-    size: usize,
-    count: usize,
-}
-
 impl<'a> Accessors<'a> {
-    pub(super) fn new(root: &'a Root, buffers: &'a Buffers<'a>, allowance: Allowance) -> Self {
-        Accessors {
-            root,
-            buffers,
-            allowance,
-        }
-    }
-
     /// Returns whether an accessor has uncompressed data, not only a compression extension.
     pub(super) fn has_bytes(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
@@ -98,66 +82,55 @@ impl<'a> Accessors<'a> {
         zero: T,
         read: impl Fn(&[u8]) -> T,
     ) -> Result<Vec<T>, MeshFault> {
-        let rows = self.strided_elements(about, size)?;
+        let rows = match about.buffer_view {
+            Some(view) => {
+                let stride = self.buffers.stride(view);
+                let layout = (about.count, size);
+                Some(self.rows(view, about.byte_offset, layout, stride)?)
+            }
+            None if about.sparse.is_some() => None,
+            None => return Err(MeshFault::malformed("has no buffer view")),
+        };
         self.allowance.spend(price)?;
         let mut elements: Vec<T> = match rows {
-            Some(rows) => rows.iter().map(&read).collect(),
-            // The allowance bounds the number.
+            Some(rows) => rows.map(&read).collect(),
+            // All except the sparse elements are zero. The allowance bounds the number.
             None => vec![zero; about.count as usize],
         };
         if let Some(sparse) = &about.sparse {
             let places = self.sparse_indices(sparse, elements.len())?;
-            let values = self.sparse_values(sparse, size)?;
-            for (place, row) in places.into_iter().zip(values.iter()) {
+            let values = &sparse.values;
+            let layout = (sparse.count, size);
+            let values = self.rows(values.buffer_view, values.byte_offset, layout, None)?;
+            for (place, row) in places.into_iter().zip(values) {
                 elements[place] = read(row);
             }
         }
         Ok(elements)
     }
 
-    /// Returns the elements of an accessor; `None` if all except the sparse elements are zero.
-    fn strided_elements(
-        &self,
-        about: &schema::Accessor,
-        size: usize,
-    ) -> Result<Option<StridedElements<'a>>, MeshFault> {
-        match (about.buffer_view, &about.sparse) {
-            (Some(view), _) => {
-                let stride = self.buffers.stride(view);
-                self.strided_elements_at(view, about.byte_offset, (about.count, size), stride)
-                    .map(Some)
-            }
-            (None, Some(_)) => Ok(None),
-            (None, None) => Err(MeshFault::syntax(None, "has no buffer view".into())),
-        }
-    }
-
-    fn strided_elements_at(
+    /// Returns the bytes of each of `count` elements of `size` bytes, at a constant stride.
+    fn rows(
         &self,
         view: usize,
         offset: u64,
         (count, size): (u64, usize),
         stride: Option<u64>,
-    ) -> Result<StridedElements<'a>, MeshFault> {
+    ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, MeshFault> {
         let bytes = self.buffers.view(view, offset)?;
         let stride = stride.unwrap_or(size as u64);
         if stride < size as u64 {
             let problem = format!("has elements of {size} bytes every {stride} bytes");
-            return Err(MeshFault::syntax(None, problem));
+            return Err(MeshFault::malformed(problem));
         }
         let before_last = stride.checked_mul(count.saturating_sub(1));
         let end = before_last.and_then(|before| before.checked_add(size as u64));
         if count > 0 && end.is_none_or(|end| end > bytes.len() as u64) {
             let missing = format!("all {count} elements of {size} bytes in buffer view {view}");
-            return Err(MeshFault::Truncated { missing });
+            return Err(MeshFault::truncated(missing));
         }
         // All elements are within the bytes.
-        Ok(StridedElements {
-            bytes,
-            stride: stride as usize,
-            size,
-            count: count as usize,
-        })
+        Ok((0..count as usize).map(move |k| &bytes[k * stride as usize..][..size]))
     }
 
     /// Reads the positions at which a sparse accessor replaces elements of a list of a given length.
@@ -165,26 +138,15 @@ impl<'a> Accessors<'a> {
         let about = &sparse.indices;
         let component = Component::index_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
-        let rows = self.strided_elements_at(about.buffer_view, about.byte_offset, layout, None)?;
+        let rows = self.rows(about.buffer_view, about.byte_offset, layout, None)?;
         self.allowance.spend(cost(0, sparse.count))?;
         let checked = |row| match component.to_u32(row) as usize {
             number if number < length => Ok(number),
-            number => {
-                let problem = format!("replaces element {number} of {length}");
-                Err(MeshFault::syntax(None, problem))
-            }
+            number => Err(MeshFault::malformed(format!(
+                "replaces element {number} of {length}"
+            ))),
         };
-        rows.iter().map(checked).collect()
-    }
-
-    fn sparse_values(
-        &self,
-        sparse: &Sparse,
-        size: usize,
-    ) -> Result<StridedElements<'a>, MeshFault> {
-        let about = &sparse.values;
-        let layout = (sparse.count, size);
-        self.strided_elements_at(about.buffer_view, about.byte_offset, layout, None)
+        rows.map(checked).collect()
     }
 }
 
@@ -193,19 +155,7 @@ fn check_kind(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
         Ok(())
     } else {
         let problem = format!("is of type {:?} instead of {kind}", about.kind);
-        Err(MeshFault::syntax(None, problem))
-    }
-}
-
-impl<'a> StridedElements<'a> {
-    fn iter(&self) -> impl Iterator<Item = &'a [u8]> {
-        let StridedElements {
-            bytes,
-            stride,
-            size,
-            count,
-        } = *self;
-        (0..count).map(move |k| &bytes[k * stride..][..size])
+        Err(MeshFault::malformed(problem))
     }
 }
 
@@ -220,7 +170,7 @@ impl Component {
             5126 => Component::F32,
             _ => {
                 let problem = format!("has components of type {number}, which there is not");
-                return Err(MeshFault::syntax(None, problem));
+                return Err(MeshFault::malformed(problem));
             }
         })
     }
@@ -229,10 +179,9 @@ impl Component {
     fn index_from_code(number: u32) -> Result<Self, MeshFault> {
         match Component::from_code(number)? {
             unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
-            _ => {
-                let problem = format!("has components of type {number} instead of whole numbers");
-                Err(MeshFault::syntax(None, problem))
-            }
+            _ => Err(MeshFault::malformed(format!(
+                "has components of type {number} instead of whole numbers"
+            ))),
         }
     }
 

@@ -36,14 +36,14 @@ impl<'a> Buffers<'a> {
     /// Returns the bytes of a buffer view from `offset` on.
     pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
-        if about.extensions.meshopt.is_some() && self.is_empty(about.buffer) {
+        let buffer = self.bytes.get(about.buffer);
+        if about.extensions.meshopt.is_some() && buffer.is_none_or(Option::is_none) {
             return Err(extensions::meshopt_fault());
         }
         let found = || {
-            let buffer = element(&self.bytes, "buffer", about.buffer)?;
-            let Some(buffer) = buffer else {
+            let Some(buffer) = element(&self.bytes, "buffer", about.buffer)? else {
                 let problem = format!("buffer {} has neither bytes nor a file", about.buffer);
-                return Err(MeshFault::syntax(None, problem));
+                return Err(MeshFault::malformed(problem));
             };
             let start = about.byte_offset.checked_add(offset);
             let end = about.byte_offset.checked_add(about.byte_length);
@@ -54,8 +54,9 @@ impl<'a> Buffers<'a> {
             let within = range.and_then(|(start, end)| buffer.get(start as usize..end as usize));
             within.ok_or_else(|| {
                 let (bytes, buffer) = (buffer.len(), about.buffer);
-                let problem = format!("reaches beyond buffer {buffer}, which has {bytes} bytes");
-                MeshFault::syntax(None, problem)
+                MeshFault::malformed(format!(
+                    "reaches beyond buffer {buffer}, which has {bytes} bytes"
+                ))
             })
         };
         found().map_err(|fault: MeshFault| fault.at(element_name("buffer view", view, None)))
@@ -64,10 +65,6 @@ impl<'a> Buffers<'a> {
     /// Returns the stride of a buffer view in bytes, if the view states one.
     pub(super) fn stride(&self, view: usize) -> Option<u64> {
         self.root.buffer_views.get(view)?.byte_stride
-    }
-
-    fn is_empty(&self, buffer: usize) -> bool {
-        matches!(self.bytes.get(buffer), None | Some(None))
     }
 }
 
@@ -91,9 +88,8 @@ fn content<'a>(
         },
     };
     if (bytes.len() as u64) < buffer.byte_length {
-        Err(MeshFault::Truncated {
-            missing: format!("byte {} of {}", bytes.len(), buffer.byte_length),
-        })
+        let missing = format!("byte {} of {}", bytes.len(), buffer.byte_length);
+        Err(MeshFault::truncated(missing))
     } else {
         Ok(Some(bytes))
     }
@@ -109,17 +105,13 @@ fn file_needed(name: String) -> MeshFault {
 
 /// Returns the reference to the file of a buffer; `None` for an embedded buffer.
 pub(super) fn reference(buffer: &Buffer) -> Result<Option<Reference>, MeshFault> {
-    let outside = buffer
-        .uri
-        .as_ref()
-        .filter(|uri| data_uri_payload(uri).is_none());
-    let reference = outside.map(|uri| {
-        Ok(Reference {
+    match &buffer.uri {
+        Some(uri) if data_uri_payload(uri).is_none() => Ok(Some(Reference {
             name: percent_decoded(uri)?,
             bytes: buffer.byte_length,
-        })
-    });
-    reference.transpose()
+        })),
+        _ => Ok(None),
+    }
 }
 
 /// Returns the encoded data of a data URI; `None` for any other URI.
@@ -130,7 +122,7 @@ fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
     };
     Some(match rest.split_once(',') {
         Some((kind, data)) if kind.to_ascii_lowercase().ends_with(";base64") => Ok(data),
-        _ => Err(MeshFault::syntax(None, "its data is not in base64".into())),
+        _ => Err(MeshFault::malformed("its data is not in base64")),
     })
 }
 
@@ -141,16 +133,14 @@ fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
         .with_decode_allow_trailing_bits(true);
     const ENGINE: GeneralPurpose = GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT);
     let decoded = ENGINE.decode(data);
-    decoded.map_err(|error| MeshFault::syntax(None, format!("its base64 is not valid: {error}")))
+    decoded.map_err(|error| MeshFault::malformed(format!("its base64 is not valid: {error}")))
 }
 
 /// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
 fn percent_decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
-        Err(MeshFault::syntax(
-            None,
-            format!("its URI {:?} {what}", Quote(uri)),
-        ))
+        let problem = format!("its URI {:?} {what}", Quote(uri));
+        Err(MeshFault::malformed(problem))
     };
     // This also refuses drive letters.
     if uri.contains(':') {

@@ -29,47 +29,37 @@ impl<'a> Container<'a> {
         };
         let version = read_u32(&mut rest)?;
         if version != VERSION {
-            return Err(MeshFault::Unsupported {
-                what: format!("binary glTF of version {version}"),
-                instead: "glTF 2.0",
-            });
+            return Err(MeshFault::unsupported(
+                format!("binary glTF of version {version}"),
+                "glTF 2.0",
+            ));
         }
         let length = read_u32(&mut rest)? as usize;
         if bytes.len() < length {
             let missing = format!("byte {} of the {length} that it announces", bytes.len());
-            return Err(MeshFault::Truncated { missing });
+            return Err(MeshFault::truncated(missing));
         }
-        let Chunk { kind, content } = read_chunk(&mut rest)?;
+        let (kind, json) = read_chunk(&mut rest)?;
         if kind != *b"JSON" {
-            return Err(MeshFault::syntax(
-                None,
-                "its first chunk is not JSON".into(),
-            ));
+            return Err(MeshFault::malformed("its first chunk is not JSON"));
         }
-        let mut container = Container {
-            json: content,
-            binary: None,
-        };
-        if !rest.is_empty() {
-            let Chunk { kind, content } = read_chunk(&mut rest)?;
-            // Other chunks are of extensions.
-            container.binary = (kind == *b"BIN\0").then_some(content);
-        }
-        Ok(container)
+        let next = (!rest.is_empty())
+            .then(|| read_chunk(&mut rest))
+            .transpose()?;
+        // Other chunks are of extensions.
+        let binary = next.filter(|(kind, _)| kind == b"BIN\0");
+        let binary = binary.map(|(_, content)| content);
+        Ok(Container { json, binary })
     }
 }
 
-struct Chunk<'a> {
-    kind: [u8; 4],
-    content: &'a [u8],
-}
-
-fn read_chunk<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, MeshFault> {
+/// Reads a chunk: its kind and its content.
+fn read_chunk<'a>(rest: &mut &'a [u8]) -> Result<([u8; 4], &'a [u8]), MeshFault> {
     let length = read_u32(rest)? as usize;
     let kind = read_four_bytes(rest)?;
     let (content, after) = rest.split_at_checked(length).ok_or_else(truncated)?;
     *rest = after;
-    Ok(Chunk { kind, content })
+    Ok((kind, content))
 }
 
 fn read_u32(rest: &mut &[u8]) -> Result<u32, MeshFault> {
@@ -83,7 +73,5 @@ fn read_four_bytes(rest: &mut &[u8]) -> Result<[u8; 4], MeshFault> {
 }
 
 fn truncated() -> MeshFault {
-    MeshFault::Truncated {
-        missing: "a chunk".into(),
-    }
+    MeshFault::truncated("a chunk")
 }

@@ -35,30 +35,23 @@ pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
         None => Ok(()),
         Some(DRACO) => Err(draco_fault()),
         Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt_fault()),
-        Some(name) => Err(MeshFault::Unsupported {
-            what: format!("what the extension {:?} says", Quote(name)),
-            instead: "glTF without this extension",
-        }),
+        Some(name) => Err(MeshFault::unsupported(
+            format!("what the extension {:?} says", Quote(name)),
+            "glTF without this extension",
+        )),
     }
 }
 
 pub(super) fn draco_fault() -> MeshFault {
-    MeshFault::Unsupported {
-        what: format!("meshes compressed by Draco ({DRACO})"),
-        instead: "glTF without compression",
-    }
+    MeshFault::unsupported(
+        format!("meshes compressed by Draco ({DRACO})"),
+        "glTF without compression",
+    )
 }
 
 pub(super) fn meshopt_fault() -> MeshFault {
-    MeshFault::Unsupported {
-        what: "buffers compressed by meshopt (EXT_meshopt_compression)".into(),
-        instead: "glTF without compression",
-    }
-}
-
-pub(super) fn instancing_fault() -> MeshFault {
-    MeshFault::Unsupported {
-        what: "instances in a buffer (EXT_mesh_gpu_instancing)".into(),
-        instead: "glTF with a node for each instance",
-    }
+    MeshFault::unsupported(
+        "buffers compressed by meshopt (EXT_meshopt_compression)",
+        "glTF without compression",
+    )
 }

@@ -1,8 +1,8 @@
 //! Traverses the nodes of a glTF scene, and collects the parts that they place.
 
 use super::accessor::Accessors;
-use super::schema::{Node, Root};
-use super::{element, extensions, primitive, transform};
+use super::schema::Root;
+use super::{element, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Object, Part, PlacedObject};
 use crate::mesh::error::{MeshFault, element_name};
@@ -10,6 +10,7 @@ use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
 /// The meshes of a glTF scene, and the parts that place them.
+#[derive(Default)]
 pub(super) struct Scene {
     pub(super) objects: Vec<Object>,
     pub(super) parts: Vec<Part>,
@@ -19,13 +20,20 @@ pub(super) struct Scene {
 /// Reads the default scene of the file, or else the first one. A file without scenes gives all nodes; one without
 /// nodes, all meshes.
 pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
-    let mut walk = Walk::new(root, accessors);
+    let mut walk = Walk {
+        root,
+        accessors,
+        object_of_mesh: HashMap::new(),
+        visited: vec![false; root.nodes.len()],
+        scene: Scene::default(),
+    };
     match (root.scene, root.scenes.first()) {
         (Some(scene), _) => {
             walk.visit_descendants(&element(&root.scenes, "scene", scene)?.nodes)?;
         }
         (None, Some(first)) => walk.visit_descendants(&first.nodes)?,
-        (None, None) if root.nodes.is_empty() => walk.visit_meshes()?,
+        (None, None) if root.nodes.is_empty() => (0..root.meshes.len())
+            .try_for_each(|mesh| walk.place(mesh, None, AffineMap::IDENTITY))?,
         (None, None) => walk.visit_all()?,
     }
     walk.add_remarks();
@@ -42,21 +50,7 @@ struct Walk<'a> {
     scene: Scene,
 }
 
-impl<'a> Walk<'a> {
-    fn new(root: &'a Root, accessors: Accessors<'a>) -> Self {
-        Walk {
-            root,
-            accessors,
-            object_of_mesh: HashMap::new(),
-            visited: vec![false; root.nodes.len()],
-            scene: Scene {
-                objects: Vec::new(),
-                parts: Vec::new(),
-                remarks: Remarks::default(),
-            },
-        }
-    }
-
+impl Walk<'_> {
     /// Visits the nodes `tops` and all their descendants, parents first.
     fn visit_descendants(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
@@ -66,15 +60,25 @@ impl<'a> Walk<'a> {
             let place = || element_name("node", number, node.name.as_deref());
             // Nodes form a tree. The check also ends at cycles.
             if std::mem::replace(&mut self.visited[number], true) {
-                let problem = "is below itself, or below two others".into();
-                return Err(MeshFault::syntax(None, problem).at(place()));
+                return Err(
+                    MeshFault::malformed("is below itself, or below two others").at(place())
+                );
             }
             let own = transform::node_transform(node).map_err(|fault| fault.at(place()))?;
             let map = above.after(&own);
             if own.collapses_to_point() {
                 continue;
             }
-            self.add(node, map).map_err(|fault| fault.at(place()))?;
+            if let Some(mesh) = node.mesh {
+                let placed = match node.extensions.instancing {
+                    Some(_) => Err(MeshFault::unsupported(
+                        "instances in a buffer (EXT_mesh_gpu_instancing)",
+                        "glTF with a node for each instance",
+                    )),
+                    None => self.place(mesh, node.name.clone(), map),
+                };
+                placed.map_err(|fault| fault.at(place()))?;
+            }
             waiting.extend(node.children.iter().rev().map(|&child| (child, map)));
         }
         Ok(())
@@ -91,14 +95,9 @@ impl<'a> Walk<'a> {
             .filter(|&node| !is_below[node])
             .collect();
         if tops.is_empty() {
-            let problem = "is below itself".into();
-            return Err(MeshFault::syntax(None, problem).at(element_name("node", 0, None)));
+            return Err(MeshFault::malformed("is below itself").at(element_name("node", 0, None)));
         }
         self.visit_descendants(&tops)
-    }
-
-    fn visit_meshes(&mut self) -> Result<(), MeshFault> {
-        (0..self.root.meshes.len()).try_for_each(|mesh| self.place(mesh, None, AffineMap::IDENTITY))
     }
 
     /// Adds remarks about content that was skipped or is drawn differently.
@@ -131,20 +130,8 @@ impl<'a> Walk<'a> {
                 changing.count(),
             ),
         ] {
-            if count > 0 {
-                self.scene.remarks.add(what, count, None);
-            }
+            self.scene.remarks.add(what, count, None);
         }
-    }
-
-    fn add(&mut self, node: &Node, map: AffineMap) -> Result<(), MeshFault> {
-        let Some(mesh) = node.mesh else {
-            return Ok(());
-        };
-        if node.extensions.instancing.is_some() {
-            return Err(extensions::instancing_fault());
-        }
-        self.place(mesh, node.name.clone(), map)
     }
 
     fn place(

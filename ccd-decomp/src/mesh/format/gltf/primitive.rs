@@ -26,25 +26,20 @@ struct Vertices {
     count: usize,
 }
 
-/// The topology of a primitive: how its indices form triangles.
-#[derive(Clone, Copy)]
-enum Mode {
-    Triangles,
-    Strip,
-    Fan,
-}
-
 fn add(
     primitive: &Primitive,
     shape: &mut Polygons,
     known: &mut HashMap<usize, Vertices>,
     accessors: &mut Accessors<'_>,
 ) -> Result<(), MeshFault> {
-    let Some(mode) = Mode::from_code(primitive.mode)? else {
-        return Ok(());
-    };
+    let mode = primitive.mode.unwrap_or(TRIANGLES);
+    if mode > FAN {
+        let problem = format!("is of mode {mode}, which there is not");
+        return Err(MeshFault::malformed(problem));
+    }
     // A primitive without positions draws nothing.
-    let Some(position) = primitive.attributes.position else {
+    let position = primitive.attributes.position;
+    let Some(position) = position.filter(|_| !primitive.is_points_or_lines()) else {
         return Ok(());
     };
     if primitive.extensions.draco.is_some() && !accessors.has_bytes(position) {
@@ -68,10 +63,14 @@ fn add(
         Some(indices) => accessors.indices(indices)?,
         None => (0..vertices.count as u32).collect(),
     };
-    mode.check(corners.len())?;
+    if mode == TRIANGLES && !corners.len().is_multiple_of(3) {
+        let count = corners.len();
+        let problem = format!("has {count} corners, which make no whole triangles");
+        return Err(MeshFault::malformed(problem));
+    }
     // A strip has a triangle for almost each corner.
     accessors.spend_corners(3 * corners.len())?;
-    for (face, triangle) in mode.triangles(&corners).enumerate() {
+    for (face, triangle) in triangles(mode, &corners).enumerate() {
         if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertices.count) {
             return Err(MeshFault::NoSuchVertex {
                 face,
@@ -82,8 +81,7 @@ fn add(
             });
         }
         let corners = triangle.map(|v| vertices.first as i64 + i64::from(v));
-        shape.corners.extend(corners);
-        shape.ends.push(shape.corners.len());
+        shape.push_face(corners);
     }
     Ok(())
 }
@@ -96,44 +94,23 @@ fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
     }
 }
 
-impl Mode {
-    /// Returns the mode for a numeric code of glTF; `None` for points and lines.
-    fn from_code(number: Option<u32>) -> Result<Option<Self>, MeshFault> {
-        match number {
-            Some(0..=3) => Ok(None),
-            None | Some(4) => Ok(Some(Mode::Triangles)),
-            Some(5) => Ok(Some(Mode::Strip)),
-            Some(6) => Ok(Some(Mode::Fan)),
-            Some(mode) => {
-                let problem = format!("is of mode {mode}, which there is not");
-                Err(MeshFault::syntax(None, problem))
-            }
-        }
-    }
+/// The codes of glTF for primitives of triangles. Smaller ones are of points and lines.
+const TRIANGLES: u32 = 4;
+const STRIP: u32 = 5;
+const FAN: u32 = 6;
 
-    fn check(self, corners: usize) -> Result<(), MeshFault> {
-        match self {
-            Mode::Triangles if !corners.is_multiple_of(3) => {
-                let problem = format!("has {corners} corners, which make no whole triangles");
-                Err(MeshFault::syntax(None, problem))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Returns the triangles in a common orientation: every second triangle of a strip is reversed.
-    fn triangles(self, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
-        let count = match self {
-            Mode::Triangles => corners.len() / 3,
-            Mode::Strip | Mode::Fan => corners.len().saturating_sub(2),
+/// Returns the triangles in a common orientation: every second triangle of a strip is reversed.
+fn triangles(mode: u32, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    let count = match mode {
+        TRIANGLES => corners.len() / 3,
+        _ => corners.len().saturating_sub(2),
+    };
+    (0..count).map(move |k| {
+        let at = match mode {
+            TRIANGLES => [3 * k, 3 * k + 1, 3 * k + 2],
+            STRIP => [k, k + 1 + k % 2, k + 2 - k % 2],
+            _ => [k + 1, k + 2, 0],
         };
-        (0..count).map(move |k| {
-            let at = match self {
-                Mode::Triangles => [3 * k, 3 * k + 1, 3 * k + 2],
-                Mode::Strip => [k, k + 1 + k % 2, k + 2 - k % 2],
-                Mode::Fan => [k + 1, k + 2, 0],
-            };
-            at.map(|corner| corners[corner])
-        })
-    }
+        at.map(|corner| corners[corner])
+    })
 }

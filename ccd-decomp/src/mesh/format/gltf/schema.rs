@@ -28,13 +28,6 @@ pub(super) struct Root {
     pub(super) buffers: Vec<Buffer>,
 }
 
-/// The JSON of a glTF, reduced to its list of buffers.
-#[derive(Deserialize)]
-pub(super) struct BufferList {
-    #[serde(default)]
-    pub(super) buffers: Vec<Buffer>,
-}
-
 #[derive(Deserialize)]
 struct Asset {
     version: String,
@@ -185,31 +178,20 @@ impl Primitive {
 
 impl Root {
     pub(super) fn read(json: &[u8]) -> Result<Self, MeshFault> {
-        let root: Root = read(json)?;
+        let root: Result<Root, _> = serde_json::from_slice(json);
+        let root = root.map_err(|error| {
+            if error.is_eof() {
+                MeshFault::truncated("its JSON")
+            } else {
+                MeshFault::malformed(format!("its JSON is not that of a glTF: {error}"))
+            }
+        })?;
         match root.asset.version.split('.').next() {
             Some("2") => Ok(root),
-            _ => Err(MeshFault::Unsupported {
-                what: format!("glTF of version {:?}", root.asset.version),
-                instead: "glTF 2.0",
-            }),
+            _ => Err(MeshFault::unsupported(
+                format!("glTF of version {:?}", root.asset.version),
+                "glTF 2.0",
+            )),
         }
     }
-}
-
-impl BufferList {
-    pub(super) fn read(json: &[u8]) -> Result<Self, MeshFault> {
-        read(json)
-    }
-}
-
-fn read<'a, T: Deserialize<'a>>(json: &'a [u8]) -> Result<T, MeshFault> {
-    serde_json::from_slice(json).map_err(|error| {
-        if error.is_eof() {
-            MeshFault::Truncated {
-                missing: "its JSON".into(),
-            }
-        } else {
-            MeshFault::syntax(None, format!("its JSON is not that of a glTF: {error}"))
-        }
-    })
 }

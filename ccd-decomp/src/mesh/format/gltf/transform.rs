@@ -16,7 +16,7 @@ pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
         Ok(DAffine3::from_mat4(matrix).into())
     } else {
         let problem = "has a matrix that is not affine: its last row is not 0 0 0 1";
-        Err(MeshFault::syntax(None, problem.into()))
+        Err(MeshFault::malformed(problem))
     }
 }
 
@@ -26,10 +26,9 @@ fn compose(node: &Node) -> Result<AffineMap, MeshFault> {
     let rotation = node.rotation.unwrap_or(DQuat::IDENTITY.to_array());
     let translation = node.translation.unwrap_or([0.0; 3]);
     let pose = Pose::new(translation, rotation).map_err(|error| {
-        MeshFault::syntax(
-            None,
-            format!("has a rotation or translation that is none: {error}"),
-        )
+        MeshFault::malformed(format!(
+            "has a rotation or translation that is none: {error}"
+        ))
     })?;
     let matrix = DMat3::from_quat(pose.rotation()) * DMat3::from_diagonal(scale);
     Ok(DAffine3::from_mat3_translation(matrix, pose.translation()).into())

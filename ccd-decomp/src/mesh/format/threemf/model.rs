@@ -1,7 +1,7 @@
 //! Reads one model file of a 3MF: its objects and build items.
 
 use super::transform;
-use super::xml::{Element, Origin, Xml, XmlEvent};
+use super::xml::{Element, Xml, XmlEvent};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::polygons::Polygons;
@@ -15,6 +15,8 @@ use std::str::FromStr;
 /// The content of a model file.
 #[derive(Debug, Default)]
 pub(super) struct Model {
+    /// The path of the model in its package.
+    pub(super) path: String,
     pub(super) unit: Option<Unit>,
     pub(super) objects: Vec<ModelObject>,
     pub(super) items: Vec<ObjectRef>,
@@ -26,16 +28,11 @@ pub(super) struct ModelObject {
     pub(super) id: u32,
     /// The object's name or, without a name, its part number.
     pub(super) name: Option<String>,
-    pub(super) shape: Shape,
-}
-
-/// The shape of an object.
-#[derive(Debug)]
-pub(super) enum Shape {
-    Mesh(Polygons),
-    Components(Vec<ObjectRef>),
-    /// A shape that an extension defines, by the name of its element.
-    Foreign(String),
+    /// The triangles of a mesh.
+    pub(super) mesh: Polygons,
+    pub(super) components: Vec<ObjectRef>,
+    /// The name of the element that defines the shape, if it is neither a mesh nor components.
+    pub(super) foreign: Option<String>,
 }
 
 /// A reference from a component or build item to an object.
@@ -103,14 +100,8 @@ pub(super) fn object_name(path: Option<&str>, id: u32, name: Option<&str>) -> St
 impl Model {
     /// Returns the paths of the other models that this model refers to.
     pub(super) fn referenced_models(&self) -> BTreeSet<String> {
-        let components = self
-            .objects
-            .iter()
-            .filter_map(|object| match &object.shape {
-                Shape::Components(components) => Some(components),
-                _ => None,
-            });
-        let uses = components.flatten().chain(&self.items);
+        let components = self.objects.iter().flat_map(|object| &object.components);
+        let uses = components.chain(&self.items);
         uses.filter_map(|used| used.path.clone()).collect()
     }
 
@@ -130,15 +121,15 @@ impl Model {
         within: Option<Tag>,
         element: &Element<'_>,
     ) -> Result<Tag, MeshFault> {
-        if element.origin() == Origin::Extension {
+        if element.is_extension {
             return Ok(self.start_extension_element(within, element.name()));
         }
         match (within, element.name()) {
             (None, "model") => self.start_model(element).map(|()| Tag::Model),
-            (None, _) => {
-                let name = format!("begins with {:?} instead of a model", Quote(element.name()));
-                Err(MeshFault::syntax(None, name))
-            }
+            (None, _) => Err(MeshFault::malformed(format!(
+                "begins with {:?} instead of a model",
+                Quote(element.name())
+            ))),
             (Some(Tag::Model), "resources") => Ok(Tag::Resources),
             (Some(Tag::Model), "build") => Ok(Tag::Build),
             (Some(Tag::Build), "item") => self.add_item(element),
@@ -166,10 +157,10 @@ impl Model {
         for prefix in required.unwrap_or_default().split_whitespace() {
             let namespace = namespaces.get(prefix).map_or(prefix, String::as_str);
             if !HARMLESS.iter().any(|end| namespace.ends_with(end)) {
-                return Err(MeshFault::Unsupported {
-                    what: format!("what the extension {:?} says", Quote(namespace)),
-                    instead: "3MF without this extension",
-                });
+                return Err(MeshFault::unsupported(
+                    format!("what the extension {:?} says", Quote(namespace)),
+                    "3MF without this extension",
+                ));
             }
         }
         Ok(())
@@ -183,29 +174,26 @@ impl Model {
         self.objects.push(ModelObject {
             id,
             name: name.filter(|name| given(name)).map(Into::into),
-            shape: Shape::Foreign("nothing".into()),
+            mesh: Polygons::default(),
+            components: Vec::new(),
+            foreign: Some("nothing".into()),
         });
         Ok(Tag::Object)
     }
 
     /// Processes the element that defines an object's shape.
     fn start_shape(&mut self, name: &str) -> Result<Tag, MeshFault> {
-        let Some(object) = self.objects.last_mut() else {
-            return Ok(Tag::Other);
-        };
-        let (shape, tag) = match name {
-            "mesh" => (Shape::Mesh(Polygons::default()), Tag::Mesh),
-            "components" => (Shape::Components(Vec::new()), Tag::Components),
+        let tag = match name {
+            "mesh" => Tag::Mesh,
+            "components" => Tag::Components,
             "metadatagroup" => return Ok(Tag::Other),
             other => return Ok(self.start_extension_element(Some(Tag::Object), other)),
         };
-        if matches!(object.shape, Shape::Mesh(_) | Shape::Components(_)) {
-            return Err(MeshFault::syntax(
-                None,
-                "has two shapes; an object has one".into(),
-            ));
+        if let Some(object) = self.objects.last_mut()
+            && object.foreign.take().is_none()
+        {
+            return Err(MeshFault::malformed("has two shapes; an object has one"));
         }
-        object.shape = shape;
         Ok(tag)
     }
 
@@ -216,27 +204,17 @@ impl Model {
         if of_shape && name != "trianglesets" {
             self.remarks.add_named("elements", name, 1, None);
         }
-        if let Some(ModelObject { shape, .. }) = self.objects.last_mut() {
-            match (within, &shape) {
-                (Some(Tag::Object), Shape::Foreign(_)) => *shape = Shape::Foreign(name.into()),
-                (Some(Tag::Mesh), _) if name == "beamlattice" => {
-                    *shape = Shape::Foreign(name.into());
-                }
-                _ => {}
+        if let Some(ModelObject { foreign, .. }) = self.objects.last_mut() {
+            let is_shape = within == Some(Tag::Object) && foreign.is_some();
+            if is_shape || within == Some(Tag::Mesh) && name == "beamlattice" {
+                *foreign = Some(name.into());
             }
         }
         Tag::Other
     }
 
-    fn mesh(&mut self) -> Option<&mut Polygons> {
-        match &mut self.objects.last_mut()?.shape {
-            Shape::Mesh(polygons) => Some(polygons),
-            _ => None,
-        }
-    }
-
     fn add_vertex(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        if let Some(mesh) = self.mesh() {
+        if let Some(ModelObject { mesh, .. }) = self.objects.last_mut() {
             let vertex = mesh.vertices.len();
             let values = element.attribute_values(["x", "y", "z"])?;
             let mut point = DVec3::ZERO;
@@ -254,7 +232,7 @@ impl Model {
     }
 
     fn add_triangle(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
-        if let Some(mesh) = self.mesh() {
+        if let Some(ModelObject { mesh, .. }) = self.objects.last_mut() {
             let face = mesh.ends.len();
             let values = element.attribute_values(["v1", "v2", "v3"])?;
             for (value, name) in values.iter().zip(["v1", "v2", "v3"]) {
@@ -268,17 +246,16 @@ impl Model {
     }
 
     /// Checks the triangle indices of a complete mesh, because triangles may precede vertices.
-    fn check_mesh(&mut self) -> Result<(), MeshFault> {
-        self.mesh().map_or(Ok(()), |mesh| mesh.check_corners())
+    fn check_mesh(&self) -> Result<(), MeshFault> {
+        match self.objects.last() {
+            Some(ModelObject { mesh, foreign, .. }) if foreign.is_none() => mesh.check_corners(),
+            _ => Ok(()),
+        }
     }
 
     fn add_component(&mut self, element: &Element<'_>) -> Result<Tag, MeshFault> {
         let used = ObjectRef::read(element, "a component")?;
-        if let Some(ModelObject {
-            shape: Shape::Components(components),
-            ..
-        }) = self.objects.last_mut()
-        {
+        if let Some(ModelObject { components, .. }) = self.objects.last_mut() {
             components.push(used);
         }
         Ok(Tag::Other)
@@ -305,18 +282,13 @@ impl ObjectRef {
 }
 
 fn named_unit(name: &str) -> Result<Unit, MeshFault> {
-    Ok(match name {
-        "micron" => Unit::Micrometre,
-        "millimeter" => Unit::Millimetre,
-        "centimeter" => Unit::Centimetre,
-        "meter" => Unit::Metre,
-        "inch" => Unit::Inch,
-        "foot" => Unit::Foot,
-        _ => {
-            let problem = format!("is in the unit {:?}, which there is not", Quote(name));
-            return Err(MeshFault::syntax(None, problem));
-        }
-    })
+    let mut units = Unit::ALL.into_iter();
+    units
+        .find(|unit| unit.name_in_3mf() == name)
+        .ok_or_else(|| {
+            let name = Quote(name);
+            MeshFault::malformed(format!("is in the unit {name:?}, which there is not"))
+        })
 }
 
 /// Parses a number from the text of an attribute.
@@ -326,13 +298,12 @@ fn parse_number<T: FromStr>(
     name: &str,
 ) -> Result<T, MeshFault> {
     let Some(value) = value else {
-        return Err(MeshFault::syntax(None, format!("{what} has no {name}")));
+        return Err(MeshFault::malformed(format!("{what} has no {name}")));
     };
     value.trim().parse().map_err(|_| {
-        let problem = format!(
+        MeshFault::malformed(format!(
             "{what} has {:?} instead of a number as its {name}",
             Quote(value)
-        );
-        MeshFault::syntax(None, problem)
+        ))
     })
 }

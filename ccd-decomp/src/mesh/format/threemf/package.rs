@@ -14,7 +14,8 @@ pub(super) struct Package<'a> {
     archive: ZipSliceArchive<&'a [u8]>,
     entries: BTreeMap<String, Entry>,
     limit: u64,
-    left: u64,
+    /// The number of bytes that may still be unpacked; `None` after more.
+    left: Option<u64>,
 }
 
 #[derive(Clone, Copy)]
@@ -52,13 +53,13 @@ impl<'a> Package<'a> {
             archive,
             entries,
             limit,
-            left: limit,
+            left: Some(limit),
         })
     }
 
     /// Returns the number of bytes that have been unpacked from the archive.
     pub(super) fn unpacked_bytes(&self) -> u64 {
-        self.limit - self.left
+        self.limit - self.left.unwrap_or(0)
     }
 
     /// Returns the path of the root model in the archive.
@@ -68,7 +69,7 @@ impl<'a> Package<'a> {
                 Ok(USUAL_MODEL.into())
             } else {
                 let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
-                Err(MeshFault::syntax(None, problem))
+                Err(MeshFault::malformed(problem))
             };
         }
         let found = self.read(RELATIONSHIPS, |xml| {
@@ -86,10 +87,7 @@ impl<'a> Package<'a> {
             }
         });
         let found = found.map_err(|fault| fault.at(format!("{RELATIONSHIPS:?}")))?;
-        found.ok_or_else(|| {
-            let problem = format!("its {RELATIONSHIPS:?} names no model");
-            MeshFault::syntax(None, problem)
-        })
+        found.ok_or_else(|| MeshFault::malformed(format!("its {RELATIONSHIPS:?} names no model")))
     }
 
     /// Unpacks and parses one model of the package.
@@ -106,82 +104,55 @@ impl<'a> Package<'a> {
         path: &str,
         parse: impl FnOnce(&mut Xml<BufReader<Unpacking<'_>>>) -> Result<T, MeshFault>,
     ) -> Result<T, MeshFault> {
-        let Package {
-            archive,
-            entries,
-            limit,
-            left,
-        } = self;
-        let Some(entry) = entries.get(&normalized_path(path)) else {
-            return Err(MeshFault::syntax(None, "is not in the package".into()));
+        let Some(&entry) = self.entries.get(&normalized_path(path)) else {
+            return Err(MeshFault::malformed("is not in the package"));
         };
-        let limit = *limit;
-        let unpacking = Unpacking::new(archive, entry, left)?;
-        let mut xml = Xml::new(BufReader::with_capacity(BUFFER, unpacking));
-        let parsed = parse(&mut xml);
-        if xml.into_inner().get_ref().is_exceeded {
-            Err(MeshFault::Unpacks { limit })
-        } else {
-            parsed
-        }
+        let content = unpacked(&self.archive, entry)?;
+        let left = &mut self.left;
+        let unpacking = BufReader::with_capacity(BUFFER, Unpacking { content, left });
+        let parsed = parse(&mut Xml::new(unpacking));
+        let limit = self.limit;
+        self.left.ok_or(MeshFault::Unpacks { limit })?;
+        parsed
     }
 }
 
 /// A reader of one archive entry, which unpacks on reading and verifies the checksum at the end.
 struct Unpacking<'a> {
     content: Box<dyn Read + 'a>,
-    left: &'a mut u64,
-    is_exceeded: bool,
+    left: &'a mut Option<u64>,
 }
 
-impl<'a> Unpacking<'a> {
-    fn new(
-        archive: &'a ZipSliceArchive<&'a [u8]>,
-        entry: &Entry,
-        left: &'a mut u64,
-    ) -> Result<Self, MeshFault> {
-        if entry.encrypted {
-            return Err(MeshFault::Unsupported {
-                what: "an encrypted model".into(),
-                instead: "3MF without encryption",
-            });
+/// Returns the content of an entry, which is unpacked on reading.
+fn unpacked<'a>(
+    archive: &'a ZipSliceArchive<&'a [u8]>,
+    entry: Entry,
+) -> Result<Box<dyn Read + 'a>, MeshFault> {
+    if entry.encrypted {
+        let instead = "3MF without encryption";
+        return Err(MeshFault::unsupported("an encrypted model", instead));
+    }
+    let found = archive.get_entry(entry.wayfinder);
+    let found = found.map_err(|error| zip_fault(&error))?;
+    match entry.method {
+        CompressionMethod::STORE => Ok(Box::new(found.verifying_reader(found.data()))),
+        CompressionMethod::DEFLATE => {
+            let inflated = DeflateDecoder::new(found.data());
+            Ok(Box::new(found.verifying_reader(inflated)))
         }
-        let found = archive
-            .get_entry(entry.wayfinder)
-            .map_err(|error| zip_fault(&error))?;
-        let content: Box<dyn Read + 'a> = match entry.method {
-            CompressionMethod::STORE => Box::new(found.verifying_reader(found.data())),
-            CompressionMethod::DEFLATE => {
-                Box::new(found.verifying_reader(DeflateDecoder::new(found.data())))
-            }
-            other => {
-                return Err(MeshFault::Unsupported {
-                    what: format!("an entry compressed by method {}", other.as_u16()),
-                    instead: "3MF compressed by deflate",
-                });
-            }
-        };
-        Ok(Unpacking {
-            content,
-            left,
-            is_exceeded: false,
-        })
+        other => {
+            let what = format!("an entry compressed by method {}", other.as_u16());
+            Err(MeshFault::unsupported(what, "3MF compressed by deflate"))
+        }
     }
 }
 
 impl Read for Unpacking<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let read = self.content.read(out)?;
-        match self.left.checked_sub(read as u64) {
-            Some(left) => {
-                *self.left = left;
-                Ok(read)
-            }
-            None => {
-                self.is_exceeded = true;
-                Err(io::Error::other("there is more than a mesh may have"))
-            }
-        }
+        *self.left = self.left.and_then(|left| left.checked_sub(read as u64));
+        let exceeded = || io::Error::other("there is more than a mesh may have");
+        self.left.map(|_| read).ok_or_else(exceeded)
     }
 }
 
@@ -192,5 +163,5 @@ pub(super) fn normalized_path(path: &str) -> String {
 
 fn zip_fault(error: &rawzip::Error) -> MeshFault {
     let error = error.to_string();
-    MeshFault::syntax(None, format!("its zip is not whole: {:?}", Quote(&error)))
+    MeshFault::malformed(format!("its zip is not whole: {:?}", Quote(&error)))
 }

@@ -35,16 +35,8 @@ pub(super) enum XmlEvent<'a> {
 /// The start tag of an element, with its attributes.
 pub(super) struct Element<'a> {
     start: BytesStart<'a>,
-    origin: Origin,
-}
-
-/// The namespace that an element's name belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// The namespace of the outermost element.
-    Own,
-    /// Another namespace, that of an extension.
-    Extension,
+    /// Whether its name is of another namespace than that of the outermost element.
+    pub(super) is_extension: bool,
 }
 
 impl<R: BufRead> Xml<R> {
@@ -62,25 +54,27 @@ impl<R: BufRead> Xml<R> {
         }
     }
 
-    pub(super) fn into_inner(self) -> R {
-        self.reader.into_inner()
-    }
-
     pub(super) fn next(&mut self) -> Result<XmlEvent<'_>, MeshFault> {
         self.buffer.clear();
         let event = self.reader.read_event_into(&mut self.buffer);
-        match event.map_err(|error| fault(&error, self.reader.buffer_position()))? {
+        let event = event.map_err(|error| {
+            let (error, position) = (error.to_string(), self.reader.buffer_position());
+            let error = Quote(&error);
+            MeshFault::malformed(format!(
+                "its XML is not valid before byte {position}: {error:?}"
+            ))
+        });
+        match event? {
             Event::Start(start) => {
                 self.depth += 1;
                 let (found, _) = self.reader.resolver().resolve_element(start.name());
                 let found = namespace(&found);
                 let own = self.own.get_or_insert_with(|| found.map(str::to_owned));
-                let origin = if own.as_deref() == found {
-                    Origin::Own
-                } else {
-                    Origin::Extension
-                };
-                Ok(XmlEvent::Start(Element { start, origin }))
+                let is_extension = own.as_deref() != found;
+                Ok(XmlEvent::Start(Element {
+                    start,
+                    is_extension,
+                }))
             }
             Event::End(_) => {
                 self.depth = self.depth.saturating_sub(1);
@@ -88,12 +82,9 @@ impl<R: BufRead> Xml<R> {
             }
             Event::DocType(_) => {
                 let problem = "has a document type, which a 3MF must not have";
-                Err(MeshFault::syntax(None, problem.into()))
+                Err(MeshFault::malformed(problem))
             }
-            Event::Eof if self.depth > 0 => {
-                let missing = "its XML".into();
-                Err(MeshFault::Truncated { missing })
-            }
+            Event::Eof if self.depth > 0 => Err(MeshFault::truncated("its XML")),
             Event::Eof => Ok(XmlEvent::Done),
             _ => Ok(XmlEvent::TextOrComment),
         }
@@ -104,11 +95,6 @@ impl<'a> Element<'a> {
     /// Returns the element's name without its prefix.
     pub(super) fn name(&self) -> &str {
         self.start.local_name().into_inner()
-    }
-
-    /// Returns whether the element's name is of the document's namespace or of an extension.
-    pub(super) fn origin(&self) -> Origin {
-        self.origin
     }
 
     /// Returns the values of the named attributes. A plain name matches attributes without prefix; a name that begins
@@ -136,7 +122,7 @@ impl<'a> Element<'a> {
         mut visit: impl FnMut(Option<&str>, &str, Cow<'s, str>),
     ) -> Result<(), MeshFault> {
         for attribute in self.start.attributes() {
-            let attribute = attribute.map_err(|error| problem(&error))?;
+            let attribute = attribute.map_err(|error| bad_attribute(&error))?;
             let value = attribute.normalized_value(XmlVersion::Explicit1_0);
             let prefix = attribute.key.prefix();
             let prefix = prefix.as_ref().map(|prefix| prefix.as_ref());
@@ -144,7 +130,7 @@ impl<'a> Element<'a> {
             visit(
                 prefix,
                 local.as_ref(),
-                value.map_err(|error| problem(&error))?,
+                value.map_err(|error| bad_attribute(&error))?,
             );
         }
         Ok(())
@@ -159,19 +145,7 @@ fn namespace<'r>(resolved: &'r ResolveResult<'_>) -> Option<&'r str> {
     }
 }
 
-fn fault(error: &quick_xml::Error, position: u64) -> MeshFault {
+fn bad_attribute(error: &dyn std::fmt::Display) -> MeshFault {
     let error = error.to_string();
-    let problem = format!(
-        "its XML is not valid before byte {position}: {:?}",
-        Quote(&error)
-    );
-    MeshFault::syntax(None, problem)
-}
-
-fn problem(error: &dyn std::fmt::Display) -> MeshFault {
-    let error = error.to_string();
-    MeshFault::syntax(
-        None,
-        format!("its XML has a bad attribute: {:?}", Quote(&error)),
-    )
+    MeshFault::malformed(format!("its XML has a bad attribute: {:?}", Quote(&error)))
 }

@@ -20,8 +20,7 @@ fn row() -> impl Strategy<Value = Vec<Node>> {
 proptest! {
     #[test]
     fn the_best_neighbour_is_the_last_of_the_cheapest(row in row(), reach in 1usize..=6) {
-        let (mut prices, mut best) = (vec![[0.0; 6]; 60], Vec::new());
-        best_neighbours(&row, reach, &mut prices, &mut best);
+        let best = best_neighbours(&row, reach);
         for (index, node) in row.iter().enumerate() {
             let price = |other: usize| node.cuboid.union(row[other].cuboid).half_area();
             let near = (0..row.len()).filter(|&k| k != index && k.abs_diff(index) <= reach);

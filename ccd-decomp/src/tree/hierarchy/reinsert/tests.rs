@@ -1,4 +1,4 @@
-use super::super::agglomerate::{Workspace, agglomerate};
+use super::super::agglomerate::agglomerate;
 use super::super::nodes::{Below, Cuboid, Node};
 use super::{Tree, reinsert};
 use ccd_core::glam::Vec3A;
@@ -56,7 +56,7 @@ fn total_after(nodes: &[Node], from: u32, to: u32) -> f64 {
 proptest! {
     #[test]
     fn trees_stay_trees_and_their_boxes_shrink(leaves in leaves()) {
-        let mut nodes = agglomerate(leaves.iter().copied(), &mut Workspace::default()).to_vec();
+        let mut nodes = agglomerate(&leaves);
         let before = area(&nodes);
         reinsert(&mut nodes);
         prop_assert_eq!(check(&nodes), (0..leaves.len() as u32).collect::<Vec<_>>());
@@ -65,7 +65,7 @@ proptest! {
 
     #[test]
     fn the_best_move_is_the_best_of_all(leaves in leaves()) {
-        let mut nodes = agglomerate(leaves.iter().copied(), &mut Workspace::default()).to_vec();
+        let mut nodes = agglomerate(&leaves);
         let all = nodes.clone();
         let before = area(&all);
         let tree = Tree::new(&mut nodes);
