@@ -8,12 +8,12 @@
 
 mod settings;
 
-use ccd_bench::method::USUAL_TOLERANCE;
+use ccd_bench::method::PAPER_TOLERANCE;
 use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
-use ccd_bench::run::contest::{Allowance, Contest, Session};
-use ccd_bench::scene::{Models, Pieces, listings};
+use ccd_bench::run::contest::{MeasurementLimits, PreparedScene, Session};
+use ccd_bench::scene::{Models, PieceKind, listings};
 use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
@@ -37,7 +37,7 @@ const SCENES: [&str; 7] = [
 /// The name of the only scene that is small enough for the slowest schedule.
 const SMALL_SCENE: &str = "knot216";
 
-fn advancement(criterion: &mut Criterion) {
+fn benchmark_queries(criterion: &mut Criterion) {
     let mut models = Models::default();
     let listings = listings().expect("the scenes' data");
     for listing in listings
@@ -45,13 +45,14 @@ fn advancement(criterion: &mut Criterion) {
         .filter(|l| SCENES.contains(&l.name.as_str()))
     {
         let scene = listing.make(&mut models).expect("scenes made by code");
-        let contest = Contest::new(&scene).expect("motions with screws");
+        let contest = PreparedScene::new(&scene).expect("motions with screws");
         let rows = contest.order(ROWS);
         let mut group = criterion.benchmark_group(format!("advancement/{}", scene.name));
         group.throughput(Throughput::Elements(rows.len() as u64));
         group.sampling_mode(SamplingMode::Flat);
         for method in Method::all() {
-            let Method::Ours(kind, pieces @ (Pieces::Least | Pieces::Patches)) = method else {
+            let Method::Ours(kind, pieces @ (PieceKind::Least | PieceKind::Patches)) = method
+            else {
                 continue;
             };
             // The schedule that advances all pairs in every step runs on one scene only.
@@ -59,7 +60,7 @@ fn advancement(criterion: &mut Criterion) {
                 continue;
             }
             // A method that is wrong, or that cannot open a session, is not timed.
-            if !is_right(&contest, method) {
+            if !all_answers_are_right(&contest, method) {
                 continue;
             }
             let bodies = scene
@@ -69,7 +70,7 @@ fn advancement(criterion: &mut Criterion) {
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
                     let steps =
-                        |&row: &usize| solver.answer(&scene.queries[row], USUAL_TOLERANCE).steps;
+                        |&row: &usize| solver.answer(&scene.queries[row], PAPER_TOLERANCE).steps;
                     rows.iter().map(steps).sum::<u64>()
                 });
             });
@@ -79,8 +80,8 @@ fn advancement(criterion: &mut Criterion) {
 }
 
 /// Returns true if the method opens a session and all its answers are right.
-fn is_right(contest: &Contest<'_>, method: Method) -> bool {
-    let allowance = Allowance {
+fn all_answers_are_right(contest: &PreparedScene<'_>, method: Method) -> bool {
+    let allowance = MeasurementLimits {
         cell: Duration::MAX,
         patience: Duration::MAX,
         rows: ROWS,
@@ -90,7 +91,7 @@ fn is_right(contest: &Contest<'_>, method: Method) -> bool {
     let session = Session::open(method, contest.scene(), &Programs::default());
     let session = session.expect("no peer is asked");
     session.is_some_and(|mut session| {
-        let measured = contest.run(&mut session, USUAL_TOLERANCE, &allowance);
+        let measured = contest.run(&mut session, PAPER_TOLERANCE, &allowance);
         let (cell, _) = measured
             .expect("no peer is asked")
             .expect("all queries can be asked");
@@ -100,5 +101,5 @@ fn is_right(contest: &Contest<'_>, method: Method) -> bool {
     })
 }
 
-criterion_group!(name = benches; config = settings(10, 300, 1000); targets = advancement);
+criterion_group!(name = benches; config = settings(10, 300, 1000); targets = benchmark_queries);
 criterion_main!(benches);

@@ -7,8 +7,8 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// Returns the hull of random points on a sphere.
-pub(crate) fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
-    let points: Vec<DVec3> = (0..corners).map(|_| direction(rng)).collect();
+pub(crate) fn random_ball_hull(rng: &mut Pcg64, corners: usize) -> HullTree {
+    let points: Vec<DVec3> = (0..corners).map(|_| random_direction(rng)).collect();
     let half = |points: &[DVec3]| Polytope {
         points: points.to_vec(),
         ..Polytope::default()
@@ -19,7 +19,7 @@ pub(crate) fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
 }
 
 /// Returns a uniformly distributed unit vector.
-pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
+pub(crate) fn random_direction(rng: &mut Pcg64) -> DVec3 {
     loop {
         let cube = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
         if (0.01..1.0).contains(&cube.length_squared()) {

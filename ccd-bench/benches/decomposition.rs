@@ -30,7 +30,7 @@ fn meshes() -> Vec<(String, TriangleMesh)> {
 }
 
 /// Benchmarks the decomposition of surfaces into convex patches, in every order of growth.
-fn decompositions(criterion: &mut Criterion) {
+fn benchmark_decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for (name, mesh) in &meshes() {
@@ -64,7 +64,7 @@ fn assert_covered(mesh: &TriangleMesh, order: Order) {
 }
 
 /// Benchmarks the making of bodies that are ready for queries from meshes.
-fn bodies(criterion: &mut Criterion) {
+fn benchmark_body_creation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for (name, mesh) in &meshes() {
@@ -82,5 +82,5 @@ fn bodies(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(name = benches; config = settings(100, 500, 2000); targets = decompositions, bodies);
+criterion_group!(name = benches; config = settings(100, 500, 2000); targets = benchmark_decompositions, benchmark_body_creation);
 criterion_main!(benches);

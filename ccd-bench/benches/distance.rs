@@ -9,7 +9,7 @@
 mod ball;
 mod settings;
 
-use ball::{ball, direction};
+use ball::{random_ball_hull, random_direction};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, DistanceOracle, Frame, PiecePair, Pieces, Pose};
 use ccd_distance_gjk::{ClosedForm, Gjk};
@@ -28,12 +28,12 @@ struct PoseSequence {
     a: Pieces,
     b: Pieces,
     poses: Vec<Frame>,
-    start: Start,
+    cache_state: CacheState,
 }
 
 /// What a distance call may reuse.
 #[derive(Clone, Copy)]
-enum Start {
+enum CacheState {
     /// The call starts from the result for the previous pose.
     Warm,
     /// The call starts without any state.
@@ -41,38 +41,40 @@ enum Start {
 }
 
 /// The kinds of sequences: a name, the rotation between poses in radians, and what a call may reuse.
-const COHERENCE: [(&str, f64, Start); 3] = [
-    ("close", 0.01, Start::Warm),
-    ("apart", 0.3, Start::Warm),
-    ("cold", 0.01, Start::Cold),
+const SEQUENCE_KINDS: [(&str, f64, CacheState); 3] = [
+    ("close", 0.01, CacheState::Warm),
+    ("apart", 0.3, CacheState::Warm),
+    ("cold", 0.01, CacheState::Cold),
 ];
 
 /// The separations of pieces: a name, and the distance of the centres in radii, counted from where the pieces cannot
 /// touch.
 const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
 
-fn distances(criterion: &mut Criterion) {
+fn benchmark_distances(criterion: &mut Criterion) {
     let mut rng = Pcg64::seed_from_u64(7);
     for (shape, a, b) in shapes(&mut rng) {
         for (separation, clearance) in SEPARATIONS {
-            for (coherence, turn, start) in COHERENCE {
+            for (coherence, turn, start) in SEQUENCE_KINDS {
                 let course = PoseSequence {
                     a: a.clone(),
                     b: b.clone(),
                     poses: poses(&mut rng, clearance, turn),
-                    start,
+                    cache_state: start,
                 };
                 let mut group = criterion.benchmark_group(format!("distance/{shape}/{separation}"));
                 group.throughput(Throughput::Elements(POSES as u64));
                 let distances = course.distances::<Gjk>();
                 let id = |oracle| BenchmarkId::new(oracle, coherence);
                 // The backends must agree before they are timed.
-                assert_alike(&distances, &course.distances::<Vmarch>());
-                group.bench_function(id("vmarch"), |b| b.iter(|| run::<Vmarch>(&course)));
-                group.bench_function(id("gjk"), |b| b.iter(|| run::<Gjk>(&course)));
+                assert_distances_close(&distances, &course.distances::<Vmarch>());
+                group.bench_function(id("vmarch"), |b| b.iter(|| run_sequence::<Vmarch>(&course)));
+                group.bench_function(id("gjk"), |b| b.iter(|| run_sequence::<Gjk>(&course)));
                 if a.all_triangles() {
-                    assert_alike(&distances, &course.distances::<ClosedForm>());
-                    group.bench_function(id("direct"), |b| b.iter(|| run::<ClosedForm>(&course)));
+                    assert_distances_close(&distances, &course.distances::<ClosedForm>());
+                    group.bench_function(id("direct"), |b| {
+                        b.iter(|| run_sequence::<ClosedForm>(&course))
+                    });
                 }
                 group.finish();
             }
@@ -98,7 +100,7 @@ fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
         ("slab".to_owned(), slab.clone(), slab),
     ];
     for corners in [20, 100, 1000] {
-        let mut hull = || ball(rng, corners).hulls().clone();
+        let mut hull = || random_ball_hull(rng, corners).hulls().clone();
         shapes.push((format!("ball-{corners}"), hull(), hull()));
     }
     shapes
@@ -106,12 +108,12 @@ fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
 
 /// Computes the distances of a whole sequence, and returns the sum of their axes, so that the compiler cannot drop a
 /// call.
-fn run<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
+fn run_sequence<O: DistanceOracle + Default>(course: &PoseSequence) -> f64 {
     let mut oracle = O::default();
     let mut cache = O::Cache::default();
     let mut sum = 0.0;
     for pose in &course.poses {
-        if let Start::Cold = course.start {
+        if let CacheState::Cold = course.cache_state {
             cache = O::Cache::default();
         }
         let claim = oracle.separation(black_box(&course.pair(*pose)), &mut cache);
@@ -147,7 +149,7 @@ impl PoseSequence {
 /// distance here.
 const DISTANCE_TOLERANCE: f64 = 1e-9;
 
-fn assert_alike(one: &[f64], other: &[f64]) {
+fn assert_distances_close(one: &[f64], other: &[f64]) {
     for (one, other) in one.iter().zip(other) {
         assert!(
             (one - other).abs() <= DISTANCE_TOLERANCE,
@@ -158,7 +160,7 @@ fn assert_alike(one: &[f64], other: &[f64]) {
 
 /// Returns poses with a steady rotation and a constant distance between the centres.
 fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
-    let (way, turn) = (direction(rng), turn * direction(rng));
+    let (way, turn) = (random_direction(rng), turn * random_direction(rng));
     let pose = |k: usize| {
         let rotation = DQuat::from_scaled_axis(k as f64 * turn);
         let pose = Pose::new((2.0 + clearance) * way, rotation);
@@ -167,5 +169,5 @@ fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     (0..POSES).map(pose).collect()
 }
 
-criterion_group!(name = benches; config = settings(10, 100, 300); targets = distances);
+criterion_group!(name = benches; config = settings(10, 100, 300); targets = benchmark_distances);
 criterion_main!(benches);

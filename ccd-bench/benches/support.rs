@@ -6,7 +6,7 @@
 mod ball;
 mod settings;
 
-use ball::{ball, direction};
+use ball::{random_ball_hull, random_direction};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{SupportScan, SupportTable};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -16,19 +16,21 @@ use settings::settings;
 use std::hint::black_box;
 
 /// The number of directions in which the extremal corner is searched for.
-const DIRECTIONS: usize = 256;
+const DIRECTION_COUNT: usize = 256;
 
-fn support(criterion: &mut Criterion) {
+fn benchmark_support_search(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("support");
-    group.throughput(Throughput::Elements(DIRECTIONS as u64));
+    group.throughput(Throughput::Elements(DIRECTION_COUNT as u64));
     let mut rng = Pcg64::seed_from_u64(7);
     for corners in [8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048, 4096] {
-        let tree = ball(&mut rng, corners);
+        let tree = random_ball_hull(&mut rng, corners);
         let piece = tree.hulls().get(0);
         let scan = SupportScan::new(piece.points);
         let table =
             SupportTable::new(piece.points, piece.facets).expect("the hull of a ball has facets");
-        let cold: Vec<DVec3> = (0..DIRECTIONS).map(|_| direction(&mut rng)).collect();
+        let cold: Vec<DVec3> = (0..DIRECTION_COUNT)
+            .map(|_| random_direction(&mut rng))
+            .collect();
         let warm = rotating_directions(&mut rng);
         group.bench_with_input(BenchmarkId::new("scan", corners), &cold, |b, looks| {
             b.iter(|| {
@@ -61,13 +63,13 @@ fn support(criterion: &mut Criterion) {
 
 /// Returns directions, each a hundredth of a radian from the one before, as in the steps of a query.
 fn rotating_directions(rng: &mut Pcg64) -> Vec<DVec3> {
-    let turn = DQuat::from_scaled_axis(0.01 * direction(rng));
-    let first = direction(rng);
+    let turn = DQuat::from_scaled_axis(0.01 * random_direction(rng));
+    let first = random_direction(rng);
     let next = |at: &DVec3| Some(turn * *at);
     std::iter::successors(Some(first), next)
-        .take(DIRECTIONS)
+        .take(DIRECTION_COUNT)
         .collect()
 }
 
-criterion_group!(name = benches; config = settings(20, 200, 500); targets = support);
+criterion_group!(name = benches; config = settings(20, 200, 500); targets = benchmark_support_search);
 criterion_main!(benches);

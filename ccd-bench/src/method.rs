@@ -12,7 +12,7 @@ use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, screw};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{Claim, Reply, Solver};
 use crate::names::name_of;
-use crate::scene::Pieces;
+use crate::scene::PieceKind;
 use ccd_core::Answer;
 use ccd_core::{InputError, Instructions, Outcome, Settings};
 use ccd_decomp::TriangleMesh;
@@ -25,7 +25,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
     /// A solver of this project, on bodies made of the given kind of pieces.
-    Ours(SolverKind, Pieces),
+    Ours(SolverKind, PieceKind),
     /// A published method that is built here for comparison.
     Rival(RivalKind),
     /// A peer library that is called in this program.
@@ -62,7 +62,7 @@ pub enum MotionKind {
 
 /// The tolerance of the paper's benchmarks `[FAST06 §6.2]`: that of charts of one tolerance, and of methods without one
 /// of their own.
-pub const USUAL_TOLERANCE: f64 = 1e-3;
+pub const PAPER_TOLERANCE: f64 = 1e-3;
 
 impl Method {
     /// Returns all methods that this program runs, this project's default first.
@@ -74,14 +74,17 @@ impl Method {
         };
         let (best, fast) = (ScheduleKind::BestFirst, ScheduleKind::Fast);
         let ours = [
-            (kind(best, OracleKind::Direct), Pieces::Least),
-            (kind(best, OracleKind::Gjk), Pieces::Least),
-            (kind(fast, OracleKind::Vmarch), Pieces::Patches),
-            (kind(fast, OracleKind::Gjk), Pieces::Patches),
-            (kind(ScheduleKind::Naive, OracleKind::Direct), Pieces::Least),
-            (kind(best, OracleKind::Direct), Pieces::Triangles),
-            (kind(best, OracleKind::Direct), Pieces::Patches),
-            (kind(best, OracleKind::Direct), Pieces::ApproximateHulls),
+            (kind(best, OracleKind::Direct), PieceKind::Least),
+            (kind(best, OracleKind::Gjk), PieceKind::Least),
+            (kind(fast, OracleKind::Vmarch), PieceKind::Patches),
+            (kind(fast, OracleKind::Gjk), PieceKind::Patches),
+            (
+                kind(ScheduleKind::Naive, OracleKind::Direct),
+                PieceKind::Least,
+            ),
+            (kind(best, OracleKind::Direct), PieceKind::Triangles),
+            (kind(best, OracleKind::Direct), PieceKind::Patches),
+            (kind(best, OracleKind::Direct), PieceKind::ApproximateHulls),
         ];
         let ours = ours.map(|(kind, pieces)| Method::Ours(kind, pieces));
         let rivals = RivalKind::value_variants()
@@ -104,7 +107,7 @@ impl Method {
         // After its variants with a sound bound.
         let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
         let last = methods.iter().rposition(is_fast).map_or(0, |last| last + 1);
-        methods.insert(last, Method::Ours(published, Pieces::Patches));
+        methods.insert(last, Method::Ours(published, PieceKind::Patches));
         methods.extend(Method::script_methods());
         methods
     }
@@ -118,7 +121,7 @@ impl Method {
     }
 
     /// Returns the method with the given name; `None` if there is none.
-    pub fn named(name: &str) -> Option<Method> {
+    pub fn from_name(name: &str) -> Option<Method> {
         let mut known = Method::known().into_iter();
         known.find(|method| method.to_string() == name)
     }
@@ -127,7 +130,7 @@ impl Method {
     /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn takes_tolerances(self) -> bool {
         match self {
-            Method::Ours(..) => !self.is_model(),
+            Method::Ours(..) => !self.is_piece_variant(),
             Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
             Method::Script(kind) => kind != ScriptKind::CoalDistance,
@@ -135,9 +138,9 @@ impl Method {
     }
 
     /// Returns true for the default method on pieces other than its own choice.
-    pub fn is_model(self) -> bool {
+    pub fn is_piece_variant(self) -> bool {
         matches!(self, Method::Ours(kind, pieces)
-            if pieces != Pieces::Least && !kind.schedule.uses_hull_trees())
+            if pieces != PieceKind::Least && !kind.schedule.uses_hull_trees())
     }
 
     /// Returns the motion along which the method moves the bodies.
@@ -263,10 +266,10 @@ impl fmt::Display for Method {
                     f.write_str(" published")?;
                 }
                 match (pieces, kind.schedule.uses_hull_trees()) {
-                    (Pieces::Least, _) | (Pieces::Patches, true) => Ok(()),
-                    (Pieces::Triangles, _) => f.write_str(" over triangles"),
-                    (Pieces::Patches, false) => f.write_str(" over patches"),
-                    (Pieces::ApproximateHulls, _) => f.write_str(" over hulls"),
+                    (PieceKind::Least, _) | (PieceKind::Patches, true) => Ok(()),
+                    (PieceKind::Triangles, _) => f.write_str(" over triangles"),
+                    (PieceKind::Patches, false) => f.write_str(" over patches"),
+                    (PieceKind::ApproximateHulls, _) => f.write_str(" over hulls"),
                 }
             }
             Method::Rival(kind) => f.write_str(&name_of(kind)),

@@ -37,12 +37,12 @@ pub struct SceneBody {
     pub body: Arc<Body>,
     mesh: Arc<TriangleMesh>,
     /// The same body made of each other kind of pieces on first use; `None` if it cannot be made.
-    others: Arc<[OnceLock<Option<Body>>; Pieces::ApproximateHulls as usize + 1]>,
+    bodies_by_pieces: Arc<[OnceLock<Option<Body>>; PieceKind::ApproximateHulls as usize + 1]>,
 }
 
 /// The kind of convex pieces that a body is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Pieces {
+pub enum PieceKind {
     /// The fewest pieces that represent the mesh exactly.
     #[default]
     Least,
@@ -55,7 +55,7 @@ pub enum Pieces {
 }
 
 /// The maximum number of approximate hulls of a body.
-const HULLS: u32 = 32;
+const MAX_HULLS: u32 = 32;
 
 impl SceneBody {
     /// Returns the mesh from which the body is made.
@@ -64,32 +64,32 @@ impl SceneBody {
     }
 
     /// Returns the same body made of the given kind of pieces; `None` if the mesh does not allow them.
-    pub fn body_of(&self, pieces: Pieces) -> Option<&Body> {
-        if pieces == Pieces::Least {
+    pub fn body_of(&self, pieces: PieceKind) -> Option<&Body> {
+        if pieces == PieceKind::Least {
             return Some(&self.body);
         }
-        let made = &self.others[pieces as usize];
+        let made = &self.bodies_by_pieces[pieces as usize];
         made.get_or_init(|| pieces.body_of(&self.mesh).ok())
             .as_ref()
     }
 }
 
-impl Pieces {
+impl PieceKind {
     /// Makes a body of this kind of pieces from a mesh.
     ///
     /// # Errors
     /// If the mesh does not allow such pieces.
     pub fn body_of(self, mesh: &TriangleMesh) -> Result<Body, PrepareError> {
         let detail = match self {
-            Pieces::Least => Detail::Auto,
-            Pieces::Triangles => Detail::Triangles,
-            Pieces::Patches => Detail::Patches(Order::Cresting),
-            Pieces::ApproximateHulls => Detail::Vhacd { hulls: HULLS },
+            PieceKind::Least => Detail::Auto,
+            PieceKind::Triangles => Detail::Triangles,
+            PieceKind::Patches => Detail::Patches(Order::Cresting),
+            PieceKind::ApproximateHulls => Detail::Vhacd { hulls: MAX_HULLS },
         };
         let model = prepare(mesh, detail)?;
         match self {
-            Pieces::Patches => model.with_hull_tree()?.body(),
-            Pieces::Least | Pieces::Triangles | Pieces::ApproximateHulls => model.body(),
+            PieceKind::Patches => model.with_hull_tree()?.body(),
+            PieceKind::Least | PieceKind::Triangles | PieceKind::ApproximateHulls => model.body(),
         }
     }
 }
@@ -111,7 +111,7 @@ impl Scene {
     }
 
     /// Returns both bodies made of the given kind of pieces; `None` if a mesh does not allow them.
-    pub fn bodies_of(&self, pieces: Pieces) -> Option<Bodies<'_>> {
+    pub fn bodies_of(&self, pieces: PieceKind) -> Option<Bodies<'_>> {
         Some(Bodies {
             a: self.a.body_of(pieces)?,
             b: self.b.body_of(pieces)?,
@@ -148,7 +148,7 @@ impl Models {
         let body = SceneBody {
             body: Arc::new(prepared.body),
             mesh: Arc::new(mesh),
-            others: Arc::default(),
+            bodies_by_pieces: Arc::default(),
         };
         self.bodies.insert(model, body.clone());
         Ok(body)

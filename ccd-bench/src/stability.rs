@@ -2,12 +2,12 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | know what a family is, and its exact answers | [`Family`], [`Step`], [`Case`] |
+//! | know what a family is, and its exact answers | [`Family`], [`FamilyStep`], [`Case`] |
 //! | list the families | [`families()`] |
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
 //! | know what was asked and answered | [`Findings`] |
-//! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`] |
+//! | see how far each method follows | [`summary`], [`limits`], [`solved_range_map`], [`growth_map`] |
 
 mod families;
 mod family;
@@ -18,8 +18,8 @@ mod summary;
 mod survey;
 
 pub use families::families;
-pub use family::{Case, Family, Step};
+pub use family::{Case, Family, FamilyStep};
 pub use findings::Findings;
 pub use judge::judge;
-pub use summary::{growth_map, limits, reach_map, summary};
+pub use summary::{growth_map, limits, solved_range_map, summary};
 pub use survey::Survey;

@@ -61,7 +61,7 @@ pub enum Truth {
 
 /// A lower and an upper bound of a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bracket {
+pub struct DistanceBounds {
     /// The lower bound of the distance, which is not negative.
     pub lower: f64,
     /// The upper bound of the distance.
@@ -107,7 +107,7 @@ impl<'a> Referee<'a> {
     /// The exact distance, for the motion of [`Referee::first_contact`], lies in the bracket. It is
     /// 0 if the surfaces intersect, within the width of the bracket, and infinite for a body
     /// without triangles.
-    pub fn distance(&self, query: &Motions, time: f64) -> Bracket {
+    pub fn distance(&self, query: &Motions, time: f64) -> DistanceBounds {
         gap::distance(Search::new(self, query), time)
     }
 }

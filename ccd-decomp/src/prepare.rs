@@ -10,7 +10,7 @@ use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{Order, decompose};
 use crate::pieces::vhacd::approximate;
-use crate::solid::bounding_solid;
+use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::tolerance::AUTO_WORK;
 use crate::work::Work;
@@ -110,7 +110,7 @@ impl Choice {
             Detail::Triangles | Detail::Surface => (Parts::Triangles, Why::Asked),
             Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
             Detail::Hull => {
-                let polytope = convex_polytope(&bounding_solid(mesh)?)?;
+                let polytope = convex_polytope(&solid_surface(mesh)?)?;
                 (Parts::Hull(Box::new(polytope)), Why::Asked)
             }
             Detail::Vhacd { hulls } => {

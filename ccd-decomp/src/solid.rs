@@ -31,7 +31,7 @@ use topology::Topology;
 ///
 /// # Errors
 /// [`DecomposeError`] if the mesh bounds no solid.
-pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
+pub(crate) fn solid_surface(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
     let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh))?;
     check_solid(&manifold, &Work::unbounded())?;
     Ok(manifold)

@@ -5,7 +5,7 @@ pub(crate) mod mesh_source;
 
 use crate::file::is_stored;
 use crate::mesh::adjustments::Adjustments;
-use crate::mesh::mesh_file::files_of;
+use crate::mesh::mesh_file::source_paths;
 use crate::mesh::unit::Unit;
 use crate::prepare::error::PrepareError;
 use crate::prepare::model::{Model, Prepared};
@@ -164,7 +164,7 @@ impl BodySource {
     pub fn files(&self) -> Result<Vec<PathBuf>, BodyError> {
         Ok(match self {
             BodySource::Stored(path) => vec![path.clone()],
-            BodySource::Mesh(source) => files_of(&source.file)?,
+            BodySource::Mesh(source) => source_paths(&source.file)?,
             _ => Vec::new(),
         })
     }
@@ -189,7 +189,7 @@ impl FromStr for BodySource {
             Some((shape, given)) => (shape, given.split(',').map(str::trim).collect()),
             None => (text, Vec::new()),
         };
-        if let Some(&(shape, expected)) = SHAPES.iter().find(|(known, _)| *known == shape) {
+        if let Some(&(shape, expected)) = SHAPE_LENGTHS.iter().find(|(known, _)| *known == shape) {
             return parse_shape(shape, expected, &given);
         }
         match text.split_once(':') {
@@ -214,7 +214,7 @@ impl FromStr for BodySource {
 }
 
 /// The names of the shapes, with the number of lengths that each takes.
-const SHAPES: [(&str, usize); 5] = [
+const SHAPE_LENGTHS: [(&str, usize); 5] = [
     ("box", 3),
     ("sphere", 1),
     ("capsule", 2),

@@ -59,7 +59,8 @@ mod gltf {
         /// Creates a glTF with a triangle that has a corner at the origin, in one node.
         pub(crate) fn triangle() -> Self {
             let mut gltf = Gltf::new();
-            let position = gltf.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+            let position =
+                gltf.add_vec3_accessor(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
             gltf.primitive(json!({"attributes": {"POSITION": position}}));
             gltf
         }
@@ -91,7 +92,7 @@ mod gltf {
             self.push("bufferViews", view)
         }
 
-        pub(crate) fn floats(&mut self, points: &[[f32; 3]]) -> usize {
+        pub(crate) fn add_vec3_accessor(&mut self, points: &[[f32; 3]]) -> usize {
             let bytes: Vec<u8> = points
                 .iter()
                 .flatten()

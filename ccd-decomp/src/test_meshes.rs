@@ -5,7 +5,7 @@ use ccd_core::glam::{DVec3, dvec3};
 use std::collections::HashMap;
 
 /// The faces of a cube, oriented outward. The bits of a corner's number are its coordinates, x the lowest.
-pub(crate) const CUBE: [[u32; 3]; 12] = [
+pub(crate) const CUBE_FACES: [[u32; 3]; 12] = [
     [0, 4, 6],
     [0, 6, 2],
     [1, 3, 7],
@@ -150,7 +150,7 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
 
 /// Returns the outline of a quarter disc with a toothed rim. The first corner is its centre. All corners are visible
 /// from it, so that the fans of the caps are exact.
-pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
+pub(crate) fn toothed_disc_outline(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {
         let share = f64::from(k) / f64::from(2 * count - 1);
         let angle = 0.5 * std::f64::consts::PI * share;

@@ -14,7 +14,7 @@ pub(crate) const MAX_CLUSTER_PIECES: usize = 256;
 /// The number of initial passes of agglomeration in which only adjacent nodes are compared.
 ///
 /// Unit: passes. Fewer: slower, hardly better trees.
-pub(crate) const SEARCH_DEPTH: usize = 2;
+pub(crate) const ADJACENT_ONLY_PASSES: usize = 2;
 
 /// The search distance along the curve for the best neighbour in later passes of agglomeration.
 ///
@@ -29,7 +29,7 @@ pub(crate) const REINSERTED_SHARE: f32 = 0.02;
 /// The number of rays from a shell after which its nesting counts as unknown.
 ///
 /// Unit: rays. A ray meets an edge only by accident.
-pub(crate) const RAY_TRIES: usize = 16;
+pub(crate) const MAX_NESTING_RAYS: usize = 16;
 
 /// The number of polygons at which a patch stops growing.
 ///
@@ -37,13 +37,13 @@ pub(crate) const RAY_TRIES: usize = 16;
 /// grows with a piece's corners: queries on two knots of 11,520 triangles took a median of 127, 168,
 /// 163, 158, 255 µs with patches of up to 16, 32, 64, 128, 1024 polygons, which were 910, 492, 324,
 /// 292, 258.
-pub(crate) const PATCH_POLYGONS: usize = 48;
+pub(crate) const MAX_PATCH_POLYGONS: usize = 48;
 
 /// The maximum number of corners of a patch of several polygons. A larger polygon is a separate patch.
 ///
 /// Unit: corners. A polygon is tested with all facets of a patch, and so is every triangle near it: the time of
 /// growing increases with their square. Twice as many as 48 polygons of a sphere have.
-pub(crate) const PATCH_CORNERS: usize = 256;
+pub(crate) const MAX_PATCH_CORNERS: usize = 256;
 
 /// The least fraction of a node's pieces in each child of a hull tree. If a split gives less, it is at the median.
 ///
@@ -53,7 +53,7 @@ pub(crate) const MIN_CHILD_SHARE: f64 = 1.0 / 8.0;
 /// The maximum number of iterations for the eigenvectors of a 3 × 3 matrix.
 ///
 /// Unit: rounds. A handful suffice; without convergence a node is split along x.
-pub(crate) const EIGEN_ROUNDS: usize = 256;
+pub(crate) const MAX_EIGEN_ITERATIONS: usize = 256;
 
 /// Returns the number of voxels along a mesh's longest side, for a number of hulls.
 ///
@@ -104,7 +104,7 @@ pub(crate) const EXCESS_WORK: u64 = 3 << 23;
 ///
 /// Unit: boxes, of about 130 bytes each. Most meshes spend the work on fewer. On a mesh of two triangles a box takes
 /// only a few steps: millions of them took hundreds of megabytes.
-pub(crate) const EXCESS_BOXES: usize = 1 << 19;
+pub(crate) const MAX_EXCESS_BOXES: usize = 1 << 19;
 
 /// The ratio of the excess bound to the largest distance found at which the search for the bound ends.
 pub(crate) const EXCESS_RATIO: f64 = 1.01;
@@ -120,9 +120,9 @@ pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PieceCost {
     /// The median time against a body of many triangles, for any number of pieces, in µs.
-    pub(crate) usual: f64,
+    pub(crate) typical_time: f64,
     /// The time per piece of a plane that rests flat on another, in µs.
-    pub(crate) resting: f64,
+    pub(crate) resting_time: f64,
 }
 
 /// The measured time of queries with triangles as pieces.
@@ -131,8 +131,8 @@ pub(crate) struct PieceCost {
 /// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
 /// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
 pub(crate) const TRIANGLE_COST: PieceCost = PieceCost {
-    usual: 23.0,
-    resting: 5.0,
+    typical_time: 23.0,
+    resting_time: 5.0,
 };
 
 /// The measured time of queries with patches as pieces.
@@ -141,8 +141,8 @@ pub(crate) const TRIANGLE_COST: PieceCost = PieceCost {
 /// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
 /// laid flat.
 pub(crate) const PATCH_COST: PieceCost = PieceCost {
-    usual: 55.0,
-    resting: 6.0,
+    typical_time: 55.0,
+    resting_time: 6.0,
 };
 
 /// The assumed fraction of queries in which bodies rest flat on each other, so that all pieces of a plane are
@@ -159,18 +159,18 @@ pub(crate) const DIRECTION_BINS: f64 = 64.0;
 /// The minimum number of pieces for which the two sides of a hull tree node are built in parallel.
 ///
 /// Unit: pieces. Fewer: tasks cost more than they gain. More: a core idles at the end.
-pub(crate) const PARALLEL_PIECES: usize = 256;
+pub(crate) const MIN_PARALLEL_PIECES: usize = 256;
 
 /// The maximum number of piece centres from which the split axis of a hull tree node is computed.
 ///
 /// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the
 /// tree's own.
-pub(crate) const SPREAD_PIECES: usize = 64;
+pub(crate) const MAX_SPREAD_SAMPLES: usize = 64;
 
 /// The minimum number of triangles at one vertex that are searched as a fan.
 ///
 /// Unit: triangles. The boxes of fewer triangles also overlap, but are few.
-pub(crate) const FAN_TRIANGLES: u32 = 32;
+pub(crate) const MIN_FAN_TRIANGLES: u32 = 32;
 
 /// How many boxes of a tree have to meet a shape's axis-aligned box before the oriented boxes are tested too.
 ///
@@ -202,7 +202,7 @@ pub(crate) const EXPANSION_PER_BYTE: u64 = 1 << 8;
 
 /// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
 /// prepare.
-pub(crate) const EXPANSION_MAX: u64 = 1 << 25;
+pub(crate) const MAX_EXPANSION: u64 = 1 << 25;
 
 /// The constant part of the limit on the unpacked size of a compressed file, in bytes.
 ///

@@ -36,10 +36,10 @@ impl Work {
     /// Returns an error if no steps are left.
     ///
     /// # Errors
-    /// [`OutOfWork`] if none are left.
-    pub(crate) fn check(&self) -> Result<(), OutOfWork> {
+    /// [`WorkBudgetExhausted`] if none are left.
+    pub(crate) fn check(&self) -> Result<(), WorkBudgetExhausted> {
         match self.left.get() {
-            0 => Err(OutOfWork),
+            0 => Err(WorkBudgetExhausted),
             _ => Ok(()),
         }
     }
@@ -47,4 +47,4 @@ impl Work {
 
 /// The error for a work budget that is spent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct OutOfWork;
+pub(crate) struct WorkBudgetExhausted;

@@ -24,7 +24,7 @@ pub struct Claim {
 }
 
 /// The maximum number of attempts to lock the file; other processes may finish between opening and locking.
-const TRIES: usize = 100;
+const MAX_LOCK_ATTEMPTS: usize = 100;
 
 impl Claim {
     /// Claims the file that a path leads to, as [`Destination`](crate::Destination) resolves it.
@@ -33,7 +33,7 @@ impl Claim {
     /// [`io::ErrorKind::ResourceBusy`] if another process has it, and errors of the operating system.
     pub fn new(target: PathBuf) -> io::Result<Self> {
         let partial = sibling(&target, PARTIAL);
-        for _ in 0..TRIES {
+        for _ in 0..MAX_LOCK_ATTEMPTS {
             let options = File::options()
                 .read(true)
                 .write(true)
@@ -45,7 +45,7 @@ impl Claim {
                 .map_err(|error| error_with_path(&partial, &error))?;
             match file.try_lock() {
                 Ok(()) => {}
-                Err(TryLockError::WouldBlock) => return Err(busy()),
+                Err(TryLockError::WouldBlock) => return Err(busy_error()),
                 Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
                 Err(TryLockError::Error(error)) => return Err(error_with_path(&partial, &error)),
             }
@@ -66,7 +66,7 @@ impl Claim {
                 return Ok(Claim { temporary, left });
             }
         }
-        Err(busy())
+        Err(busy_error())
     }
 
     /// Returns the length in bytes of what an earlier process left in the file.
@@ -130,7 +130,7 @@ impl Claim {
     }
 }
 
-fn busy() -> io::Error {
+fn busy_error() -> io::Error {
     let problem = "another run is writing it; wait for its end, or give another file";
     io::Error::new(io::ErrorKind::ResourceBusy, problem)
 }

@@ -14,7 +14,7 @@ pub enum Destination {
 }
 
 /// The maximum number of symbolic links followed, the same as on Linux.
-const MOST_LINKS: usize = 40;
+const MAX_LINKS: usize = 40;
 
 impl Destination {
     /// Resolves a path, and checks that a file may be written there.
@@ -88,7 +88,7 @@ fn is_open_file(path: &Path) -> bool {
 /// The links form a cycle.
 pub fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         match fs::read_link(&target) {
             Ok(next) => target = target.parent().unwrap_or(Path::new("")).join(next),
             Err(_) => return Ok(target),

@@ -16,7 +16,9 @@ pub(crate) fn step(
     moving: &[(usize, RigidBodyHandle)],
 ) -> Result<Vec<Stop>> {
     let duration = world.integration_parameters.dt;
-    let starts = moving.iter().map(|&(_, body)| pose(&world.bodies[body]));
+    let starts = moving
+        .iter()
+        .map(|&(_, body)| body_pose(&world.bodies[body]));
     let starts: Vec<Pose> = starts.collect::<Result<_>>()?;
     world.step();
     for (&(index, body), start) in moving.iter().zip(starts) {
@@ -24,21 +26,21 @@ pub(crate) fn step(
         let centre = body.mass_properties().local_mprops.local_com.to_array();
         scene.set_movement(
             index,
-            Motion::between(start, pose(body)?, centre, duration)?,
+            Motion::between(start, body_pose(body)?, centre, duration)?,
         )?;
     }
     let stops = scene.stops(duration)?;
     for &(index, body) in moving {
         if stops[index].by.is_some() {
             let pose = scene.movement(index).pose(stops[index].time)?;
-            world.bodies[body].set_position(at(pose), true);
+            world.bodies[body].set_position(to_rapier_pose(pose), true);
         }
     }
     Ok(stops)
 }
 
 /// Converts the pose of a rapier body to this engine's type.
-pub(crate) fn pose(body: &RigidBody) -> Result<Pose> {
+pub(crate) fn body_pose(body: &RigidBody) -> Result<Pose> {
     let at = body.position();
     Ok(Pose::new(
         at.translation.to_array(),
@@ -47,7 +49,7 @@ pub(crate) fn pose(body: &RigidBody) -> Result<Pose> {
 }
 
 /// Converts a pose to rapier's type.
-pub(crate) fn at(pose: Pose) -> At {
+pub(crate) fn to_rapier_pose(pose: Pose) -> At {
     At::from_parts(
         Vector::from_array(pose.translation().to_array()),
         Rotation::from_array(pose.rotation().to_array()),

@@ -1,7 +1,7 @@
 //! Counts passages of bodies through each other and measures penetration depths, with parry's own tests.
 
-use crate::glue::at;
-use crate::worlds::{Simulated, World};
+use crate::glue::to_rapier_pose;
+use crate::worlds::{SimulatedBody, World};
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
 use parry3d_f64::query::{contact, intersection_test};
@@ -31,7 +31,7 @@ impl Tally {
         duration: f64,
     ) -> Result<()> {
         self.stops += moved.iter().filter(|(_, stop)| *stop < duration).count();
-        let swept = |(body, &(motion, _)): (&Simulated, &StoppedMotion)| {
+        let swept = |(body, &(motion, _)): (&SimulatedBody, &StoppedMotion)| {
             let moving = Moving::from((&body.body, motion));
             moving.swept_box(duration, &Settings::DEFAULT)
         };
@@ -79,7 +79,7 @@ impl MovedPair<'_> {
         let [a, b] = self.pair.map(|k| self.moved[k].0);
         let travel = (a.velocity() - b.velocity()).length() * duration;
         let turn = (a.spin().length() + b.spin().length()) * duration;
-        let samples = 2.0 * (travel + turn) / self.world.thinnest;
+        let samples = 2.0 * (travel + turn) / self.world.min_thickness;
         let samples = samples.clamp(4.0, 20_000.0) as u32;
         (1..samples).any(|k| self.overlaps(duration * f64::from(k) / f64::from(samples)))
     }
@@ -87,7 +87,7 @@ impl MovedPair<'_> {
     fn poses(&self, time: f64) -> [parry3d_f64::math::Pose; 2] {
         self.pair.map(|k| {
             let (motion, stop) = &self.moved[k];
-            at(motion.pose(lesser(time, *stop)))
+            to_rapier_pose(motion.pose(lesser(time, *stop)))
         })
     }
 

@@ -10,7 +10,7 @@ mod judge;
 mod worlds;
 
 use anyhow::Result;
-use glue::pose;
+use glue::body_pose;
 use judge::{StoppedMotion, Tally};
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
@@ -23,7 +23,7 @@ use worlds::{WORLDS, World};
 #[derive(Clone, Copy, PartialEq)]
 enum Method {
     /// Steps without continuous collision detection.
-    Plain,
+    WithoutCcd,
     /// Steps with rapier's continuous collision detection, for all bodies and also between moving ones.
     Rapier,
     /// Steps in which each body stops at its certified first contact.
@@ -31,7 +31,7 @@ enum Method {
 }
 
 const METHODS: [(&str, Method); 3] = [
-    ("rapier without CCD", Method::Plain),
+    ("rapier without CCD", Method::WithoutCcd),
     ("rapier's CCD", Method::Rapier),
     ("certified times", Method::Certified),
 ];
@@ -71,7 +71,7 @@ fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Du
         Scene::with_threads(NonZeroUsize::MIN).with_filter(|a, b| !joined.contains(&[a, b]));
     let mut moving = Vec::new();
     for (simulated, body) in world.bodies.iter().zip(&bodies) {
-        let start = pose(&world.physics.bodies[simulated.handle])?;
+        let start = body_pose(&world.physics.bodies[simulated.handle])?;
         if simulated.is_fixed {
             scene.add_fixed(body, start);
         } else {
@@ -80,9 +80,9 @@ fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Du
     }
     let (mut tally, mut time) = (Tally::default(), Duration::ZERO);
     for step in 0..steps {
-        (world.act)(&mut world, step);
+        (world.step_action)(&mut world, step);
         let bodies = world.bodies.iter();
-        let starts = bodies.map(|body| pose(&world.physics.bodies[body.handle]));
+        let starts = bodies.map(|body| body_pose(&world.physics.bodies[body.handle]));
         let starts: Vec<Pose> = starts.collect::<Result<_>>()?;
         let begun = Instant::now();
         let stops = if method == Method::Certified {
@@ -114,7 +114,7 @@ fn unstopped_motions(world: &World, starts: &[Pose], duration: f64) -> Result<Ve
         .map(|(body, &start)| {
             let rigid = &world.physics.bodies[body.handle];
             let centre = rigid.mass_properties().local_mprops.local_com.to_array();
-            let motion = Motion::between(start, pose(rigid)?, centre, duration)?;
+            let motion = Motion::between(start, body_pose(rigid)?, centre, duration)?;
             Ok((motion, duration))
         })
         .collect()

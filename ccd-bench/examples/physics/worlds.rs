@@ -16,19 +16,19 @@ use std::f64::consts::FRAC_PI_2;
 /// A rapier world with its bodies, and the forces on them.
 pub(crate) struct World {
     pub(crate) physics: PhysicsWorld,
-    pub(crate) bodies: Vec<Simulated>,
+    pub(crate) bodies: Vec<SimulatedBody>,
     /// The pairs of bodies joined to each other, which may overlap.
     pub(crate) joined: Vec<[usize; 2]>,
     /// The length of the thinnest part of any body, in metres.
-    pub(crate) thinnest: f64,
+    pub(crate) min_thickness: f64,
     /// Applies forces to the bodies, or throws them again, before a step.
-    pub(crate) act: fn(&mut World, u32),
+    pub(crate) step_action: fn(&mut World, u32),
     rng: Pcg64,
     /// Whether bodies move with rapier's continuous collision detection, also between moving ones.
     ccd: bool,
 }
 
-pub(crate) struct Simulated {
+pub(crate) struct SimulatedBody {
     pub(crate) handle: RigidBodyHandle,
     pub(crate) body: Body,
     pub(crate) shape: SharedShape,
@@ -63,8 +63,8 @@ impl World {
             physics,
             bodies: Vec::new(),
             joined: Vec::new(),
-            thinnest,
-            act,
+            min_thickness: thinnest,
+            step_action: act,
             rng: Pcg64::seed_from_u64(3),
             ccd,
         }
@@ -73,7 +73,7 @@ impl World {
     fn add(&mut self, builder: RigidBodyBuilder, shape: SharedShape, body: Body) -> usize {
         let collider = ColliderBuilder::new(shape.clone()).contact_skin(CONTACT_SKIN);
         let (handle, _) = self.physics.insert(builder, collider);
-        self.bodies.push(Simulated {
+        self.bodies.push(SimulatedBody {
             handle,
             body,
             shape,
@@ -89,13 +89,13 @@ impl World {
         Ok(())
     }
 
-    fn dynamic(&mut self, place: Vector, shape: SharedShape, body: Body) -> usize {
+    fn dynamic_body_builder(&mut self, place: Vector, shape: SharedShape, body: Body) -> usize {
         let builder = RigidBodyBuilder::dynamic().translation(place);
         let builder = builder.ccd_enabled(self.ccd).can_sleep(false);
         self.add(builder, shape, body)
     }
 
-    fn any(&mut self) -> Vector {
+    fn random_vector(&mut self) -> Vector {
         Vector::from_array(std::array::from_fn(|_| self.rng.random_range(-1.0..1.0)))
     }
 
@@ -108,7 +108,7 @@ impl World {
 
     /// Throws a body from a place, with a random orientation and spin.
     fn throw(&mut self, index: usize, place: Vector, velocity: Vector) {
-        let (turn, spin) = (3.0 * self.any(), 5.0 * self.any());
+        let (turn, spin) = (3.0 * self.random_vector(), 5.0 * self.random_vector());
         let place = Pose::from_parts(place, Rotation::from_scaled_axis(turn));
         self.set(index, place, velocity, spin);
     }
@@ -123,7 +123,7 @@ fn bullets(ccd: bool) -> Result<World> {
         for index in SHEETS..world.bodies.len() {
             // One after the other.
             if step % STEPS_PER_ROUND == 3 * (index - SHEETS) as u32 {
-                let aside = 0.4 * world.any();
+                let aside = 0.4 * world.random_vector();
                 let speed = world.rng.random_range(100.0..390.0);
                 let place = Vector::new(-2.0, aside.y, aside.z);
                 let velocity = Vector::new(speed, 0.02 * speed * aside.x, 0.0);
@@ -136,7 +136,7 @@ fn bullets(ccd: bool) -> Result<World> {
     }
     for k in 0..12 {
         let aside = Vector::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
-        world.dynamic(aside, SharedShape::ball(0.01), Body::sphere(0.01)?);
+        world.dynamic_body_builder(aside, SharedShape::ball(0.01), Body::sphere(0.01)?);
     }
     Ok(world)
 }
@@ -151,9 +151,9 @@ fn bunnies(ccd: bool) -> Result<World> {
             return;
         }
         for index in SIDES..world.bodies.len() {
-            let place = place_of_bunny(index - SIDES) + 0.05 * world.any();
+            let place = place_of_bunny(index - SIDES) + 0.05 * world.random_vector();
             let towards = (place - Vector::new(0.0, 0.0, 0.4)).normalize();
-            let velocity = -40.0 * towards + 5.0 * world.any();
+            let velocity = -40.0 * towards + 5.0 * world.random_vector();
             world.throw(index, place, velocity);
         }
     });
@@ -171,7 +171,7 @@ fn bunnies(ccd: bool) -> Result<World> {
     let shape = SharedShape::convex_decomposition(&vertices, mesh.faces());
     let body = body(&*shape, &Options::default())?.body().clone();
     for number in 0..12 {
-        world.dynamic(place_of_bunny(number), shape.clone(), body.clone());
+        world.dynamic_body_builder(place_of_bunny(number), shape.clone(), body.clone());
     }
     Ok(world)
 }
@@ -194,7 +194,7 @@ fn chain(ccd: bool) -> Result<World> {
         }
         let is_back = !(step / STEPS_PER_ROUND).is_multiple_of(2);
         let towards = if is_back { -1.0 } else { 1.0 };
-        let aside = 3.0 * world.any();
+        let aside = 3.0 * world.random_vector();
         let first = &mut world.physics.bodies[world.bodies[2].handle];
         let ahead = first.translation().x * towards;
         let speed = if ahead < 2.0 { 30.0 } else { 0.0 };
@@ -205,7 +205,7 @@ fn chain(ccd: bool) -> Result<World> {
     }
     for link in 0..LINKS {
         let shape = SharedShape::capsule_z(HALF, 0.02);
-        let index = world.dynamic(Vector::ZERO, shape, Body::capsule(0.02, HALF)?);
+        let index = world.dynamic_body_builder(Vector::ZERO, shape, Body::capsule(0.02, HALF)?);
         world.lay_out(link);
         if link > 0 {
             let joint = SphericalJointBuilder::new()

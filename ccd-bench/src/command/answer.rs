@@ -40,17 +40,17 @@ pub(super) struct AnswerArgs {
 pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     end_with_parent();
     let name = &args.method;
-    let method = Method::named(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
+    let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
     let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
     let meshes = [read(&args.a)?, read(&args.b)?];
-    if let Err(refusal) = answer(method, &meshes, args)? {
-        writeln!(io::stdout(), "{REFUSED}{refusal}").map_err(unwritten)?;
+    if let Err(refusal) = answer_queries(method, &meshes, args)? {
+        writeln!(io::stdout(), "{REFUSED}{refusal}").map_err(write_error)?;
     }
     Ok(Exit::AllAnswered)
 }
 
 /// Answers all queries, or returns the reason for which the method refuses the bodies or the setting.
-fn answer(
+fn answer_queries(
     method: Method,
     [a, b]: &[TriangleMesh; 2],
     args: &AnswerArgs,
@@ -90,11 +90,11 @@ fn serve_all(solver: &mut dyn Solver, tolerance: f64) -> Result<()> {
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             Err(error).context("standard input: no query")
         }
-        Err(source) => Err(unwritten(source).into()),
+        Err(source) => Err(write_error(source).into()),
     }
 }
 
-fn unwritten(source: io::Error) -> CannotWrite {
+fn write_error(source: io::Error) -> CannotWrite {
     CannotWrite {
         place: "the replies".to_owned(),
         source,

@@ -2,10 +2,10 @@
 
 use super::print_summary;
 use crate::method::Method;
-use crate::method::USUAL_TOLERANCE;
+use crate::method::PAPER_TOLERANCE;
 use crate::method::guarded::Programs;
 use crate::method::peer::PeerKind;
-use crate::run::contest::Allowance;
+use crate::run::contest::MeasurementLimits;
 use crate::run::evaluation::Plan;
 use crate::run::export::export;
 use crate::scene::listings;
@@ -41,10 +41,10 @@ pub(super) struct ChartArgs {
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
     /// Seconds for each method on each scene at each tolerance; after that, no more rows are started
-    #[arg(long, value_name = "SECONDS", value_parser = duration)]
+    #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
     cell: Option<Duration>,
     /// Seconds after which a peer is stopped in the middle of a row
-    #[arg(long, value_name = "SECONDS", value_parser = duration)]
+    #[arg(long, value_name = "SECONDS", value_parser = duration_from_seconds)]
     patience: Option<Duration>,
     #[command(flatten)]
     programs: Programs,
@@ -70,10 +70,10 @@ Examples:
 /// The tolerances at which methods are measured, from coarse to fine, for bodies of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// The tolerances at which methods are compared at equal accuracy.
-const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
+const FEW_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
 
 /// The limits of measurements for a comparison of everything in half an hour.
-const FULL_ALLOWANCE: Allowance = Allowance {
+const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::from_millis(600),
     patience: Duration::from_secs(4),
     rows: usize::MAX,
@@ -81,7 +81,7 @@ const FULL_ALLOWANCE: Allowance = Allowance {
     preparation: Duration::from_secs(20),
 };
 /// The limits of measurements for a comparison of a few rows of everything in a minute.
-const QUICK_ALLOWANCE: Allowance = Allowance {
+const QUICK_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::from_millis(40),
     patience: Duration::from_millis(200),
     rows: 40,
@@ -110,7 +110,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         return Ok(Exit::AllAnswered);
     }
     let evaluated = if args.redraw {
-        plan.recall()?
+        plan.load_measured()?
     } else {
         plan.run()?
     };
@@ -132,9 +132,9 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
         );
     }
     let (allowance, tolerances) = if args.full {
-        (FULL_ALLOWANCE, &TOLERANCES[..])
+        (FULL_LIMITS, &TOLERANCES[..])
     } else {
-        (QUICK_ALLOWANCE, &FEW_TOLERANCES[..])
+        (QUICK_LIMITS, &FEW_TOLERANCES[..])
     };
     let methods = Method::all().into_iter();
     let methods = methods.filter(|method| args.full || is_fast_to_run(*method));
@@ -142,7 +142,7 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
         listings: listings()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
-        allowance: Allowance {
+        allowance: MeasurementLimits {
             cell: args.cell.unwrap_or(allowance.cell),
             patience: args.patience.unwrap_or(allowance.patience),
             ..allowance
@@ -183,6 +183,6 @@ pub(super) fn select_by_name<T>(
     Ok(all.into_iter().filter(wanted).collect())
 }
 
-fn duration(seconds: &str) -> Result<Duration> {
+fn duration_from_seconds(seconds: &str) -> Result<Duration> {
     Ok(Duration::try_from_secs_f64(seconds.parse()?)?)
 }

@@ -1,7 +1,7 @@
 //! The command `ccd-bench judge`: runs one method, and compares its answers with the exact ones.
 
 use crate::method::Method;
-use crate::method::guarded::{Guarded, Programs, Setting};
+use crate::method::guarded::{GuardSettings, GuardedMethod, Programs};
 use crate::method::solver::Claim;
 use crate::run::contest::{judge, judge_outcome};
 use crate::truth::{Referee, Surface, TruthRow};
@@ -50,19 +50,19 @@ of `ccd-bench truth`, with its statuses. The columns: id, status, lo and hi of t
 Example:
   ccd-bench judge --method C2A --a a.obj --b b.obj --motions motions.csv";
 
-const COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answer", "time"];
+const VERDICT_COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answer", "time"];
 
 pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
     let name = &args.method;
-    let method = Method::named(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
+    let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
     let read = |path: &Path| TriangleMesh::read(path);
     let meshes = [read(&args.a)?, read(&args.b)?];
     let surfaces = meshes.each_ref().map(Surface::new);
     let referee = Referee::new(&surfaces[0], &surfaces[1]);
-    let setting = Setting::new(method, args.tolerance);
-    let guarded = Guarded::start(&args.programs, setting, meshes.each_ref());
+    let setting = GuardSettings::new(method, args.tolerance);
+    let guarded = GuardedMethod::start(&args.programs, setting, meshes.each_ref());
     let mut guarded = guarded.with_context(|| name.clone())?;
-    let mut table = Table::create(&args.out, &COLUMNS)?;
+    let mut table = Table::create(&args.out, &VERDICT_COLUMNS)?;
     let mut bad_rows = BadRows::new(input_name(&args.motions));
     let (rows, _) = open_motions(&args.motions)?;
     for row in rows {
@@ -75,7 +75,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         };
         let query = method.motion_kind().apply(query)?;
         let truth = referee.first_contact(&query);
-        let asked = guarded.ask(&query, Duration::from_secs(args.patience.get().into()))?;
+        let asked = guarded.run_query(&query, Duration::from_secs(args.patience.get().into()))?;
         let verdict = judge_outcome(&asked, |reply| {
             let tolerance = reply.judging_tolerance(args.tolerance);
             judge(&referee, &query, truth, reply.claim, tolerance)

@@ -7,7 +7,7 @@ use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
 use crate::run::contest::Journal;
 use crate::show::write;
-use crate::stability::{Findings, Survey, families, growth_map, limits, reach_map, summary};
+use crate::stability::{Findings, Survey, families, growth_map, limits, solved_range_map, summary};
 use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::command::Exit;
@@ -78,7 +78,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         "{} holds no answers to draw",
         args.out.display()
     );
-    let reach = reach_map(&findings).draw()?;
+    let reach = solved_range_map(&findings).draw()?;
     let growth = growth_map(&findings).draw()?;
     let limits = format!("{}\n", limits(&findings));
     let files = [

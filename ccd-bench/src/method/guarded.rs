@@ -18,9 +18,9 @@ use tempfile::TempDir;
 
 /// A method that runs on one query at a time, in a separate process. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
-pub struct Guarded {
+pub struct GuardedMethod {
     program: PathBuf,
-    setting: Setting,
+    setting: GuardSettings,
     /// The folder of the files of both meshes.
     meshes: TempDir,
     /// The running process; `None` after the last one was stopped, until the next one starts.
@@ -29,7 +29,7 @@ pub struct Guarded {
 
 /// A method with its tolerance, its margin and its time limit.
 #[derive(Clone, Copy, Debug)]
-pub struct Setting {
+pub struct GuardSettings {
     /// The method that the process runs.
     pub method: Method,
     /// The tolerance, for methods that take one.
@@ -40,10 +40,10 @@ pub struct Setting {
     pub preparation: Duration,
 }
 
-impl Setting {
+impl GuardSettings {
     /// Returns the default setting of a method at a tolerance: no margin, and two minutes of preparation.
     pub fn new(method: Method, tolerance: f64) -> Self {
-        Setting {
+        GuardSettings {
             method,
             tolerance,
             margin: 0.0,
@@ -83,8 +83,8 @@ impl Programs {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
         let mesh = TriangleMesh::new(corners.to_vec(), &faces).map_err(io::Error::other)?;
-        let setting = Setting::new(method, 1e-3);
-        match Guarded::start(self, setting, [&mesh, &mesh]) {
+        let setting = GuardSettings::new(method, 1e-3);
+        match GuardedMethod::start(self, setting, [&mesh, &mesh]) {
             Ok(_) => Ok(()),
             Err(error) => Err(io::Error::other(format!(
                 "{method}: {error}; its script needs Python with coal, python-fcl and numpy"
@@ -131,7 +131,7 @@ impl QueryOutcome {
     }
 }
 
-impl Guarded {
+impl GuardedMethod {
     /// Starts a method on two meshes, with the command `answer` of its program.
     ///
     /// # Errors
@@ -140,11 +140,11 @@ impl Guarded {
     /// kind [`TimedOut`](io::ErrorKind::TimedOut) if it takes too long.
     pub fn start(
         programs: &Programs,
-        setting: Setting,
+        setting: GuardSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
-        let mut guarded = Guarded::new(programs, setting, meshes)?;
-        guarded.running()?;
+        let mut guarded = GuardedMethod::new(programs, setting, meshes)?;
+        guarded.running_process()?;
         Ok(guarded)
     }
 
@@ -154,11 +154,11 @@ impl Guarded {
     /// If the meshes cannot be written, or the method has no program.
     pub fn new(
         programs: &Programs,
-        setting: Setting,
+        setting: GuardSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let program = programs.program_of(setting.method)?;
-        Guarded::with_program(program, setting, meshes)
+        GuardedMethod::with_program(program, setting, meshes)
     }
 
     /// Prepares a method that runs another program with the command `answer`. The first query starts it.
@@ -167,14 +167,14 @@ impl Guarded {
     /// If the meshes cannot be written.
     pub fn with_program(
         program: PathBuf,
-        setting: Setting,
+        setting: GuardSettings,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let folder = TempDir::with_prefix("ccd-bench-")?;
         for (mesh, name) in meshes.into_iter().zip(MESHES) {
             write_obj(mesh, File::create(folder.path().join(name))?)?;
         }
-        Ok(Guarded {
+        Ok(GuardedMethod {
             program,
             setting,
             meshes: folder,
@@ -195,15 +195,15 @@ impl Guarded {
     ///
     /// # Errors
     /// Those of [`Guarded::start`].
-    pub fn ask(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
-        let outcome = self.running()?.ask(query, patience);
+    pub fn run_query(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
+        let outcome = self.running_process()?.ask(query, patience);
         if !matches!(outcome, QueryOutcome::Answered(_)) {
             self.process = None;
         }
         Ok(outcome)
     }
 
-    fn running(&mut self) -> io::Result<&mut Process> {
+    fn running_process(&mut self) -> io::Result<&mut Process> {
         let process = match self.process.take() {
             Some(process) => process,
             None => self.spawn()?,

@@ -53,8 +53,8 @@ impl PeerKind {
     pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh) -> Result<Box<dyn Solver>> {
         use parry::{double, single};
         Ok(match self {
-            PeerKind::ParryF64 => Box::new(double::cast::Cast::new(a, b)?),
-            PeerKind::ParryF32 => Box::new(single::cast::Cast::new(a, b)?),
+            PeerKind::ParryF64 => Box::new(double::cast::NonlinearCast::new(a, b)?),
+            PeerKind::ParryF32 => Box::new(single::cast::NonlinearCast::new(a, b)?),
             PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptPairs::new(a, b)?),
             PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptPairs::new(a, b)?),
             PeerKind::RapierStepF64 => Box::new(rapier::Simulated::new(a, b)?),

@@ -90,7 +90,7 @@ pub enum Claim {
     /// The solver does not support the query.
     Refused,
     /// The solver measured something else, such as a single distance, for a comparison of times.
-    Static,
+    NoClaim,
 }
 
 impl Claim {
@@ -101,7 +101,7 @@ impl Claim {
             Claim::Free => "free",
             Claim::Unresolved { .. } => "unresolved",
             Claim::Refused => "refused",
-            Claim::Static => "static",
+            Claim::NoClaim => "static",
         }
     }
 
@@ -109,7 +109,7 @@ impl Claim {
     pub fn time(self) -> Option<f64> {
         match self {
             Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),
-            Claim::Free | Claim::Refused | Claim::Static => None,
+            Claim::Free | Claim::Refused | Claim::NoClaim => None,
         }
     }
 }

@@ -113,7 +113,7 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
         "free" => Claim::Free,
         "unresolved" => Claim::Unresolved { safe_until: time },
         "refused" => Claim::Refused,
-        "static" => Claim::Static,
+        "static" => Claim::NoClaim,
         _ => return None,
     };
     let steps = cells.next()?.parse().ok()?;

@@ -9,7 +9,7 @@ pub(crate) mod verdict;
 use ccd_core::order::greater;
 pub use journal::{Journal, program_stamp};
 pub use session::Session;
-pub use verdict::{Judged, Verdict, is_near, judge, judge_contact, judge_outcome};
+pub use verdict::{Judgement, Verdict, is_within_tolerance, judge, judge_contact, judge_outcome};
 
 use crate::method::MotionKind;
 use crate::method::guarded::QueryOutcome;
@@ -28,7 +28,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 /// A scene with its surfaces, prepared for running methods and judging their answers.
-pub struct Contest<'s> {
+pub struct PreparedScene<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
     given: Rows<'s>,
@@ -44,7 +44,7 @@ struct Rows<'s> {
 
 /// The limits on time and rows of a measurement.
 #[derive(Clone, Copy, Debug)]
-pub struct Allowance {
+pub struct MeasurementLimits {
     /// The time for one method on one scene at one tolerance; no more queries are started after it.
     pub cell: Duration,
     /// The time limit of one query of a peer, which is then stopped.
@@ -61,7 +61,7 @@ pub struct Allowance {
 /// The maximum number of pairs of pieces for a schedule without a tree, which processes all pairs in every step.
 pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
-impl<'s> Contest<'s> {
+impl<'s> PreparedScene<'s> {
     /// Prepares a scene for running methods on it.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl<'s> Contest<'s> {
             Arc::new(Surface::new(scene.b.mesh()))
         };
         let screws: Result<Vec<Motions>, InputError> = scene.queries.iter().map(screw).collect();
-        Ok(Contest {
+        Ok(PreparedScene {
             scene,
             surfaces: [a, b],
             given: Rows::new(Cow::Borrowed(&scene.queries)),
@@ -90,7 +90,13 @@ impl<'s> Contest<'s> {
     }
 
     /// Judges the outcome of a row's query by the exact answer, which is computed on first use.
-    fn judge(&self, rows: &Rows<'_>, row: usize, outcome: &QueryOutcome, tolerance: f64) -> Judged {
+    fn judge(
+        &self,
+        rows: &Rows<'_>,
+        row: usize,
+        outcome: &QueryOutcome,
+        tolerance: f64,
+    ) -> Judgement {
         let referee = Referee::new(&self.surfaces[0], &self.surfaces[1]);
         let query = &rows.queries[row];
         judge_outcome(outcome, |reply| {
@@ -120,7 +126,7 @@ impl<'s> Contest<'s> {
         &self,
         session: &mut Session<'_>,
         tolerance: f64,
-        allowance: &Allowance,
+        allowance: &MeasurementLimits,
     ) -> Result<Option<(Cell, Vec<Trial>)>> {
         let method = session.method();
         let rows = self.rows(method.motion_kind());

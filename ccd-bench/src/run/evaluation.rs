@@ -1,9 +1,9 @@
 //! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
 
 use crate::method::guarded::Programs;
-use crate::method::{Method, USUAL_TOLERANCE};
-use crate::run::contest::{Allowance, Contest, Journal, Session, program_stamp};
-use crate::scene::{Listing, Models, Pieces, Scene, SceneBody};
+use crate::method::{Method, PAPER_TOLERANCE};
+use crate::run::contest::{Journal, MeasurementLimits, PreparedScene, Session, program_stamp};
+use crate::scene::{Listing, Models, PieceKind, Scene, SceneBody};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, Total};
@@ -21,7 +21,7 @@ pub struct Plan {
     /// The tolerances to measure at.
     pub tolerances: Vec<f64>,
     /// The limits of each method on each scene; a peer may run a single row, and prepares nothing on first use.
-    pub allowance: Allowance,
+    pub allowance: MeasurementLimits,
     /// The programs that run the methods.
     pub programs: Programs,
     /// The folder of mesh files that replace the models made by code.
@@ -31,7 +31,7 @@ pub struct Plan {
 }
 
 /// The measurements made, with their scenes.
-pub struct Evaluated {
+pub struct Evaluation {
     /// The scenes that the methods were run on.
     pub scenes: Vec<Scene>,
     /// The measurements of all cells and trials.
@@ -43,10 +43,10 @@ impl Plan {
     ///
     /// # Errors
     /// If a scene cannot be made.
-    pub fn recall(&self) -> Result<Evaluated> {
+    pub fn load_measured(&self) -> Result<Evaluation> {
         let mut models = Models::new(self.models.clone());
         let scenes = self.listings.iter().map(|l| l.make(&mut models));
-        Ok(Evaluated {
+        Ok(Evaluation {
             scenes: scenes.collect::<Result<_>>()?,
             journal: Journal::read(&self.folder),
         })
@@ -56,7 +56,7 @@ impl Plan {
     ///
     /// # Errors
     /// If a scene cannot be made, a method cannot be run, or a file cannot be kept; earlier measurements are kept.
-    pub fn run(&self) -> Result<Evaluated> {
+    pub fn run(&self) -> Result<Evaluation> {
         for &method in &self.methods {
             self.programs.check(method)?;
         }
@@ -70,16 +70,16 @@ impl Plan {
             .sum();
         let progress = Progress::new(Total::Steps(scenes.len() * cells));
         for scene in &scenes {
-            let contest = Contest::new(scene)?;
+            let contest = PreparedScene::new(scene)?;
             self.run_scene(&contest, &mut journal, &progress)?;
         }
         drop(progress);
-        Ok(Evaluated { scenes, journal })
+        Ok(Evaluation { scenes, journal })
     }
 
     fn run_scene(
         &self,
-        contest: &Contest<'_>,
+        contest: &PreparedScene<'_>,
         journal: &mut Journal,
         progress: &Progress,
     ) -> Result<()> {
@@ -90,7 +90,7 @@ impl Plan {
                 Method::Peer(_) | Method::Script(_) => 1,
                 Method::Ours(..) | Method::Rival(_) => self.allowance.least_rows,
             };
-            let allowance = Allowance {
+            let allowance = MeasurementLimits {
                 least_rows,
                 ..self.allowance
             };
@@ -138,7 +138,7 @@ impl Plan {
         });
         let bodies = scenes.iter().flat_map(|scene| [&scene.a, &scene.b]);
         // Bodies are shared between scenes.
-        let wanted: HashMap<(usize, Pieces), &SceneBody> = bodies
+        let wanted: HashMap<(usize, PieceKind), &SceneBody> = bodies
             .flat_map(|body| {
                 let address = Arc::as_ptr(&body.body).addr();
                 kinds.clone().map(move |pieces| ((address, pieces), body))
@@ -154,7 +154,7 @@ impl Plan {
         self.tolerances
             .iter()
             .copied()
-            .filter(move |&tolerance| method.takes_tolerances() || tolerance == USUAL_TOLERANCE)
+            .filter(move |&tolerance| method.takes_tolerances() || tolerance == PAPER_TOLERANCE)
     }
 
     /// Describes the settings that determine all measurements: this program, and the allowances.

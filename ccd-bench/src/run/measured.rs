@@ -2,7 +2,7 @@
 
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::Claim;
-use crate::run::contest::verdict::Judged;
+use crate::run::contest::verdict::Judgement;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
@@ -83,7 +83,7 @@ impl Trial {
         (scene, method, tolerance): (&str, &str, f64),
         (row, id): (usize, &str),
         (outcome, patience): (&QueryOutcome, Duration),
-        (judged, note): (Judged, String),
+        (judged, note): (Judgement, String),
     ) -> Self {
         Trial {
             scene: scene.to_owned(),

@@ -22,12 +22,12 @@ pub struct Listing {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct File {
+struct ListingFile {
     scene: Vec<Listing>,
 }
 
 const SCENES: &str = include_str!("../../scenes/scenes.toml");
-pub(super) const MOTIONS: [(&str, &str); 6] = [
+pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
     ("santa.csv", include_str!("../../scenes/santa.csv")),
     ("bunnies.csv", include_str!("../../scenes/bunnies.csv")),
     ("knots.csv", include_str!("../../scenes/knots.csv")),
@@ -50,7 +50,7 @@ pub(super) const MOTIONS: [(&str, &str); 6] = [
 /// # Errors
 /// If the data file is invalid.
 pub fn listings() -> Result<Vec<Listing>> {
-    let file: File = toml::from_str(SCENES).context("scenes.toml")?;
+    let file: ListingFile = toml::from_str(SCENES).context("scenes.toml")?;
     Ok(file.scene)
 }
 
@@ -75,7 +75,7 @@ impl Listing {
     }
 
     fn queries(&self) -> Result<Vec<Motions>> {
-        let text = MOTIONS
+        let text = MOTION_TABLES
             .iter()
             .find_map(|(name, text)| (*name == self.motions).then_some(*text))
             .context("there is no such file")?;

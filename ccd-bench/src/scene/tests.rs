@@ -9,9 +9,9 @@ use shots::{Shots, drops_past_board};
 fn shots() -> Shots {
     Shots {
         count: 200,
-        translations: 80,
+        translation_count: 80,
         distance: 3.0..3.5,
-        aside: 1.0,
+        max_offset: 1.0,
         seed: 9,
     }
 }
@@ -77,14 +77,14 @@ fn models_are_made_once() {
 fn the_stored_motions_are_those_of_their_seeds() {
     let bunnies = Shots {
         count: 250,
-        translations: 100,
+        translation_count: 100,
         distance: 2.6..3.2,
-        aside: 1.6,
+        max_offset: 1.6,
         seed: 2,
     };
     let knots = Shots {
         distance: 3.0..3.8,
-        aside: 2.3,
+        max_offset: 2.3,
         seed: 3,
         ..bunnies.clone()
     };
@@ -100,7 +100,7 @@ fn the_stored_motions_are_those_of_their_seeds() {
     for (name, queries) in drawn {
         let mut table = Vec::new();
         write(&mut table, &queries).unwrap();
-        let stored = listing::MOTIONS
+        let stored = listing::MOTION_TABLES
             .into_iter()
             .find(|(stored, _)| *stored == name);
         assert!(stored.unwrap().1.as_bytes() == table, "{name}");

@@ -16,7 +16,7 @@ mod style;
 #[cfg(test)]
 mod tests;
 
-pub use heat_map::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
+pub use heat_map::{GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
 
 use crate::method::Method;
 use crate::run::measured::Cell;
@@ -114,8 +114,8 @@ impl Charts<'_> {
 impl<'a> MethodFacts<'a> {
     /// Returns the facts about the method with this name; an unknown method was measured elsewhere.
     pub fn named(name: &'a str) -> Self {
-        let family = match Method::named(name) {
-            Some(method @ Method::Ours(..)) if method.is_model() => Family::Model,
+        let family = match Method::from_name(name) {
+            Some(method @ Method::Ours(..)) if method.is_piece_variant() => Family::Model,
             Some(Method::Ours(..)) => Family::Ours,
             Some(Method::Rival(_)) => Family::Rival,
             Some(Method::Peer(_) | Method::Script(_)) | None => Family::Peer,

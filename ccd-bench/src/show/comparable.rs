@@ -47,7 +47,7 @@ impl<'a> Reference<'a> {
 
     /// Returns the cells with their medians replaced by comparable ones: the reference's median times the ratio. A cell
     /// keeps its own where the reference was not asked.
-    pub fn comparable(&self, cells: &[Cell]) -> Vec<Cell> {
+    pub fn comparable_cells(&self, cells: &[Cell]) -> Vec<Cell> {
         let at = |cell: &&Cell| cell.method == self.name;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))
             .map(|cell| {

@@ -8,7 +8,7 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::{BodyMotion, Family, Step, contact_at};
+use super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::shapes::slab;
 use anyhow::Result;
 use ccd_decomp::TriangleMesh;
@@ -30,7 +30,7 @@ pub fn families() -> Vec<Family> {
 }
 
 /// Returns a family with the given name, whose parameter is still unnamed and without values.
-fn family(name: &'static str, make: fn(f64) -> Result<Step>) -> Family {
+fn family(name: &'static str, make: fn(f64) -> Result<FamilyStep>) -> Family {
     Family {
         name,
         parameter: "",
@@ -50,8 +50,8 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 }
 
 /// Returns the step of a body that falls onto a slab, and meets it at a time known to within 1e-14.
-fn onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<Step> {
-    let step = Step::new(mesh, slab()?);
+fn onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }

@@ -17,12 +17,12 @@ pub struct Family {
     /// The values of the parameter, the easiest first.
     pub values: Vec<f64>,
     /// The function that makes the scene of a value.
-    pub make: fn(f64) -> Result<Step>,
+    pub make: fn(f64) -> Result<FamilyStep>,
 }
 
 /// The scene of a family for one value of its parameter: two meshes, and queries with known answers.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub struct FamilyStep {
     /// The meshes of body A and body B.
     pub meshes: [TriangleMesh; 2],
     /// The tolerance of the queries, in the scene's unit of length.
@@ -59,9 +59,9 @@ impl Family {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyMotion {
     pub(super) at: DVec3,
-    pub(super) turned: DQuat,
+    pub(super) orientation: DQuat,
     pub(super) velocity: DVec3,
-    pub(super) spin: DVec3,
+    pub(super) angular_velocity: DVec3,
     /// The centre of rotation, in the body's frame.
     pub(super) centre: DVec3,
 }
@@ -86,9 +86,9 @@ pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
 impl BodyMotion {
     pub(super) const STILL: BodyMotion = BodyMotion {
         at: DVec3::ZERO,
-        turned: DQuat::IDENTITY,
+        orientation: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
-        spin: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
         centre: DVec3::ZERO,
     };
 
@@ -106,7 +106,7 @@ impl BodyMotion {
     };
 
     /// Returns the motion of a body that rests at a position.
-    pub(super) fn rest(at: DVec3) -> Self {
+    pub(super) fn resting_at(at: DVec3) -> Self {
         BodyMotion::straight(at, DVec3::ZERO)
     }
 
@@ -121,26 +121,32 @@ impl BodyMotion {
 
     /// Returns the same motion with another orientation at the start.
     pub(super) fn oriented(self, turned: DQuat) -> Self {
-        BodyMotion { turned, ..self }
+        BodyMotion {
+            orientation: turned,
+            ..self
+        }
     }
 
     /// Returns the same motion with an added rotation about the centre.
     pub(super) fn spinning(self, spin: DVec3) -> Self {
-        BodyMotion { spin, ..self }
+        BodyMotion {
+            angular_velocity: spin,
+            ..self
+        }
     }
 
     fn motion(self, world: DQuat, duration: f64) -> Result<Motion, InputError> {
-        let start = Pose::new(world * self.at, world * self.turned)?;
+        let start = Pose::new(world * self.at, world * self.orientation)?;
         let velocity = world * self.velocity / duration;
-        let spin = world * self.spin / duration;
+        let spin = world * self.angular_velocity / duration;
         Motion::about(start, velocity, spin, self.centre)
     }
 }
 
-impl Step {
+impl FamilyStep {
     /// Creates a step for two meshes, without queries.
     pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
-        Step {
+        FamilyStep {
             meshes: [a, b],
             tolerance: TOLERANCE,
             margin: 0.0,
@@ -151,12 +157,12 @@ impl Step {
 
     /// Returns the same step with another tolerance.
     pub(super) fn with_tolerance(self, tolerance: f64) -> Self {
-        Step { tolerance, ..self }
+        FamilyStep { tolerance, ..self }
     }
 
     /// Adds a query with exactly these motions; the expected answer is for a duration of 1.
     pub(super) fn with_query(self, a: BodyMotion, b: BodyMotion, expected: Truth) -> Result<Self> {
-        self.in_world(DQuat::IDENTITY, [a, b], expected)
+        self.with_query_in_world(DQuat::IDENTITY, [a, b], expected)
     }
 
     /// Adds the query, and the same query in rotated worlds. The answer has to bear their rounding.
@@ -168,7 +174,8 @@ impl Step {
     ) -> Result<Self> {
         self = self.with_query(a, b, expected)?;
         for (axis, angle) in WORLD_ROTATIONS {
-            self = self.in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
+            self =
+                self.with_query_in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
         }
         Ok(self)
     }
@@ -188,7 +195,12 @@ impl Step {
         }
     }
 
-    fn in_world(mut self, world: DQuat, [a, b]: [BodyMotion; 2], expected: Truth) -> Result<Self> {
+    fn with_query_in_world(
+        mut self,
+        world: DQuat,
+        [a, b]: [BodyMotion; 2],
+        expected: Truth,
+    ) -> Result<Self> {
         let query = Motions {
             id: self.cases.len().to_string(),
             a: a.motion(world, self.duration)?,

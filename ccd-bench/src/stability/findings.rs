@@ -21,7 +21,7 @@ pub struct Findings<'j> {
 
 /// A step of a family to which a method gave a wrong answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Limit {
+pub(super) struct FailedStep {
     pub(super) value: f64,
     /// The worst verdict on the method's answers at that step.
     pub(super) verdict: Verdict,
@@ -31,11 +31,11 @@ pub(super) struct Limit {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// The share of the family's steps, from the easiest, before the first wrong answer.
-    pub(super) share: f64,
+    pub(super) solved_fraction: f64,
     /// The first step with a wrong answer; `None` if all are right.
-    pub(super) first: Option<Limit>,
+    pub(super) first: Option<FailedStep>,
     /// The first step with the worst verdict of all; `None` if all are right.
-    pub(super) worst: Option<Limit>,
+    pub(super) worst_answers: Option<FailedStep>,
 }
 
 impl<'j> Findings<'j> {
@@ -81,12 +81,12 @@ impl<'j> Findings<'j> {
         let most = asked.iter().map(|&(_, verdict)| verdict).max()?;
         let is_right = |asked: &&(f64, Verdict)| asked.1 == Verdict::Right;
         let right = asked.iter().take_while(is_right).count();
-        let limit = |&(value, verdict): &(f64, Verdict)| Limit { value, verdict };
+        let limit = |&(value, verdict): &(f64, Verdict)| FailedStep { value, verdict };
         let worst = asked.iter().find(|step| step.1 == most && !is_right(step));
         Some(Reach {
-            share: right as f64 / family.values.len() as f64,
+            solved_fraction: right as f64 / family.values.len() as f64,
             first: asked.get(right).map(limit),
-            worst: worst.map(limit),
+            worst_answers: worst.map(limit),
         })
     }
 }

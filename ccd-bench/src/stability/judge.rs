@@ -1,30 +1,35 @@
 //! Judges the answer to a query of a step against the exact one.
 
-use super::family::{Case, Step};
+use super::family::{Case, FamilyStep};
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
-use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
+use crate::run::contest::{self, Judgement, Verdict, is_within_tolerance, judge_contact};
 use crate::truth::{Referee, Truth};
 
 /// The latest time that counts as the start for bodies in contact at the start, as a fraction of the duration.
-const AT_START: f64 = 1e-12;
+const MAX_START_TIME: f64 = 1e-12;
 
 /// Judges the answer to a query by the tolerance of its step, or by a higher one that the method states. The referee
 /// measures distances; it is not asked for the answer.
-pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, outcome: &QueryOutcome) -> Judged {
+pub fn judge(
+    step: &FamilyStep,
+    case: &Case,
+    referee: &Referee<'_>,
+    outcome: &QueryOutcome,
+) -> Judgement {
     contest::judge_outcome(outcome, |reply| judge_reply(step, case, referee, reply))
 }
 
-fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judged {
+fn judge_reply(step: &FamilyStep, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judgement {
     let claim = reply.claim;
     let query = &case.query;
     let within = step.margin + reply.judging_tolerance(step.tolerance);
     match case.expected {
-        _ if claim == Claim::Refused => Judged::without_error(Verdict::Refused),
+        _ if claim == Claim::Refused => Judgement::without_error(Verdict::Refused),
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
-            is_near(referee, query, time, within)
+            is_within_tolerance(referee, query, time, within)
         }),
-        Truth::Start => Judged::without_error(from_start(claim, query.duration)),
+        Truth::Start => Judgement::without_error(from_start(claim, query.duration)),
         truth => contest::judge(referee, query, truth, claim, within),
     }
 }
@@ -32,14 +37,14 @@ fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -
 /// Judges a claim about bodies in contact from the start.
 fn from_start(claim: Claim, duration: f64) -> Verdict {
     match claim {
-        Claim::Contact { time } if time <= AT_START * duration => Verdict::Right,
-        Claim::Unresolved { safe_until } if safe_until <= AT_START * duration => {
+        Claim::Contact { time } if time <= MAX_START_TIME * duration => Verdict::Right,
+        Claim::Unresolved { safe_until } if safe_until <= MAX_START_TIME * duration => {
             Verdict::Unresolved
         }
         Claim::Contact { .. } | Claim::Unresolved { .. } => Verdict::Late,
         Claim::Free => Verdict::Missed,
         Claim::Refused => Verdict::Refused,
-        Claim::Static => Verdict::NotJudged,
+        Claim::NoClaim => Verdict::NotJudged,
     }
 }
 

@@ -132,7 +132,7 @@ pub(super) fn slit_plate(slit: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch per turn.
-pub(super) fn ribbon(
+pub(super) fn helicoid(
     radii: [f64; 2],
     pitch: f64,
     sides: u32,

@@ -5,7 +5,7 @@ use super::findings::Findings;
 use super::survey::step_name;
 use crate::run::contest::Verdict;
 use crate::run::measured::{Cell, Trial};
-use crate::show::chart::{GROWTH, HeatCell, HeatKind, HeatMap, HeatRow, REACH};
+use crate::show::chart::{GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
 use clap::ValueEnum;
@@ -57,13 +57,13 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
 }
 
 /// Returns the heat map of how far each method is right in each family.
-pub fn reach_map(findings: &Findings<'_>) -> HeatMap {
-    map(findings, REACH, |family, method| {
+pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
+    map(findings, SOLVED_RANGE, |family, method| {
         let reach = findings.reach(family, method)?;
-        let worst = reach.worst;
+        let worst = reach.worst_answers;
         Some(HeatCell::reach(
             worst.map_or(Verdict::Right, |limit| limit.verdict),
-            reach.share,
+            reach.solved_fraction,
             worst.map_or(String::new(), |limit| format!("{:e}", limit.value)),
         ))
     })
@@ -97,7 +97,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
 /// Makes a heat map whose cells are a function of the family and the method.
 fn map(
     findings: &Findings<'_>,
-    kind: &'static HeatKind,
+    kind: &'static HeatMapKind,
     cell: impl Fn(&Family, &str) -> Option<HeatCell>,
 ) -> HeatMap {
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();

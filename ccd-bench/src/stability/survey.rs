@@ -1,13 +1,13 @@
 //! Runs methods on all steps of the families, each in a process that can be stopped, and records the answers in a
 //! journal.
 
-use super::family::{Family, Step};
+use super::family::{Family, FamilyStep};
 use super::judge::judge;
-use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
+use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
 use crate::method::rival::is_screw;
 use crate::method::solver::TimedReply;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Journal, Judged, Verdict, program_stamp, summarise};
+use crate::run::contest::{Journal, Judgement, Verdict, program_stamp, summarise};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
@@ -117,7 +117,7 @@ impl Survey {
 
 /// A step with its meshes, prepared for queries.
 struct PreparedStep<'s> {
-    step: &'s Step,
+    step: &'s FamilyStep,
     name: &'s str,
     surfaces: [Surface; 2],
 }
@@ -126,13 +126,13 @@ impl PreparedStep<'_> {
     /// Runs a method on all queries of the step, up to the first query at which the method is stopped.
     fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
-        let setting = Setting {
+        let setting = GuardSettings {
             margin: step.margin,
             preparation: PREPARATION_TIME_LIMIT,
-            ..Setting::new(method, step.tolerance)
+            ..GuardSettings::new(method, step.tolerance)
         };
         let name = method.to_string();
-        let trial = |row: usize, outcome: &QueryOutcome, judged: (Judged, String)| {
+        let trial = |row: usize, outcome: &QueryOutcome, judged: (Judgement, String)| {
             Trial::new(
                 (self.name, &name, step.tolerance),
                 (row, &row.to_string()),
@@ -140,7 +140,7 @@ impl PreparedStep<'_> {
                 judged,
             )
         };
-        let mut guarded = match Guarded::start(programs, setting, step.meshes.each_ref()) {
+        let mut guarded = match GuardedMethod::start(programs, setting, step.meshes.each_ref()) {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
@@ -152,12 +152,12 @@ impl PreparedStep<'_> {
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             if method.motion_kind() == MotionKind::Screw && !is_screw(&case.query) {
-                let refused = Judged::without_error(Verdict::Refused);
+                let refused = Judgement::without_error(Verdict::Refused);
                 let note = "bodies move along screws only".to_owned();
                 trials.push(trial(row, &QueryOutcome::Died, (refused, note)));
                 continue;
             }
-            let outcome = guarded.ask(&case.query, QUERY_TIME_LIMIT)?;
+            let outcome = guarded.run_query(&case.query, QUERY_TIME_LIMIT)?;
             let judged = judge(step, case, &Referee::new(a, b), &outcome);
             trials.push(trial(row, &outcome, (judged, self.note(&outcome))));
             if outcome == QueryOutcome::CutOff {
@@ -182,8 +182,8 @@ impl PreparedStep<'_> {
 }
 
 /// Judges a method that ends before its first query.
-fn judge_not_started(error: io::Error) -> io::Result<Judged> {
-    Ok(Judged::without_error(match error.kind() {
+fn judge_not_started(error: io::Error) -> io::Result<Judgement> {
+    Ok(Judgement::without_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
         io::ErrorKind::TimedOut => Verdict::CutOff,
         io::ErrorKind::Other => Verdict::Died,

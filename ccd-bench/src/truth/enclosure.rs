@@ -6,11 +6,11 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// A vector whose coordinates are known to within intervals.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Vector(pub(super) [Interval; 3]);
+pub(super) struct IntervalVector(pub(super) [Interval; 3]);
 
 /// A matrix by its rows, whose entries are known to within intervals.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Matrix(pub(super) [[Interval; 3]; 3]);
+pub(super) struct IntervalMatrix(pub(super) [[Interval; 3]; 3]);
 
 const ZERO: Interval = exact(0.0);
 const ONE: Interval = exact(1.0);
@@ -18,9 +18,9 @@ const TWO: Interval = exact(2.0);
 /// The range of every sine and cosine.
 const SINE_RANGE: Interval = Interval::new(-1.0, 1.0);
 
-impl Vector {
+impl IntervalVector {
     pub(super) fn scaled(&self, by: Interval) -> Self {
-        Vector(self.0.map(|x| x * by))
+        IntervalVector(self.0.map(|x| x * by))
     }
 
     pub(super) fn dot(&self, other: &Self) -> Interval {
@@ -32,26 +32,26 @@ impl Vector {
     pub(super) fn cross(&self, other: &Self) -> Self {
         let [x, y, z] = self.0;
         let [u, v, w] = other.0;
-        Vector([y * w - z * v, z * u - x * w, x * v - y * u])
+        IntervalVector([y * w - z * v, z * u - x * w, x * v - y * u])
     }
 
     /// Returns the matrix that multiplies a vector as the cross product with this one on the left.
-    pub(super) fn cross_matrix(&self) -> Matrix {
+    pub(super) fn cross_matrix(&self) -> IntervalMatrix {
         let [x, y, z] = self.0;
-        Matrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
+        IntervalMatrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
     }
 }
 
-impl From<DVec3> for Vector {
+impl From<DVec3> for IntervalVector {
     fn from(v: DVec3) -> Self {
-        Vector(v.to_array().map(exact))
+        IntervalVector(v.to_array().map(exact))
     }
 }
 
-impl Matrix {
+impl IntervalMatrix {
     pub(super) fn transpose(&self) -> Self {
         let m = &self.0;
-        Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
+        IntervalMatrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
     /// Returns the rotation of a quaternion of about unit length, after normalisation.
@@ -66,27 +66,29 @@ impl Matrix {
             [zx - wy, yz + wx, ww - xx - yy + zz],
         ];
         let square = xx + yy + zz + ww;
-        Matrix(rows.map(|row| row.map(|entry| entry / square)))
+        IntervalMatrix(rows.map(|row| row.map(|entry| entry / square)))
     }
 
     /// Returns the rotation by an angular velocity over a time, whatever the number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
     pub(super) fn turn(spin: DVec3, time: f64) -> Self {
-        let omega = Vector::from(spin);
+        let omega = IntervalVector::from(spin);
         let square = omega.0[0].sqr() + omega.0[1].sqr() + omega.0[2].sqr();
         let rate = square.sqrt();
         let angle = rate * exact(time);
-        if !(square.inf() > FAINTEST_SPIN) {
+        if !(square.inf() > MIN_SQUARED_ANGULAR_SPEED) {
             // The bound |R − I| ≤ θ is all that remains if the squares underflow.
             let off = SINE_RANGE * angle;
-            return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| kronecker_delta(i, j) + off)));
+            return IntervalMatrix(
+                [0, 1, 2].map(|i| [0, 1, 2].map(|j| kronecker_delta(i, j) + off)),
+            );
         }
         let (sine, cosine) = sin_cos(angle);
         let (half_sine, _) = sin_cos(angle / TWO);
         let across = omega.scaled(sine / rate).cross_matrix();
         let along = TWO * half_sine.sqr() / square;
-        Matrix([0, 1, 2].map(|i| {
+        IntervalMatrix([0, 1, 2].map(|i| {
             [0, 1, 2].map(|j| {
                 kronecker_delta(i, j) * cosine + across.0[i][j] + along * omega.0[i] * omega.0[j]
             })
@@ -95,53 +97,53 @@ impl Matrix {
 }
 
 /// The least squared angular speed, in radians per unit of time, well above the values at which squares lose digits.
-const FAINTEST_SPIN: f64 = 1e-250;
+const MIN_SQUARED_ANGULAR_SPEED: f64 = 1e-250;
 
 fn kronecker_delta(i: usize, j: usize) -> Interval {
     if i == j { ONE } else { ZERO }
 }
 
-impl Mul for &Matrix {
-    type Output = Matrix;
+impl Mul for &IntervalMatrix {
+    type Output = IntervalMatrix;
 
-    fn mul(self, other: &Matrix) -> Matrix {
-        let columns = other.transpose().0.map(Vector);
-        Matrix(
+    fn mul(self, other: &IntervalMatrix) -> IntervalMatrix {
+        let columns = other.transpose().0.map(IntervalVector);
+        IntervalMatrix(
             self.0
-                .map(|row| [0, 1, 2].map(|j| Vector(row).dot(&columns[j]))),
+                .map(|row| [0, 1, 2].map(|j| IntervalVector(row).dot(&columns[j]))),
         )
     }
 }
 
-impl Mul<&Vector> for &Matrix {
-    type Output = Vector;
+impl Mul<&IntervalVector> for &IntervalMatrix {
+    type Output = IntervalVector;
 
-    fn mul(self, v: &Vector) -> Vector {
-        Vector(self.0.map(|row| Vector(row).dot(v)))
+    fn mul(self, v: &IntervalVector) -> IntervalVector {
+        IntervalVector(self.0.map(|row| IntervalVector(row).dot(v)))
     }
 }
 
-impl Add for Vector {
-    type Output = Vector;
+impl Add for IntervalVector {
+    type Output = IntervalVector;
 
-    fn add(self, other: Vector) -> Vector {
-        Vector([0, 1, 2].map(|i| self.0[i] + other.0[i]))
+    fn add(self, other: IntervalVector) -> IntervalVector {
+        IntervalVector([0, 1, 2].map(|i| self.0[i] + other.0[i]))
     }
 }
 
-impl Sub for Vector {
-    type Output = Vector;
+impl Sub for IntervalVector {
+    type Output = IntervalVector;
 
-    fn sub(self, other: Vector) -> Vector {
-        Vector([0, 1, 2].map(|i| self.0[i] - other.0[i]))
+    fn sub(self, other: IntervalVector) -> IntervalVector {
+        IntervalVector([0, 1, 2].map(|i| self.0[i] - other.0[i]))
     }
 }
 
-impl Neg for Vector {
-    type Output = Vector;
+impl Neg for IntervalVector {
+    type Output = IntervalVector;
 
-    fn neg(self) -> Vector {
-        Vector(self.0.map(|x| -x))
+    fn neg(self) -> IntervalVector {
+        IntervalVector(self.0.map(|x| -x))
     }
 }
 
@@ -157,7 +159,7 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     if !(rest.mag() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MOST_QUARTERS) {
         return (SINE_RANGE, SINE_RANGE);
     }
-    let (sine, cosine) = taylor(rest);
+    let (sine, cosine) = taylor_sin_cos(rest);
     match quarters.rem_euclid(4.0) {
         1.0 => (cosine, -sine),
         2.0 => (-sine, -cosine),
@@ -174,7 +176,7 @@ const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
 const FACTORIAL_21: Interval = exact(51_090_942_171_709_440_000.0);
 const TWENTY_TWO: Interval = exact(22.0);
 
-fn taylor(r: Interval) -> (Interval, Interval) {
+fn taylor_sin_cos(r: Interval) -> (Interval, Interval) {
     let square = r.sqr();
     let (mut sine, mut cosine) = (ONE, ONE);
     for k in (1..=10).rev() {

@@ -1,6 +1,6 @@
 //! Computes the distance of two surfaces at one time.
 
-use super::Bracket;
+use super::DistanceBounds;
 use super::rounding::FORTY_ROUNDINGS;
 use super::search::{Pair, Search};
 use super::snapshot::{Snapshot, Span};
@@ -9,8 +9,8 @@ use ccd_core::order::{greater, lesser};
 
 /// Returns bounds on the least distance between the surfaces at a time. The nearer part comes first, and parts farther
 /// than the nearest points known are left out.
-pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
-    let mut bracket = Bracket {
+pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
+    let mut bracket = DistanceBounds {
         lower: f64::INFINITY,
         upper: f64::INFINITY,
     };
@@ -28,7 +28,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
         }
         if search.budget == 0 {
             // The remaining pairs may be nearer.
-            return Bracket {
+            return DistanceBounds {
                 lower: 0.0,
                 ..bracket
             };
@@ -37,14 +37,14 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
         if let Some(split) = search.split(pair) {
             let mut parts = split
                 .parts
-                .map(|part| (bound_of(&search, &snapshot, part), part));
+                .map(|part| (box_distance_bound(&search, &snapshot, part), part));
             // The last one is examined first.
             if parts[0].0 < parts[1].0 {
                 parts.swap(0, 1);
             }
             stack.extend(parts);
         } else {
-            let found = of_triangles(&search, &snapshot, pair);
+            let found = triangle_distance_bounds(&search, &snapshot, pair);
             bracket.lower = lesser(bracket.lower, greater(found.lower, bound));
             bracket.upper = lesser(bracket.upper, found.upper);
         }
@@ -54,16 +54,20 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
     bracket
 }
 
-fn bound_of(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
+fn box_distance_bound(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
     let [a, b] = search.nodes(pair);
     snapshot.boxes_distance(a, b)
 }
 
 /// Returns bounds on the distance of two triangles: any two points bound it from above, and the gap along any direction
 /// from below.
-fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket {
+fn triangle_distance_bounds(
+    search: &Search<'_>,
+    snapshot: &Snapshot,
+    pair: Pair,
+) -> DistanceBounds {
     let Some([a, b]) = search.triangles(pair) else {
-        return Bracket {
+        return DistanceBounds {
             lower: 0.0,
             upper: f64::INFINITY,
         };
@@ -74,7 +78,7 @@ fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket
     let gaps = directions
         .filter(|n| n.is_finite())
         .map(|n| gap(n, &placed, b));
-    Bracket {
+    DistanceBounds {
         lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS) - snapshot.slack(),
         upper: (p - q).length() + snapshot.slack(),
     }

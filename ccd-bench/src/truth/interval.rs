@@ -232,7 +232,7 @@ fn product(x: f64, y: f64) -> [f64; 2] {
     if x == 0.0 || y == 0.0 {
         return [product; 2];
     }
-    rounded_outward(product, -remainder(product, x, y))
+    rounded_outward(product, -product_residual(product, x, y))
 }
 
 /// Returns bounds of the exact quotient of two floats, of which the second is not 0. A number over infinity stands for
@@ -242,7 +242,7 @@ fn quotient(x: f64, y: f64) -> [f64; 2] {
     if x == 0.0 {
         return [quotient; 2];
     }
-    rounded_outward(quotient, remainder(x, quotient, y) * y.signum())
+    rounded_outward(quotient, product_residual(x, quotient, y) * y.signum())
 }
 
 /// Returns bounds of an exact square root, which `f64::sqrt` rounds to nearest; NaN for negative numbers.
@@ -251,14 +251,14 @@ fn root(x: f64) -> [f64; 2] {
     if x == 0.0 {
         return [root; 2];
     }
-    rounded_outward(root, remainder(x, root, root))
+    rounded_outward(root, product_residual(x, root, root))
 }
 
 /// Returns w − xy with the right sign, for a w within a factor of 2 of xy; NaN if the sign might be wrong.
 ///
 /// Dekker's product is exact: xy is the rounded product and an error, without a fused operation. The
 /// halves have 26 bits, so their products are exact. w less the rounded product is exact by Sterbenz.
-fn remainder(w: f64, x: f64, y: f64) -> f64 {
+fn product_residual(w: f64, x: f64, y: f64) -> f64 {
     if !(SAFE_FACTORS.contains(&x.abs()) && SAFE_FACTORS.contains(&y.abs())) {
         return f64::NAN;
     }

@@ -1,27 +1,27 @@
 //! Proves that two triangles share a point at an instant.
 
-use super::enclosure::{Matrix, Vector};
+use super::enclosure::{IntervalMatrix, IntervalVector};
 use super::interval::Interval;
 use super::snapshot::IntervalMaps;
 use super::surface::Triangle;
-use super::track::Track;
+use super::track::EnclosedMotion;
 
 /// The positions of both bodies at an instant, in B's frame.
-pub(super) struct Instant {
-    rotation: Matrix,
-    offset: Vector,
+pub(super) struct RelativePlacement {
+    rotation: IntervalMatrix,
+    offset: IntervalVector,
 }
 
-impl Instant {
-    pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
+impl RelativePlacement {
+    pub(super) fn new(a: &EnclosedMotion, b: &EnclosedMotion, time: f64) -> Self {
         let (rotation, offset) = IntervalMaps::new(a, b, time).placement;
-        Instant { rotation, offset }
+        RelativePlacement { rotation, offset }
     }
 
     /// Returns true if an edge of one triangle certainly passes through the interior of the other.
     pub(super) fn certainly_meet(&self, a: &Triangle, b: &Triangle) -> bool {
-        let a = a.map(|p| &self.rotation * &Vector::from(p) + self.offset);
-        let b = b.map(Vector::from);
+        let a = a.map(|p| &self.rotation * &IntervalVector::from(p) + self.offset);
+        let b = b.map(IntervalVector::from);
         (0..3).any(|i| {
             let next = (i + 1) % 3;
             pierces([&a[i], &a[next]], &b) || pierces([&b[i], &b[next]], &a)
@@ -31,14 +31,16 @@ impl Instant {
 
 /// Returns true if a segment certainly passes through a triangle. It checks five signs, each of which must be certain:
 /// the ends lie on both sides of the triangle's plane, and the line passes all its edges on the same side.
-fn pierces([from, to]: [&Vector; 2], [a, b, c]: &[Vector; 3]) -> bool {
+fn pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
     let before = sign(normal.dot(&(*from - *a)));
     if before == Sign::Unknown || sign(normal.dot(&(*to - *a))) != before.opposite() {
         return false;
     }
     let along = *to - *from;
-    let passes = |p: &Vector, q: &Vector| sign(along.dot(&(*p - *from).cross(&(*q - *from))));
+    let passes = |p: &IntervalVector, q: &IntervalVector| {
+        sign(along.dot(&(*p - *from).cross(&(*q - *from))))
+    };
     let side = passes(a, b);
     side != Sign::Unknown && passes(b, c) == side && passes(c, a) == side
 }

@@ -1,10 +1,10 @@
 //! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
 //! from the pairs of nodes that could not be excluded over the whole.
 
-use super::pierce::Instant;
+use super::pierce::RelativePlacement;
 use super::snapshot::{Boxes, Snapshot, Span};
 use super::surface::{Content, Node, Surface, Triangle};
-use super::track::Track;
+use super::track::EnclosedMotion;
 use super::triangle::{gap, nearest, normals};
 use super::{Referee, Truth};
 use ccd_core::order::{greater, lesser};
@@ -17,7 +17,7 @@ pub(super) type Pair = [u32; 2];
 /// The state of the search for the answer to one query.
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
-    pub(super) tracks: [Track; 2],
+    pub(super) tracks: [EnclosedMotion; 2],
     farthest: [f64; 2],
     duration: f64,
     /// The number of tests of pairs that may still be made.
@@ -33,7 +33,7 @@ const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
 /// about a thousandth of the duration.
 const MOST_DOUBLINGS: u32 = 36;
 /// The number of doublings after which all triangles are tested, not only those that came near first.
-const WIDER_EVERY: u32 = 6;
+const DOUBLINGS_PER_FULL_TEST: u32 = 6;
 /// The size of nodes, as a multiple of their displacement in the interval, up to which they are not split.
 const LARGEST_UNSPLIT_SIZE: f64 = 1.0;
 /// The size, as a fraction of the displacement, below which triangles are separated as well by their boxes.
@@ -48,7 +48,7 @@ const EDGE_NORMALS_BELOW: f64 = 1e-3;
 #[derive(Debug, PartialEq)]
 enum RemainingPairs {
     /// The pairs of nodes that are not excluded.
-    Left(Vec<Pair>),
+    Remaining(Vec<Pair>),
     /// The budget of tests was used up before all pairs were tested.
     Spent,
 }
@@ -59,8 +59,8 @@ impl<'a> Search<'a> {
         Search {
             surfaces,
             tracks: [
-                Track::new(&query.a, referee.a),
-                Track::new(&query.b, referee.b),
+                EnclosedMotion::new(&query.a, referee.a),
+                EnclosedMotion::new(&query.b, referee.b),
             ],
             farthest: surfaces.map(Surface::farthest_distance),
             duration: query.duration,
@@ -82,14 +82,14 @@ impl<'a> Search<'a> {
             return Truth::Undecided { lo: 0.0 };
         }
         match self.touch_at(roots, 0.0, Proof::NotApart) {
-            Touch::No => self.halve(roots),
+            Touch::No => self.bisect_time(roots),
             Touch::Yes => Truth::Start,
             Touch::Spent => Truth::Undecided { lo: 0.0 },
         }
     }
 
     /// Halves the duration, the earlier half first, until the first contact is bracketed.
-    fn halve(&mut self, roots: Pair) -> Truth {
+    fn bisect_time(&mut self, roots: Pair) -> Truth {
         let whole = Span {
             start: 0.0,
             end: self.duration,
@@ -103,8 +103,8 @@ impl<'a> Search<'a> {
             };
             let snapshot = self.snapshot(span);
             let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
-                RemainingPairs::Left(left) if left.is_empty() => continue,
-                RemainingPairs::Left(left) => left,
+                RemainingPairs::Remaining(left) if left.is_empty() => continue,
+                RemainingPairs::Remaining(left) => left,
                 RemainingPairs::Spent => {
                     return Truth::Undecided {
                         lo: undecided.first.unwrap_or(span.start),
@@ -120,7 +120,8 @@ impl<'a> Search<'a> {
                 continue;
             }
             let lo = *undecided.first.get_or_insert(span.start);
-            if let Some(hi) = self.proof_after(span.start, roots, &left, undecided.times_met) {
+            if let Some(hi) = self.find_contact_after(span.start, roots, &left, undecided.times_met)
+            {
                 return Truth::Hit { lo, hi };
             }
             undecided.skip_after(span, shortest);
@@ -140,7 +141,7 @@ impl<'a> Search<'a> {
     fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
         let mut left = Vec::new();
         if snapshot.is_far() {
-            return RemainingPairs::Left(left);
+            return RemainingPairs::Remaining(left);
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
@@ -153,7 +154,7 @@ impl<'a> Search<'a> {
                 continue;
             };
             match self.split(pair) {
-                Some(Split { size, parts }) if size > LARGEST_UNSPLIT_SIZE * travel => {
+                Some(SplitPair { size, parts }) if size > LARGEST_UNSPLIT_SIZE * travel => {
                     stack.extend(parts);
                 }
                 Some(_) => left.push(pair),
@@ -162,7 +163,7 @@ impl<'a> Search<'a> {
                 None => left.push(pair),
             }
         }
-        RemainingPairs::Left(left)
+        RemainingPairs::Remaining(left)
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
@@ -170,7 +171,7 @@ impl<'a> Search<'a> {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
         };
-        let [start, end] = snapshot.ends(a, b);
+        let [start, end] = snapshot.triangles_at_ends(a, b);
         let apart = |n| {
             let least = lesser(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
             // Also false for NaN: `min` drops it, so the direction itself is tested.
@@ -189,7 +190,7 @@ impl<'a> Search<'a> {
     }
 
     /// Searches for a time soon after `from` at which the surfaces certainly share a point.
-    fn proof_after(
+    fn find_contact_after(
         &mut self,
         from: f64,
         roots: Pair,
@@ -199,12 +200,12 @@ impl<'a> Search<'a> {
         let mut step = SHORTEST_SPAN * self.duration;
         for doubling in 0..=MOST_DOUBLINGS {
             let time = lesser(from + step, self.duration);
-            if self.certain_at(near, time) {
+            if self.certainly_meet_at(near, time) {
                 return Some(time);
             }
             // All triangles are tested for the first undecided time, and then only periodically, because that
             // is slow.
-            let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1
+            let wider = doubling % DOUBLINGS_PER_FULL_TEST == DOUBLINGS_PER_FULL_TEST - 1
                 && (times_met == 0 || doubling == times_met);
             if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
                 return Some(time);
@@ -217,9 +218,9 @@ impl<'a> Search<'a> {
         None
     }
 
-    fn certain_at(&mut self, pairs: &[Pair], time: f64) -> bool {
+    fn certainly_meet_at(&mut self, pairs: &[Pair], time: f64) -> bool {
         let [a, b] = &self.tracks;
-        let instant = Instant::new(a, b, time);
+        let instant = RelativePlacement::new(a, b, time);
         self.budget = self.budget.saturating_sub(pairs.len() as u64);
         let mut triangles = pairs.iter().filter_map(|&pair| self.triangles(pair));
         triangles.any(|[a, b]| instant.certainly_meet(a, b))
@@ -233,7 +234,7 @@ impl<'a> Search<'a> {
         };
         let snapshot = self.snapshot(span);
         let [a, b] = &self.tracks;
-        let instant = Instant::new(a, b, time);
+        let instant = RelativePlacement::new(a, b, time);
         let mut stack = vec![roots];
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {
@@ -244,7 +245,7 @@ impl<'a> Search<'a> {
             if snapshot.boxes(a, b) == Boxes::Apart {
                 continue;
             }
-            if let Some(Split { parts, .. }) = self.split(pair) {
+            if let Some(SplitPair { parts, .. }) = self.split(pair) {
                 stack.extend(parts);
             } else if !self.triangles_apart(&snapshot, pair) {
                 let triangles = self.triangles(pair);
@@ -272,13 +273,13 @@ impl<'a> Search<'a> {
     }
 
     /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two triangles.
-    pub(super) fn split(&self, [a, b]: Pair) -> Option<Split> {
+    pub(super) fn split(&self, [a, b]: Pair) -> Option<SplitPair> {
         let [node_a, node_b] = self.nodes([a, b]);
-        let of_a = |parts: [u32; 2]| Split {
+        let of_a = |parts: [u32; 2]| SplitPair {
             size: node_a.size,
             parts: parts.map(|part| [part, b]),
         };
-        let of_b = |parts: [u32; 2]| Split {
+        let of_b = |parts: [u32; 2]| SplitPair {
             size: node_b.size,
             parts: parts.map(|part| [a, part]),
         };
@@ -294,7 +295,7 @@ impl<'a> Search<'a> {
 }
 
 /// The pairs that result from splitting one node of a pair.
-pub(super) struct Split {
+pub(super) struct SplitPair {
     /// The size of the node that was split.
     size: f64,
     pub(super) parts: [Pair; 2],

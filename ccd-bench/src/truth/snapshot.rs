@@ -11,11 +11,11 @@
 //! end. So two sets are apart over the whole span if along one n they are apart at both of its
 //! ends, by more than `slack`. The direction n need not be exact.
 
-use super::enclosure::{Matrix, Vector};
+use super::enclosure::{IntervalMatrix, IntervalVector};
 use super::interval::{Interval, exact};
 use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, UNIT_ROUNDOFF, larger};
 use super::surface::{Node, Triangle};
-use super::track::Track;
+use super::track::EnclosedMotion;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
@@ -49,7 +49,7 @@ pub(super) struct Snapshot {
     centres: DVec3,
     centres_rate: DVec3,
     /// The sum of the bodies' greatest distances from their centres of rotation.
-    reaches: f64,
+    radius_sum: f64,
 }
 
 /// An upper bound on a box's extent along the axes of a frame over the interval: `A halfₐ + B half_b`.
@@ -69,7 +69,11 @@ pub(super) enum Boxes {
 }
 
 impl Snapshot {
-    pub(super) fn new([a, b]: [&Track; 2], [size_a, size_b]: [f64; 2], span: Span) -> Self {
+    pub(super) fn new(
+        [a, b]: [&EnclosedMotion; 2],
+        [size_a, size_b]: [f64; 2],
+        span: Span,
+    ) -> Self {
         let time = span.start.midpoint(span.end);
         let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
         let exactly = IntervalMaps::new(a, b, time);
@@ -79,7 +83,7 @@ impl Snapshot {
         let motion_slack = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
         let errors = placement.error + half * (rate_a.error + rate_b.error);
         let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
-        let centre = |v: &Vector| DVec3::from_array(v.0.map(Interval::mid));
+        let centre = |v: &IntervalVector| DVec3::from_array(v.0.map(Interval::mid));
         let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
         Snapshot {
@@ -101,7 +105,7 @@ impl Snapshot {
             rate_b,
             centres: centre(&exactly.centres),
             centres_rate: centre(&exactly.velocity),
-            reaches: a.reach + b.reach,
+            radius_sum: a.reach + b.reach,
         }
     }
 
@@ -112,7 +116,7 @@ impl Snapshot {
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
         let nearest = if s.is_nan() { d } else { d + s * w };
         nearest.length() * (1.0 - FORTY_ROUNDINGS)
-            > (self.reaches + self.slack - self.motion_slack) * ROUNDED_UP
+            > (self.radius_sum + self.slack - self.motion_slack) * ROUNDED_UP
                 + FORTY_ROUNDINGS * (d.length() + w.length())
     }
 
@@ -126,7 +130,7 @@ impl Snapshot {
         }
         let gaps_a = self
             .along_a
-            .axis_gaps(self.back(apart), self.back(moved), a, b);
+            .axis_gaps(self.rotate_back(apart), self.rotate_back(moved), a, b);
         if gaps_a.max_element() > self.slack {
             return Boxes::Apart;
         }
@@ -142,14 +146,14 @@ impl Snapshot {
         let gaps_b = self.along_b.axis_gaps(apart, none, a, b).max(none);
         let gaps_a = self
             .along_a
-            .axis_gaps(self.back(apart), none, a, b)
+            .axis_gaps(self.rotate_back(apart), none, a, b)
             .max(none);
         let distance = greater(gaps_b.length(), gaps_a.length());
         distance * (1.0 - FORTY_ROUNDINGS) - 2.0 * self.slack
     }
 
     /// Returns the corners of two triangles in the common frame, at both ends of the interval.
-    pub(super) fn ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
+    pub(super) fn triangles_at_ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
         let moved_a = a.map(|p| self.half * self.rate_a.apply(p));
         let moved_b = b.map(|q| self.half * self.rate_b.apply(q));
         let a = a.map(|p| self.placement.apply(p));
@@ -169,7 +173,7 @@ impl Snapshot {
         self.slack
     }
 
-    fn back(&self, v: DVec3) -> DVec3 {
+    fn rotate_back(&self, v: DVec3) -> DVec3 {
         self.placement.matrix.transpose() * v
     }
 }
@@ -205,7 +209,7 @@ struct Affine {
 impl Affine {
     /// Converts a map from intervals to floats: each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in
     /// sequence. Its error is at most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
-    fn new((matrix, offset): &(Matrix, Vector), farthest: f64) -> Self {
+    fn new((matrix, offset): &(IntervalMatrix, IntervalVector), farthest: f64) -> Self {
         let rows = matrix
             .0
             .map(|row| DVec3::from_array(row.map(Interval::mid)));
@@ -233,15 +237,15 @@ impl Affine {
 
 /// The affine maps of a snapshot, whose entries are intervals.
 pub(super) struct IntervalMaps {
-    pub(super) placement: (Matrix, Vector),
-    rate_a: (Matrix, Vector),
-    rate_b: (Matrix, Vector),
-    centres: Vector,
-    velocity: Vector,
+    pub(super) placement: (IntervalMatrix, IntervalVector),
+    rate_a: (IntervalMatrix, IntervalVector),
+    rate_b: (IntervalMatrix, IntervalVector),
+    centres: IntervalVector,
+    velocity: IntervalVector,
 }
 
 impl IntervalMaps {
-    pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
+    pub(super) fn new(a: &EnclosedMotion, b: &EnclosedMotion, time: f64) -> Self {
         let (at_a, at_b) = (a.at(time), b.at(time));
         let back = at_b.rotation.transpose();
         let rotation = &back * &at_a.rotation;
@@ -256,7 +260,7 @@ impl IntervalMaps {
         IntervalMaps {
             placement: (rotation, offset),
             rate_a: (swirl_a, drift),
-            rate_b: (swirl_b, Vector([exact(0.0); 3])),
+            rate_b: (swirl_b, IntervalVector([exact(0.0); 3])),
             centres,
             velocity,
         }

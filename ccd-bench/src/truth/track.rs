@@ -1,6 +1,6 @@
 //! Computes the position of a moving body at an instant, to within intervals.
 
-use super::enclosure::{Matrix, Vector};
+use super::enclosure::{IntervalMatrix, IntervalVector};
 use super::interval::exact;
 use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, larger};
 use super::surface::Surface;
@@ -9,19 +9,19 @@ use ccd_core::glam::{DMat3, DVec3};
 
 /// The motion of a body in intervals: x(t) = c₀ + v t + R(ω t) R₀ (p − c).
 #[derive(Clone, Debug)]
-pub(super) struct Track {
+pub(super) struct EnclosedMotion {
     /// The centre of rotation c, in the body's frame.
-    pub(super) centre: Vector,
+    pub(super) centre: IntervalVector,
     /// The velocity v of the centre, in the world frame.
-    pub(super) velocity: Vector,
+    pub(super) velocity: IntervalVector,
     /// The angular velocity ω, in the world frame.
-    pub(super) spin: Vector,
+    pub(super) spin: IntervalVector,
     /// The angular velocity ω as floats.
     spin_floats: DVec3,
     /// The orientation R₀ at the start.
-    orientation: Matrix,
+    orientation: IntervalMatrix,
     /// The position c₀ of the centre at the start, in the world frame.
-    from: Vector,
+    from: IntervalVector,
     /// An upper bound of the distance of the body's points from the centre c.
     pub(super) reach: f64,
     /// An upper bound |ω|²ρ of the acceleration of the point that is farthest from the axis, at distance ρ.
@@ -31,21 +31,21 @@ pub(super) struct Track {
 /// The placement of a body at an instant: x = `centre` + `rotation` (p − c).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
-    pub(super) rotation: Matrix,
-    pub(super) centre: Vector,
+    pub(super) rotation: IntervalMatrix,
+    pub(super) centre: IntervalVector,
 }
 
-impl Track {
+impl EnclosedMotion {
     pub(super) fn new(motion: &Motion, surface: &Surface) -> Self {
         let start = motion.start();
-        let orientation = Matrix::from_quaternion(start.rotation());
-        let centre = Vector::from(motion.centre());
-        let mut track = Track {
+        let orientation = IntervalMatrix::from_quaternion(start.rotation());
+        let centre = IntervalVector::from(motion.centre());
+        let mut track = EnclosedMotion {
             centre,
-            velocity: Vector::from(motion.velocity()),
-            spin: Vector::from(motion.spin()),
+            velocity: IntervalVector::from(motion.velocity()),
+            spin: IntervalVector::from(motion.spin()),
             spin_floats: motion.spin(),
-            from: Vector::from(start.translation()) + &orientation * &centre,
+            from: IntervalVector::from(start.translation()) + &orientation * &centre,
             orientation,
             reach: 0.0,
             acceleration: 0.0,
@@ -66,7 +66,7 @@ impl Track {
 
     pub(super) fn at(&self, time: f64) -> Placement {
         Placement {
-            rotation: &Matrix::turn(self.spin_floats, time) * &self.orientation,
+            rotation: &IntervalMatrix::turn(self.spin_floats, time) * &self.orientation,
             centre: self.from + self.velocity.scaled(exact(time)),
         }
     }

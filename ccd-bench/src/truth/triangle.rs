@@ -31,10 +31,10 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest_of_edges(a, b);
     for i in 0..3 {
         if let Some(q) = foot(a[i], b) {
-            best = nearer(best, (a[i], q));
+            best = nearer_pair(best, (a[i], q));
         }
         if let Some(p) = foot(b[i], a) {
-            best = nearer(best, (p, b[i]));
+            best = nearer_pair(best, (p, b[i]));
         }
     }
     best
@@ -46,17 +46,17 @@ pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest(a, b);
     for i in 0..3 {
         if let Some((p, q)) = crossing([a[i], a[(i + 1) % 3]], b) {
-            best = nearer(best, (p, q));
+            best = nearer_pair(best, (p, q));
         }
         if let Some((q, p)) = crossing([b[i], b[(i + 1) % 3]], a) {
-            best = nearer(best, (p, q));
+            best = nearer_pair(best, (p, q));
         }
     }
     best
 }
 
 /// Returns that of two pairs of points whose points are nearer to each other.
-fn nearer(best: (DVec3, DVec3), found: (DVec3, DVec3)) -> (DVec3, DVec3) {
+fn nearer_pair(best: (DVec3, DVec3), found: (DVec3, DVec3)) -> (DVec3, DVec3) {
     let squared = |(p, q): (DVec3, DVec3)| (p - q).length_squared();
     if squared(found) < squared(best) {
         found
@@ -70,7 +70,7 @@ fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     for i in 0..3 {
         for j in 0..3 {
             let found = nearest_of_segments([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]);
-            best = nearer(best, found);
+            best = nearer_pair(best, found);
         }
     }
     best

@@ -1,7 +1,7 @@
 //! Tests peers behind a guard: one that hangs is cut off, one that dies is restarted.
 
 use ccd_bench::method::Method;
-use ccd_bench::method::guarded::{Guarded, QueryOutcome, Setting};
+use ccd_bench::method::guarded::{GuardSettings, GuardedMethod, QueryOutcome};
 use ccd_bench::method::peer::PeerKind;
 use ccd_bench::method::solver::{Claim, TimedReply};
 use ccd_bench::scene::model::cuboid;
@@ -32,22 +32,22 @@ fn drop() -> Motions {
     }
 }
 
-fn guarded(kind: PeerKind) -> Guarded {
-    guarded_with(Setting::new(Method::Peer(kind), 1e-3))
+fn guarded(kind: PeerKind) -> GuardedMethod {
+    guarded_with(GuardSettings::new(Method::Peer(kind), 1e-3))
 }
 
-fn guarded_with(setting: Setting) -> Guarded {
-    Guarded::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
+fn guarded_with(setting: GuardSettings) -> GuardedMethod {
+    GuardedMethod::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
 /// Runs a script of this folder in place of a method's program.
 #[cfg(unix)]
-fn guarded_by(script: &str) -> Guarded {
+fn guarded_by(script: &str) -> GuardedMethod {
     let script = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/cli")
         .join(script);
-    let setting = Setting::new(Method::Peer(PeerKind::ParryF64), 1e-3);
-    Guarded::with_program(script, setting, [&cube(), &cube()]).unwrap()
+    let setting = GuardSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
+    GuardedMethod::with_program(script, setting, [&cube(), &cube()]).unwrap()
 }
 
 fn assert_answered(outcome: QueryOutcome) {
@@ -68,19 +68,19 @@ fn every_method_answers_behind_a_guard() {
         .into_iter()
         .filter(|method| !is_script(method))
     {
-        let mut guarded = guarded_with(Setting::new(method, 1e-3));
-        assert_answered(guarded.ask(&drop(), PATIENCE).unwrap());
+        let mut guarded = guarded_with(GuardSettings::new(method, 1e-3));
+        assert_answered(guarded.run_query(&drop(), PATIENCE).unwrap());
     }
 }
 
 #[test]
 fn a_margin_is_kept_or_refused() {
     let ask = |method: Method| {
-        let mut guarded = guarded_with(Setting {
+        let mut guarded = guarded_with(GuardSettings {
             margin: 0.5,
-            ..Setting::new(method, 1e-3)
+            ..GuardSettings::new(method, 1e-3)
         });
-        guarded.ask(&drop(), PATIENCE)
+        guarded.run_query(&drop(), PATIENCE)
     };
     for method in Method::all() {
         let outcome = ask(method);
@@ -113,7 +113,9 @@ fn a_hanging_peer_is_cut_off_and_restarted() {
     let mut hanging = guarded_by("hanging");
     let start = Instant::now();
     for _ in 0..2 {
-        let outcome = hanging.ask(&drop(), Duration::from_millis(50)).unwrap();
+        let outcome = hanging
+            .run_query(&drop(), Duration::from_millis(50))
+            .unwrap();
         assert_eq!(outcome, QueryOutcome::CutOff);
     }
     assert!(start.elapsed() < PATIENCE);
@@ -123,11 +125,11 @@ fn a_hanging_peer_is_cut_off_and_restarted() {
 fn the_query_after_a_cut_off_one_is_answered() {
     let mut peer = guarded(PeerKind::ParryF64);
     assert_eq!(
-        peer.ask(&drop(), Duration::ZERO).unwrap(),
+        peer.run_query(&drop(), Duration::ZERO).unwrap(),
         QueryOutcome::CutOff
     );
-    assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
-    assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
+    assert_answered(peer.run_query(&drop(), PATIENCE).unwrap());
+    assert_answered(peer.run_query(&drop(), PATIENCE).unwrap());
 }
 
 #[cfg(unix)]
@@ -135,7 +137,10 @@ fn the_query_after_a_cut_off_one_is_answered() {
 fn a_dying_peer_is_reported_and_restarted() {
     let mut dying = guarded_by("dying");
     for _ in 0..2 {
-        assert_eq!(dying.ask(&drop(), PATIENCE).unwrap(), QueryOutcome::Died);
+        assert_eq!(
+            dying.run_query(&drop(), PATIENCE).unwrap(),
+            QueryOutcome::Died
+        );
     }
 }
 
@@ -143,7 +148,8 @@ fn a_dying_peer_is_reported_and_restarted() {
 fn a_tolerance_is_passed_on() {
     let mut peer = guarded(PeerKind::ParrySweepF64);
     peer.set_tolerance(1e-6);
-    let QueryOutcome::Answered(TimedReply { reply, .. }) = peer.ask(&drop(), PATIENCE).unwrap()
+    let QueryOutcome::Answered(TimedReply { reply, .. }) =
+        peer.run_query(&drop(), PATIENCE).unwrap()
     else {
         panic!("no answer");
     };
@@ -156,7 +162,7 @@ fn a_tolerance_is_passed_on() {
 #[test]
 fn a_program_that_is_no_peer_does_not_start() {
     let missing = "no/such/program".into();
-    let setting = Setting::new(Method::Peer(PeerKind::ParryF64), 1e-3);
-    let mut peer = Guarded::with_program(missing, setting, [&cube(), &cube()]).unwrap();
-    assert!(peer.ask(&drop(), PATIENCE).is_err());
+    let setting = GuardSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
+    let mut peer = GuardedMethod::with_program(missing, setting, [&cube(), &cube()]).unwrap();
+    assert!(peer.run_query(&drop(), PATIENCE).is_err());
 }

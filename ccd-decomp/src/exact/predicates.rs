@@ -80,7 +80,7 @@ fn scale_to_one(x: f64) -> f64 {
 /// Returns the sign of the determinant of a matrix, by its columns. Each column is first scaled by a power of two
 /// until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
 /// differ by a factor of more than 1e90.
-pub(crate) fn determinant(columns: [DVec3; 3]) -> Ordering {
+pub(crate) fn determinant_sign(columns: [DVec3; 3]) -> Ordering {
     let [x, y, z] = columns.map(|column| column * scale_to_one(column.abs().max_element()));
     side([DVec3::ZERO, x, y], z)
 }

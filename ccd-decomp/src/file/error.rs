@@ -18,14 +18,14 @@ pub enum StoreFault {
     #[error("cannot be written: {0}")]
     Unwritable(#[source] io::Error),
     /// The file does not begin with the magic bytes of a stored body.
-    #[error("holds no stored body; give a mesh, or {PREPARE}")]
+    #[error("holds no stored body; give a mesh, or {PREPARE_ADVICE}")]
     Foreign,
     /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
     /// The file has a version of the format that this build does not read.
     #[error(
-        "is of version {version} of the format, and version {} is what is read; {PREPARE}",
+        "is of version {version} of the format, and version {} is what is read; {PREPARE_ADVICE}",
         VERSION
     )]
     OtherVersion {
@@ -33,20 +33,22 @@ pub enum StoreFault {
         version: u32,
     },
     /// The file ends before the length that it announces.
-    #[error("is cut short; copy it again, or {PREPARE}")]
+    #[error("is cut short; copy it again, or {PREPARE_ADVICE}")]
     Truncated,
     /// The checksum does not match.
-    #[error("is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE}")]
+    #[error(
+        "is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE_ADVICE}"
+    )]
     Damaged,
     /// The checksum matches, but the content is no valid body.
-    #[error("holds no valid body: {problem}; {PREPARE}")]
+    #[error("holds no valid body: {problem}; {PREPARE_ADVICE}")]
     Invalid {
         /// The description of the part that is not valid.
         problem: String,
     },
 }
 
-const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
+const PREPARE_ADVICE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
 
 /// The version of the format that is written and read. Files of older versions are prepared again from their meshes,
 /// instead of a second reader.

@@ -9,7 +9,7 @@ const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// An OBJ of a tetrahedron with a dent, a duplicate face and an unused vertex, which the report mentions.
-const DENTED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
+const DENTED_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 
 fn model(file: &str, detail: Detail) -> Model {
@@ -31,10 +31,10 @@ fn fault(bytes: &[u8]) -> StoreFault {
 }
 
 /// Stored bodies of every kind of pieces, with and without a hull tree. They are small enough to change every byte.
-static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
-    let patches = model(DENTED, Detail::Patches(Order::Cresting));
+static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+    let patches = model(DENTED_OBJ, Detail::Patches(Order::Cresting));
     let models = [
-        model(DENTED, Detail::Triangles),
+        model(DENTED_OBJ, Detail::Triangles),
         patches.clone(),
         patches.with_hull_tree().unwrap(),
         model(TETRAHEDRON, Detail::Hull),
@@ -44,9 +44,9 @@ static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 });
 
 #[rstest]
-#[case(DENTED, Detail::Triangles)]
-#[case(DENTED, Detail::Patches(Order::Cresting))]
-#[case(DENTED, Detail::Vhacd { hulls: 4 })]
+#[case(DENTED_OBJ, Detail::Triangles)]
+#[case(DENTED_OBJ, Detail::Patches(Order::Cresting))]
+#[case(DENTED_OBJ, Detail::Vhacd { hulls: 4 })]
 #[case(TETRAHEDRON, Detail::Hull)]
 fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
     let model = model(file, detail);
@@ -67,7 +67,7 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
 
 #[test]
 fn a_hull_tree_is_stored_with_its_body() {
-    let model = model(DENTED, Detail::Patches(Order::Cresting))
+    let model = model(DENTED_OBJ, Detail::Patches(Order::Cresting))
         .with_hull_tree()
         .unwrap();
     let again = Model::read(&stored(&model)[..]).unwrap();
@@ -82,7 +82,7 @@ fn files_are_named_in_errors() {
     let folder = std::env::temp_dir().join(format!("ccd-store-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("part.ccd");
-    let model = model(DENTED, Detail::Triangles);
+    let model = model(DENTED_OBJ, Detail::Triangles);
     model.save(&path).unwrap();
     assert_eq!(Model::load(&path).unwrap().report, model.report);
     std::fs::write(&path, &stored(&model)[..40]).unwrap();
@@ -122,7 +122,7 @@ fn a_foreign_file_is_reported() {
 
 #[test]
 fn another_version_is_reported_before_damage() {
-    let mut bytes = stored(&model(DENTED, Detail::Triangles));
+    let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
     bytes[8] = 0xff;
     assert!(matches!(
         fault(&bytes),
@@ -144,7 +144,7 @@ fn a_pointer_of_git_lfs_is_recognised() {
 
 #[test]
 fn a_file_cut_anywhere_is_an_error() {
-    for bytes in FILES.iter() {
+    for bytes in STORED_FILES.iter() {
         for end in 0..bytes.len() {
             let fault = fault(&bytes[..end]);
             let cut = matches!(fault, StoreFault::Truncated);
@@ -158,7 +158,7 @@ fn a_file_cut_anywhere_is_an_error() {
 
 #[test]
 fn a_file_with_more_behind_it_is_damaged() {
-    let mut bytes = stored(&model(DENTED, Detail::Triangles));
+    let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
     bytes.push(0);
     assert!(matches!(fault(&bytes), StoreFault::Damaged));
 }
@@ -177,7 +177,7 @@ fn every_bit_counts() {
 
 #[test]
 fn a_length_that_no_memory_holds_is_a_cut_file() {
-    let mut bytes = stored(&model(DENTED, Detail::Triangles));
+    let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
     bytes[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
     assert!(matches!(fault(&bytes), StoreFault::Truncated));
 }
@@ -186,11 +186,11 @@ fn a_length_that_no_memory_holds_is_a_cut_file() {
 fn parts_that_do_not_belong_together_are_reported() {
     let (mut small, large) = (
         model(TETRAHEDRON, Detail::Triangles),
-        model(DENTED, Detail::Triangles),
+        model(DENTED_OBJ, Detail::Triangles),
     );
     small.hierarchy = large.hierarchy;
     assert!(matches!(fault(&stored(&small)), StoreFault::Invalid { .. }));
-    let mut miscounted = model(DENTED, Detail::Triangles);
+    let mut miscounted = model(DENTED_OBJ, Detail::Triangles);
     miscounted.report.pieces += 1;
     assert!(matches!(
         fault(&stored(&miscounted)),
@@ -216,7 +216,7 @@ fn frame_payload(payload: &[u8]) -> Vec<u8> {
 
 #[test]
 fn a_payload_cut_anywhere_is_an_error() {
-    for bytes in FILES.iter() {
+    for bytes in STORED_FILES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for end in 0..payload.len() {
             let fault = fault(&frame_payload(&payload[..end]));
@@ -230,7 +230,7 @@ fn a_payload_cut_anywhere_is_an_error() {
 
 #[test]
 fn no_single_change_of_a_payload_panics() {
-    for bytes in FILES.iter() {
+    for bytes in STORED_FILES.iter() {
         let payload = frame::read(&bytes[..]).unwrap();
         for at in 0..payload.len() {
             for value in [0, 1, 2, 0x7f, 0x80, 0xff] {
@@ -255,7 +255,7 @@ proptest! {
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in any::<prop::sample::Index>(),
     ) {
-        let bytes = &FILES[file.index(FILES.len())];
+        let bytes = &STORED_FILES[file.index(STORED_FILES.len())];
         let mut payload = frame::read(&bytes[..]).unwrap();
         for (at, byte) in changes {
             let at = at.index(payload.len());
@@ -277,7 +277,7 @@ fn folder(name: &str) -> std::path::PathBuf {
 #[test]
 fn threads_save_side_by_side() {
     let folder = folder("side-by-side");
-    let models = [TETRAHEDRON, DENTED].map(|mesh| model(mesh, Detail::Triangles));
+    let models = [TETRAHEDRON, DENTED_OBJ].map(|mesh| model(mesh, Detail::Triangles));
     std::thread::scope(|scope| {
         for thread in 0..4 {
             let (model, folder) = (&models[thread % 2], &folder);

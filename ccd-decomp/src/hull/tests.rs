@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 struct BruteForceHull {
     corners: Vec<DVec3>,
     /// The indices of the points on each facet, corners or not.
-    planes: BTreeSet<Vec<u32>>,
+    facet_points: BTreeSet<Vec<u32>>,
 }
 
 impl BruteForceHull {
@@ -41,7 +41,7 @@ impl BruteForceHull {
         let corners = on.into_iter().filter(is_corner);
         BruteForceHull {
             corners: corners.map(|k| points[k as usize]).collect(),
-            planes,
+            facet_points: planes,
         }
     }
 }
@@ -65,7 +65,7 @@ fn is_in_coplanar_hull(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
 }
 
 /// Checks the guarantees of a hull one by one, in exact arithmetic.
-fn assert_proper(points: &[DVec3], hull: &Hull) {
+fn assert_valid_hull(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| hull.points[v as usize];
     let mut edges = BTreeSet::new();
     for corners in hull.facets.iter() {
@@ -97,16 +97,16 @@ fn assert_hull_of(points: &[DVec3]) {
         BruteForceHull::from_points(points),
     );
     if hull.facets.is_empty() {
-        assert!(twin.planes.is_empty() && (1..=2).contains(&hull.points.len()));
+        assert!(twin.facet_points.is_empty() && (1..=2).contains(&hull.points.len()));
     } else {
-        assert_proper(points, &hull);
+        assert_valid_hull(points, &hull);
         assert_eq!(hull.points, twin.corners);
     }
 }
 
-fn proper(points: &[DVec3]) -> Hull {
+fn checked_hull(points: &[DVec3]) -> Hull {
     let hull = hull(points).expect("a hull");
-    assert_proper(points, &hull);
+    assert_valid_hull(points, &hull);
     assert_eq!(super::hull(points).as_ref(), Ok(&hull), "not deterministic");
     hull
 }
@@ -145,7 +145,7 @@ fn grid(n: i32) -> Vec<DVec3> {
     points.map(DVec3::from_array).collect()
 }
 
-fn shaken(points: Vec<DVec3>, amplitude: f64, seed: u64) -> Vec<DVec3> {
+fn perturbed_points(points: Vec<DVec3>, amplitude: f64, seed: u64) -> Vec<DVec3> {
     let mut next = noise(seed);
     let mut shake = |p: DVec3| p + amplitude * DVec3::new(next(), next(), next());
     points.into_iter().map(&mut shake).collect()
@@ -165,7 +165,7 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 #[case::ball(ball(16, 2))]
 #[case::grid(grid(3))]
 #[case::cylinder(cylinder(8, 3))]
-#[case::shaken_grid(shaken(grid(3), 1e-16, 3))]
+#[case::shaken_grid(perturbed_points(grid(3), 1e-16, 3))]
 #[case::flat_grid(grid(4)[..16].to_vec())]
 #[case::flat_cloud(cloud(12, 8).into_iter().map(|p| p.with_z(p.x)).collect())]
 #[case::needle(cloud(14, 4).into_iter().map(|p| p * DVec3::new(1e6, 1.0, 1e-6)).collect())]
@@ -174,11 +174,11 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 #[case::nearly_flat(cloud(14, 7).into_iter().map(|p| p * DVec3::new(1.0, 1.0, 1e-15)).collect())]
 #[case::tetrahedron(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])]
 fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
-    let hull = proper(&points);
+    let hull = checked_hull(&points);
     let twin = BruteForceHull::from_points(&points);
     assert_eq!(hull.points, twin.corners);
     // A flat hull has two facets in one plane.
-    let planes = twin.planes.len();
+    let planes = twin.facet_points.len();
     let facets = if planes == 1 { 2 } else { planes };
     assert_eq!(hull.facets.len(), facets);
 }
@@ -186,13 +186,13 @@ fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
 #[rstest]
 #[case::cloud(cloud(20_000, 1), 100)]
 #[case::some(cloud(60, 1), 20)]
-#[case::hardly_planar(shaken(grid(4), 1e-15, 0), 8)]
+#[case::hardly_planar(perturbed_points(grid(4), 1e-15, 0), 8)]
 #[case::ball(ball(3000, 2), 3000)]
 #[case::grid(grid(12), 8)]
 #[case::cylinder(cylinder(100, 30), 200)]
 #[case::turned_grid(turned(grid(8)), 8)]
 fn large(#[case] points: Vec<DVec3>, #[case] least: usize) {
-    let hull = proper(&points);
+    let hull = checked_hull(&points);
     assert!(hull.points.len() >= least, "{}", hull.points.len());
 }
 
@@ -203,7 +203,7 @@ fn turned(points: Vec<DVec3>) -> Vec<DVec3> {
 
 #[test]
 fn a_box_of_many_points_has_six_facets() {
-    let hull = proper(&grid(5));
+    let hull = checked_hull(&grid(5));
     assert_eq!(hull.facets.len(), 6);
     assert!(hull.facets.iter().all(|f| f.len() == 4));
     assert_eq!(hull.points.len(), 8);
@@ -212,7 +212,7 @@ fn a_box_of_many_points_has_six_facets() {
 #[test]
 fn a_plane_is_seen_from_both_sides() {
     let points: Vec<DVec3> = grid(5)[..25].to_vec();
-    let hull = proper(&points);
+    let hull = checked_hull(&points);
     assert_eq!(hull.points, [0, 4, 20, 24].map(|v| points[v]));
     assert_eq!(hull.facets.len(), 2);
     let facet = |k| hull.facets.get(k).expect("two facets");
@@ -261,6 +261,6 @@ proptest! {
         seed in 0_u64..1000,
     ) {
         let points = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
-        assert_hull_of(&shaken(points, scale, seed));
+        assert_hull_of(&perturbed_points(points, scale, seed));
     }
 }

@@ -1,6 +1,6 @@
 //! Affine maps that transform meshes.
 
-use crate::exact::predicates::determinant;
+use crate::exact::predicates::determinant_sign;
 use ccd_core::Pose;
 use ccd_core::glam::{DAffine3, DVec3};
 
@@ -51,12 +51,12 @@ impl AffineMap {
     /// elements from 1e-45 to 1e45.
     pub fn mirrors(&self) -> bool {
         let matrix = self.0.matrix3;
-        determinant([matrix.x_axis, matrix.y_axis, matrix.z_axis]).is_lt()
+        determinant_sign([matrix.x_axis, matrix.y_axis, matrix.z_axis]).is_lt()
     }
 
     /// Returns the composition of two maps: `first` is applied before this one. Rounded, unless either is the
     /// identity.
-    pub(crate) fn after(&self, first: &AffineMap) -> AffineMap {
+    pub(crate) fn compose_after(&self, first: &AffineMap) -> AffineMap {
         match (self.is_identity(), first.is_identity()) {
             (true, _) => *first,
             (_, true) => *self,

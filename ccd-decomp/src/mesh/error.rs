@@ -246,20 +246,20 @@ fn conversion_advice(extension: &str) -> Option<String> {
 }
 
 /// The maximum number of part names in a message.
-const NAMED_PARTS: usize = 20;
+const MAX_NAMED_PARTS: usize = 20;
 
 fn list_of_parts(parts: &[Option<String>]) -> String {
     let label = |(number, name): (usize, &Option<String>)| match name {
         Some(name) => format!("{number} {:?}", Quote(name)),
         None => number.to_string(),
     };
-    let named = parts.iter().enumerate().take(NAMED_PARTS).map(label);
+    let named = parts.iter().enumerate().take(MAX_NAMED_PARTS).map(label);
     let named = named.collect::<Vec<_>>().join(", ");
     match parts.len() {
         0 => "it has none".into(),
         1 if parts == [None] => "it has one, without a name: 0".into(),
-        all if all > NAMED_PARTS => {
-            let more = all - NAMED_PARTS;
+        all if all > MAX_NAMED_PARTS => {
+            let more = all - MAX_NAMED_PARTS;
             format!("its parts are {named} and {more} more")
         }
         _ => format!("its parts are {named}"),
@@ -267,8 +267,8 @@ fn list_of_parts(parts: &[Option<String>]) -> String {
 }
 
 fn list_of_numbers(numbers: &[usize]) -> String {
-    let named = numbers.iter().take(NAMED_PARTS).map(usize::to_string);
-    let more = (numbers.len() > NAMED_PARTS).then(|| "…".into());
+    let named = numbers.iter().take(MAX_NAMED_PARTS).map(usize::to_string);
+    let more = (numbers.len() > MAX_NAMED_PARTS).then(|| "…".into());
     named.chain(more).collect::<Vec<_>>().join(", ")
 }
 
@@ -277,7 +277,7 @@ pub(crate) struct Quote<'a>(pub(crate) &'a str);
 
 impl fmt::Debug for Quote<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0.char_indices().nth(QUOTED_NAME) {
+        match self.0.char_indices().nth(MAX_QUOTED_NAME) {
             Some((end, _)) => write!(f, "{:?}", format!("{}…", &self.0[..end])),
             None => write!(f, "{:?}", self.0),
         }
@@ -293,7 +293,7 @@ pub(crate) fn element_name(kind: &str, number: impl fmt::Display, name: Option<&
 }
 
 /// The maximum length of a name in a message, in characters.
-const QUOTED_NAME: usize = 80;
+const MAX_QUOTED_NAME: usize = 80;
 
 fn line_prefix(line: Option<usize>) -> String {
     line.map_or_else(String::new, |line| format!("line {line}: "))

@@ -10,13 +10,13 @@ pub use patch::Patch;
 
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
-use crate::solid::bounding_solid;
 use crate::solid::error::DecomposeError;
-use crate::solid::flats::Flats;
+use crate::solid::flats::ConvexPolygons;
 use crate::solid::manifold::{Dihedral, Manifold};
-use crate::tolerance::PATCH_POLYGONS;
+use crate::solid::solid_surface;
+use crate::tolerance::MAX_PATCH_POLYGONS;
 use crate::work::Work;
-use growing_patch::{GrowingPatch, Join};
+use growing_patch::{GrowingPatch, JoinResult};
 use order::seed_order;
 use std::collections::VecDeque;
 
@@ -52,17 +52,22 @@ pub struct Decomposition {
 /// assert_eq!(decomposition.patches.len(), 1);
 /// ```
 pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, DecomposeError> {
-    let manifold = bounding_solid(mesh)?;
-    decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
+    let manifold = solid_surface(mesh)?;
+    decompose_polygons(
+        &manifold,
+        &ConvexPolygons::new(&manifold),
+        order,
+        &Work::unbounded(),
+    )
 }
 
 /// Decomposes the surface of a solid into convex patches, given its convex polygons.
 ///
 /// # Errors
 /// [`DecomposeError::TooLong`] when the work does not suffice.
-pub(crate) fn decompose_flats(
+pub(crate) fn decompose_polygons(
     manifold: &Manifold<'_>,
-    flats: &Flats,
+    flats: &ConvexPolygons,
     order: Order,
     work: &Work,
 ) -> Result<Decomposition, DecomposeError> {
@@ -73,7 +78,7 @@ pub(crate) fn decompose_flats(
     }
     let mut grower = PatchGrower {
         manifold,
-        flats,
+        polygons: flats,
         order,
         work,
         in_patch: vec![false; flats.len()],
@@ -92,7 +97,7 @@ pub(crate) fn decompose_flats(
 
 struct PatchGrower<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    flats: &'a Flats,
+    polygons: &'a ConvexPolygons,
     order: Order,
     work: &'a Work,
     /// By polygon, whether it belongs to a patch.
@@ -103,7 +108,7 @@ struct PatchGrower<'a, 'm> {
 
 impl PatchGrower<'_, '_> {
     fn grow_patch(&mut self, seed: u32, patch: u32) -> GrowingPatch {
-        let mut region = GrowingPatch::new(self.flats, seed);
+        let mut region = GrowingPatch::new(self.polygons, seed);
         self.in_patch[seed as usize] = true;
         let mut frontier = VecDeque::new();
         self.push_neighbours(&mut frontier, seed);
@@ -115,16 +120,16 @@ impl PatchGrower<'_, '_> {
             let tried = &mut self.last_tried_by[next as usize];
             if self.in_patch[next as usize]
                 || *tried == patch
-                || region.flats.len() >= PATCH_POLYGONS
+                || region.flats.len() >= MAX_PATCH_POLYGONS
             {
                 continue;
             }
             *tried = patch;
             self.work.spend(region.hull.facets().len());
-            match region.join(self.manifold, self.flats, next, self.work) {
-                Join::Refused => {}
-                Join::InPlane => in_plane.push(next),
-                Join::Joined => {
+            match region.join(self.manifold, self.polygons, next, self.work) {
+                JoinResult::Refused => {}
+                JoinResult::InPlane => in_plane.push(next),
+                JoinResult::Joined => {
                     self.in_patch[next as usize] = true;
                     self.push_neighbours(&mut frontier, next);
                     for waiting in in_plane.drain(..) {
@@ -139,9 +144,9 @@ impl PatchGrower<'_, '_> {
 
     /// Adds the neighbours of a polygon to the frontier, except beyond reflex edges.
     fn push_neighbours(&self, frontier: &mut VecDeque<u32>, flat: u32) {
-        for &edge in &self.flats.get(flat).rim {
+        for &edge in &self.polygons.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {
-                frontier.push_back(self.flats.of_face(self.manifold.twin(edge) / 3));
+                frontier.push_back(self.polygons.of_face(self.manifold.twin(edge) / 3));
             }
         }
     }

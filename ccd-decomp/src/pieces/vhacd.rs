@@ -37,9 +37,9 @@ pub(crate) struct Approximation {
     pub(crate) polytopes: Vec<Polytope>,
     /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
     /// mesh's unit of length.
-    pub(crate) uncovered: f64,
+    pub(crate) uncovered_bound: f64,
     /// A bound on how far the polytopes extend beyond S, in the mesh's unit of length.
-    pub(crate) sticks_out: f64,
+    pub(crate) excess_bound: f64,
 }
 
 /// The reason why a mesh cannot be approximated.
@@ -122,8 +122,8 @@ pub(crate) fn approximate(
     }
     Ok(Approximation {
         polytopes: parts.into_iter().map(|p| polytope(p, uncovered)).collect(),
-        uncovered,
-        sticks_out,
+        uncovered_bound: uncovered,
+        excess_bound: sticks_out,
     })
 }
 

@@ -4,7 +4,7 @@ use super::parts::Parts;
 use super::report::{Estimate, Why};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
-use crate::pieces::patches::{Order, decompose_flats};
+use crate::pieces::patches::{Order, decompose_polygons};
 use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegion, RegionMerger};
@@ -33,8 +33,8 @@ pub(super) fn choose(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (
     if let Ok(polytope) = convex {
         return (Parts::Hull(Box::new(polytope)), Why::Convex);
     }
-    let flats = merger.into_flats();
-    match decompose_flats(&manifold, &flats, Order::default(), work) {
+    let flats = merger.into_polygons();
+    match decompose_polygons(&manifold, &flats, Order::default(), work) {
         Ok(decomposition) => (Parts::Patches(decomposition), Why::PatchesFaster(estimate)),
         Err(error) => only_triangles(error),
     }
@@ -52,7 +52,7 @@ impl PlanarRegion {
     /// Estimates the time of a query whose largest planar part rests on another body in some queries.
     fn estimate(self) -> Estimate {
         let cost = |of: PieceCost, count: usize| {
-            of.usual + RESTING_QUERY_SHARE * of.resting * count as f64
+            of.typical_time + RESTING_QUERY_SHARE * of.resting_time * count as f64
         };
         Estimate {
             triangles: cost(TRIANGLE_COST, self.triangles),

@@ -59,8 +59,8 @@ impl Choice {
             }
             Parts::Vhacd(approximation) => {
                 report.kind = PiecesKind::Vhacd;
-                report.inflated_by = approximation.uncovered;
-                report.sticks_out = approximation.sticks_out;
+                report.inflated_by = approximation.uncovered_bound;
+                report.sticks_out = approximation.excess_bound;
                 let polytopes = &approximation.polytopes;
                 report.virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
                 (polytope_tree(polytopes)?, None)

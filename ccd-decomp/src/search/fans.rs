@@ -7,7 +7,7 @@ use super::planes::separating_planes;
 use super::region::{Hull, Shape};
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
-use crate::tolerance::FAN_TRIANGLES;
+use crate::tolerance::MIN_FAN_TRIANGLES;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -29,7 +29,7 @@ pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>
     let (mut single, mut members) = (Vec::new(), Vec::new());
     for (number, face) in (0..).zip(faces) {
         let hub = face.iter().copied().max_by_key(|&v| count[v as usize]);
-        match hub.filter(|&v| count[v as usize] >= FAN_TRIANGLES) {
+        match hub.filter(|&v| count[v as usize] >= MIN_FAN_TRIANGLES) {
             Some(hub) => members.push((hub, number)),
             None => single.push(number),
         }

@@ -28,7 +28,7 @@ impl Plane {
         }
     }
 
-    fn through([a, b, c]: [DVec3; 3]) -> Self {
+    fn through_triangle([a, b, c]: [DVec3; 3]) -> Self {
         Plane::new(a, [b - a, c - a])
     }
 
@@ -51,12 +51,17 @@ const TESTED_FACETS: usize = 16;
 pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => {
-            vec![Plane::through([hub, *p, *q]), Plane::through([hub, *q, *p])]
+            vec![
+                Plane::through_triangle([hub, *p, *q]),
+                Plane::through_triangle([hub, *q, *p]),
+            ]
         }
         Shape::Inside(Hull { facets, .. }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
-            facets.map(|&facet| Plane::through(facet)).collect()
+            facets
+                .map(|&facet| Plane::through_triangle(facet))
+                .collect()
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
@@ -75,7 +80,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             let [p, q, r] = *corners;
             for facet in [[p, q, r], [q, p, r]] {
                 if side(facet, hub) != Ordering::Less {
-                    planes.push(Plane::through(facet));
+                    planes.push(Plane::through_triangle(facet));
                 }
             }
             planes
@@ -98,7 +103,11 @@ impl<'a> SeparationTests<'a> {
             Shape::Triangle(corners) => SeparationTests::Points(corners),
             Shape::Inside(Hull { facets, .. }) => {
                 let tested = facets.iter().take(TESTED_FACETS);
-                SeparationTests::Planes(tested.map(|&facet| Plane::through(facet)).collect())
+                SeparationTests::Planes(
+                    tested
+                        .map(|&facet| Plane::through_triangle(facet))
+                        .collect(),
+                )
             }
         }
     }
@@ -144,7 +153,7 @@ fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
 fn add_plane_through_edge(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {
-            planes.push(Plane::through(plane));
+            planes.push(Plane::through_triangle(plane));
         }
     }
 }

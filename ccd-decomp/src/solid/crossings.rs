@@ -6,18 +6,18 @@ use super::manifold::Manifold;
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::search::region::Region;
 use crate::tolerance::MAX_CROSSINGS;
-use crate::work::{OutOfWork, Work};
+use crate::work::{Work, WorkBudgetExhausted};
 use plates::Plates;
 
 /// Returns the pairs of faces that meet outside shared vertices and edges. The list ends at [a thousand](MAX_CROSSINGS)
 /// pairs.
 ///
 /// # Errors
-/// [`OutOfWork`] if the work does not suffice.
+/// [`WorkBudgetExhausted`] if the work does not suffice.
 pub(crate) fn crossings(
     manifold: &Manifold<'_>,
     work: &Work,
-) -> Result<Vec<(u32, u32)>, OutOfWork> {
+) -> Result<Vec<(u32, u32)>, WorkBudgetExhausted> {
     let mut found = Vec::new();
     let plates = Plates::find(manifold);
     for face in 0..manifold.faces().len() as u32 {

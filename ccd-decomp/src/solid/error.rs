@@ -2,7 +2,7 @@
 
 use super::topology::{Edge, Topology};
 use crate::tally::Tally;
-use crate::work::OutOfWork;
+use crate::work::WorkBudgetExhausted;
 use ccd_core::limits::LEAST_COORDINATE;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -73,8 +73,8 @@ pub enum DecomposeError {
     },
 }
 
-impl From<OutOfWork> for DecomposeError {
-    fn from(OutOfWork: OutOfWork) -> Self {
+impl From<WorkBudgetExhausted> for DecomposeError {
+    fn from(WorkBudgetExhausted: WorkBudgetExhausted) -> Self {
         DecomposeError::TooLong
     }
 }

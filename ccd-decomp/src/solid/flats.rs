@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use std::cmp::{Ordering, Reverse};
 
 /// The partition of a mesh's faces into convex polygons.
-pub(crate) struct Flats {
+pub(crate) struct ConvexPolygons {
     flats: Vec<Flat>,
     /// By face, the number of its polygon.
     flat_of: Vec<u32>,
@@ -29,10 +29,10 @@ pub(crate) struct Flat {
     pub(crate) corners: Vec<u32>,
 }
 
-impl Flats {
+impl ConvexPolygons {
     /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        RegionMerger::merge_all(manifold).into_flats()
+        RegionMerger::merge_all(manifold).into_polygons()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -209,7 +209,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     }
 
     /// Returns the polygons that the regions have become.
-    pub(crate) fn into_flats(mut self) -> Flats {
+    pub(crate) fn into_polygons(mut self) -> ConvexPolygons {
         let flat_of = self.regions.numbers();
         let flat = |faces: Vec<u32>| Flat {
             faces,
@@ -234,7 +234,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             let points = self.manifold.mesh().vertices();
             flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));
         }
-        Flats { flats, flat_of }
+        ConvexPolygons { flats, flat_of }
     }
 }
 

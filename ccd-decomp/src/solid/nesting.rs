@@ -13,7 +13,7 @@ use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
 use crate::tally::Tally;
-use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
+use crate::tolerance::{FACE_ROUNDING, MAX_NESTING_RAYS};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -30,7 +30,7 @@ pub(crate) struct Nesting {
     /// The faces to reverse, so that the solid is behind all faces or in front of all faces.
     pub(crate) turned: Vec<u32>,
     /// The wrongly oriented shells, if other shells are right: one face of each, by the file's number.
-    pub(crate) wrong: Tally<u32>,
+    pub(crate) wrong_shells: Tally<u32>,
     /// The shells that may bound a solid or a cavity: one face of each, by the file's number.
     pub(crate) unclear: Tally<u32>,
 }
@@ -54,8 +54,8 @@ impl Nesting {
 struct Shells<'m> {
     mesh: &'m TriangleMesh,
     boxes: TriangleBoxes,
-    shell_of: Vec<u32>,
-    faces_of: Vec<Vec<u32>>,
+    shell_of_face: Vec<u32>,
+    faces_of_shell: Vec<Vec<u32>>,
     /// The bounding boxes of the shells. The winding number of a shell is 0 outside its box.
     bounds: BoundsTree,
 }
@@ -77,21 +77,21 @@ impl<'m> Shells<'m> {
             bounds: BoundsTree::new(faces_of.iter().map(bounds).collect()),
             boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
-            shell_of,
-            faces_of,
+            shell_of_face: shell_of,
+            faces_of_shell: faces_of,
         }
     }
 
     fn nesting(&self) -> Nesting {
         let exact = too_fine(self.mesh.vertices()).is_none();
-        let shells = 0..self.faces_of.len() as u32;
+        let shells = 0..self.faces_of_shell.len() as u32;
         let found: Vec<Option<Surroundings>> = shells
             .map(|shell| exact.then(|| self.surroundings(shell)).flatten())
             .collect();
         let is_unknown: Vec<bool> = found.iter().map(Option::is_none).collect();
         let around: Vec<Surroundings> = found.into_iter().map(Option::unwrap_or_default).collect();
         let orientations: Vec<i32> = self
-            .faces_of
+            .faces_of_shell
             .iter()
             .map(|faces| self.orientation(faces))
             .collect();
@@ -124,8 +124,8 @@ impl<'m> Shells<'m> {
         // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
             for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
-                nesting.wrong.add(self.name_in_reports(shell));
-                nesting.turned.extend(&self.faces_of[shell]);
+                nesting.wrong_shells.add(self.name_in_reports(shell));
+                nesting.turned.extend(&self.faces_of_shell[shell]);
             }
         }
         nesting
@@ -133,7 +133,7 @@ impl<'m> Shells<'m> {
 
     /// Returns the first face of a shell, by the file's number. Reports name the shell by it.
     fn name_in_reports(&self, shell: usize) -> u32 {
-        self.mesh.face_ids()[self.faces_of[shell][0] as usize]
+        self.mesh.face_ids()[self.faces_of_shell[shell][0] as usize]
     }
 
     /// Returns the orientation of a shell: 1 outward, −1 inward, 0 without volume.
@@ -162,7 +162,7 @@ impl<'m> Shells<'m> {
     /// Returns the other shells whose winding number about a shell is not 0; `None` if every ray meets an edge or
     /// vertex.
     fn shells_winding_about(&self, shell: u32) -> Option<Vec<u32>> {
-        let faces = &self.faces_of[shell as usize];
+        let faces = &self.faces_of_shell[shell as usize];
         let corner = self.mesh.triangle(faces[0])[0];
         let is_own = |other: u32| other == shell;
         let at = Bounds::enclosing([corner]);
@@ -170,12 +170,15 @@ impl<'m> Shells<'m> {
             return Some(Vec::new());
         }
         let size = self.boxes.farthest_distance(corner);
-        let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
+        let face = |k: usize| {
+            self.mesh
+                .triangle(faces[k * faces.len() / MAX_NESTING_RAYS])
+        };
         // Shells may touch at a corner: every attempt uses another one.
-        let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
+        let corners = (0..MAX_NESTING_RAYS).map(|k| (k, face(k)[k % 3]));
         // Shells that share faces touch at all corners.
-        let middles =
-            (0..RAY_TRIES).filter_map(|k| Some((k, self.isolated_centre(shell, face(k), size)?)));
+        let middles = (0..MAX_NESTING_RAYS)
+            .filter_map(|k| Some((k, self.isolated_centre(shell, face(k), size)?)));
         corners.chain(middles).find_map(|(k, from)| {
             self.shells_winding_about_start(shell, probe_segment(from, size, k))
         })
@@ -184,7 +187,7 @@ impl<'m> Shells<'m> {
     /// Returns the centre of a face, up to rounding; `None` if another shell is within that rounding.
     fn isolated_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let (middle, across) = centre_and_sides(face, size)?;
-        let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
+        let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;
         let misses =
             |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
         let is_alone = self
@@ -199,7 +202,7 @@ impl<'m> Shells<'m> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
         let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
-            let other = self.shell_of[face as usize];
+            let other = self.shell_of_face[face as usize];
             let start = Bounds::enclosing([ray[0]]);
             let may_wind = other != shell && self.bounds.get(other).meets(&start);
             let found = if may_wind {
@@ -224,12 +227,12 @@ impl<'m> Shells<'m> {
         let mut crossed = Vec::new();
         let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
         // A degenerate face lies on an edge of its neighbours.
-        let faces = self.faces_of[shell as usize].iter();
+        let faces = self.faces_of_shell[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);
             self.boxes
                 .all_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
-                    let other = self.shell_of[near as usize];
+                    let other = self.shell_of_face[near as usize];
                     if other != shell && !crossed.contains(&other) && !flat(near) {
                         let ids = [face, near].map(|f| self.mesh.welded_face(f));
                         if meet_outside_shared_corners(ids, [one, self.mesh.triangle(near)]) {

@@ -6,7 +6,7 @@ use crate::disjoint_sets::{DisjointSets, members};
 use crate::exact::rays::{crossing, probe_segment};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
-use crate::tolerance::RAY_TRIES;
+use crate::tolerance::MAX_NESTING_RAYS;
 use crate::work::Work;
 
 /// Checks that the solid is behind every face. The solid is where the winding number is not 0.
@@ -69,7 +69,7 @@ fn winding_of_others(
     let shell = shell_of[faces[0] as usize];
     let near = manifold.triangle(faces[0])[0];
     let size = manifold.boxes().farthest_distance(near);
-    (0..RAY_TRIES).find_map(|k| {
+    (0..MAX_NESTING_RAYS).find_map(|k| {
         // Shells may touch at a corner: every attempt uses another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
         let ray = probe_segment(from, size, k);

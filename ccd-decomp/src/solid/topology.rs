@@ -81,7 +81,7 @@ impl Topology {
             return (topology, None);
         }
         let nesting = Nesting::new(mesh, &edges);
-        topology.wrong_way = nesting.wrong;
+        topology.wrong_way = nesting.wrong_shells;
         topology.unclear = nesting.unclear;
         let turned =
             (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));

@@ -42,17 +42,17 @@ pub enum BodyError {
 #[non_exhaustive]
 pub enum SourceError {
     /// The text that describes the body is empty.
-    #[error("no body given; {EXAMPLES}")]
+    #[error("no body given; {USAGE_EXAMPLES}")]
     Empty,
     /// The word before the colon is not the name of a shape.
-    #[error("there is no shape {shape:?}; {EXAMPLES}")]
+    #[error("there is no shape {shape:?}; {USAGE_EXAMPLES}")]
     UnknownShape {
         /// The word before the colon.
         shape: String,
     },
     /// A shape has too many or too few lengths.
     #[error(
-        "{shape:?} takes {expected} length{}, not {given}; {EXAMPLES}",
+        "{shape:?} takes {expected} length{}, not {given}; {USAGE_EXAMPLES}",
         if *.expected == 1 { "" } else { "s" }
     )]
     WrongCount {
@@ -67,7 +67,7 @@ pub enum SourceError {
     #[error(transparent)]
     Adjustment(#[from] UnknownAdjustment),
     /// A stored body has adjustments, which apply only to meshes.
-    #[error("{}: {PREPARED}", .file.display())]
+    #[error("{}: {PREPARED_ADVICE}", .file.display())]
     Prepared {
         /// The path of the stored body.
         file: PathBuf,
@@ -84,7 +84,7 @@ pub enum SourceError {
     },
     /// A length is not a finite number of at least 0.
     #[error(
-        "{length:?} is not a length of {shape:?}: a number from 0 to {MAX_COORDINATE:e}; {EXAMPLES}"
+        "{length:?} is not a length of {shape:?}: a number from 0 to {MAX_COORDINATE:e}; {USAGE_EXAMPLES}"
     )]
     BadLength {
         /// The name of the shape.
@@ -94,9 +94,9 @@ pub enum SourceError {
     },
 }
 
-const PREPARED: &str = "a prepared body has its unit, size and pieces already; use the mesh it was made from, or \
+const PREPARED_ADVICE: &str = "a prepared body has its unit, size and pieces already; use the mesh it was made from, or \
                         prepare it with the adjustments";
 
-const EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
+const USAGE_EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
                         half height), cylinder:0.2,1 or cone:0.2,1 (the same), a file such as part.obj, a part \
                         of one such as scene.glb#lid, or a file with adjustments such as part.stl@mm";

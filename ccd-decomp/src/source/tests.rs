@@ -51,7 +51,7 @@ fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
 #[case("part.stl@mirror=w", "@mirror=w means nothing")]
 #[case("part.stl@mm@", "@ means nothing")]
 #[case("part.ccd@mm", "part.ccd: a prepared body has its unit")]
-fn what_means_nothing_after_a_file_is_told(#[case] text: &str, #[case] message: &str) {
+fn unknown_words_after_a_file_are_reported(#[case] text: &str, #[case] message: &str) {
     let error = text.parse::<BodySource>().unwrap_err().to_string();
     assert!(error.starts_with(message), "{error}");
 }
@@ -85,7 +85,7 @@ impl Drop for Tetrahedron {
 }
 
 /// Returns the least and the greatest x coordinate of a body.
-fn along_x(prepared: &Prepared) -> [f64; 2] {
+fn x_range(prepared: &Prepared) -> [f64; 2] {
     let xs = prepared.body.pieces().points().iter().map(|p| p.x);
     let fold = |of: fn(f64, f64) -> f64| xs.clone().reduce(of).unwrap();
     [
@@ -97,10 +97,10 @@ fn along_x(prepared: &Prepared) -> [f64; 2] {
 #[test]
 fn files_are_taken_as_their_adjustments_say() {
     let file = Tetrahedron::named("adjusted.obj");
-    assert_eq!(along_x(&file.with("")), [1.0, 3.0]);
-    assert_eq!(along_x(&file.with("@scale=0.1")), [0.1, 3.0 * 0.1]);
+    assert_eq!(x_range(&file.with("")), [1.0, 3.0]);
+    assert_eq!(x_range(&file.with("@scale=0.1")), [0.1, 3.0 * 0.1]);
     let mirrored = file.with("@mirror=x");
-    assert_eq!(along_x(&mirrored), [-3.0, -1.0]);
+    assert_eq!(x_range(&mirrored), [-3.0, -1.0]);
     // The triangles are reversed with the mirroring, so that no repair is needed.
     assert_eq!(
         mirrored.report.to_string(),
@@ -110,17 +110,17 @@ fn files_are_taken_as_their_adjustments_say() {
     assert!(mirrored.report.topology.unwrap().signed_volume > 0.0);
     let stated = file.with("@in");
     assert_eq!(
-        (along_x(&stated), stated.unit),
+        (x_range(&stated), stated.unit),
         ([1.0, 3.0], Some(Unit::Inch))
     );
     let text = format!("{}@in", file.0.display());
     let source: BodySource = text.parse().unwrap();
     let converted = source.load_in(Unit::Millimetre, Detail::Auto).unwrap();
-    assert_eq!(along_x(&converted), [25.4, 76.2]);
+    assert_eq!(x_range(&converted), [25.4, 76.2]);
     // Combined with the adjustments of all files.
     let doubled = Adjustments::NONE.scaled(2.0).unwrap().mirrored(Axis::X);
     let both = source.load_adjusted(&doubled, Detail::Auto).unwrap();
-    assert_eq!(along_x(&both), [-6.0, -2.0]);
+    assert_eq!(x_range(&both), [-6.0, -2.0]);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn a_file_with_the_whole_text_as_its_name_is_that_file() {
         Tetrahedron::named("it.obj"),
         Tetrahedron::named("it.obj@scale=2.obj"),
     );
-    assert_eq!(along_x(&at.with("")), [1.0, 3.0]);
+    assert_eq!(x_range(&at.with("")), [1.0, 3.0]);
     drop(at);
     assert!(matches!(
         plain.try_with("@scale=2.obj"),
@@ -222,7 +222,7 @@ fn primitives_are_single_solid_pieces() {
 #[rstest]
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]
-fn round_shapes_tell_their_excess(#[case] text: &str, #[case] most: f64) {
+fn round_shapes_report_their_excess(#[case] text: &str, #[case] most: f64) {
     let Prepared { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
     assert!((0.5 * most..=most).contains(&report.sticks_out), "{report}");
     assert!(!report.is_exact() && report.to_string().contains("sticking out by up to"));

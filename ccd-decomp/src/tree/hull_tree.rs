@@ -3,7 +3,7 @@
 mod split;
 
 use crate::hull::{HullError, hull};
-use crate::tolerance::PARALLEL_PIECES;
+use crate::tolerance::MIN_PARALLEL_PIECES;
 use crate::tree::slot::Slot;
 use ccd_core::glam::DVec3;
 use ccd_core::{HullNode, HullTree, HullTreeError, InputError, Pieces};
@@ -64,7 +64,7 @@ impl TreeBuilder<'_> {
         let Some([left, right]) = slot.children(of_right.len()) else {
             return Ok(());
         };
-        let (grown_left, grown_right) = if count >= PARALLEL_PIECES {
+        let (grown_left, grown_right) = if count >= MIN_PARALLEL_PIECES {
             rayon::join(
                 || self.build_subtree(of_left, left),
                 || self.build_subtree(of_right, right),

@@ -33,7 +33,7 @@ pub struct Simulated {
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
-const ERRORS_AT_HIT: f64 = 1.25;
+const MAX_HIT_ERRORS: f64 = 1.25;
 /// The fraction of its motion at which a step counts as complete, because poses are rounded.
 const COMPLETE_SHARE: f64 = 1.0 - 1e-9;
 
@@ -61,7 +61,7 @@ impl Simulated {
     fn pose(&mut self, query: &Motions, tolerance: f64) {
         let parameters = &mut self.world.integration_parameters;
         parameters.dt = query.duration;
-        parameters.normalized_allowed_linear_error = tolerance / ERRORS_AT_HIT;
+        parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_ERRORS;
         if let Some(b) = self.world.bodies.get_mut(self.b) {
             b.set_position(pose(&query.b, 0.0), true);
         }
@@ -88,7 +88,7 @@ impl Solver for Simulated {
         self.pose(query, tolerance);
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
-            Some(a) => match share_of_motion(query, a.position()) {
+            Some(a) => match completed_motion_fraction(query, a.position()) {
                 share if share >= COMPLETE_SHARE => Claim::Free,
                 share => contact_at(share * query.duration, query.duration),
             },
@@ -99,11 +99,11 @@ impl Solver for Simulated {
 }
 
 /// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
-fn share_of_motion(query: &Motions, end: &Pose) -> f64 {
+fn completed_motion_fraction(query: &Motions, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
     if way == DVec3::ZERO {
-        return share_of_turn(motion, query.duration, end);
+        return completed_rotation_fraction(motion, query.duration, end);
     }
     let centre = DVec3::from(end.transform_point(vector(motion.centre())).to_array());
     let start = motion.start().transform_point(motion.centre());
@@ -112,7 +112,7 @@ fn share_of_motion(query: &Motions, end: &Pose) -> f64 {
 
 /// Returns the fraction of its rotation that a body has covered, if it only rotates. A sweep mixes two orientations,
 /// the shorter way.
-fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
+fn completed_rotation_fraction(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     let turn_to = |rotation: DQuat| {
         let turn = rotation * motion.start().rotation().conjugate();
         let shorter = if turn.w < 0.0 { -turn } else { turn };

@@ -291,9 +291,9 @@ fn tighter_tolerances_tighten_sweeps_alone() {
 #[test]
 fn every_method_is_found_by_its_name() {
     for method in Method::known() {
-        assert_eq!(Method::named(&method.to_string()), Some(method));
+        assert_eq!(Method::from_name(&method.to_string()), Some(method));
     }
-    assert_eq!(Method::named("unicorn"), None);
+    assert_eq!(Method::from_name("unicorn"), None);
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! Implements C2A, which advances both bodies by the least safe step over pairs of swept spheres.
 
-use super::patience::Patience;
-use super::swept_spheres::{Gap, Leaves, Pair, PairChildren, Trees};
+use super::patience::WorkLimit;
+use super::swept_spheres::{Gap, Pair, PairChildren, Trees, TrianglePair};
 use super::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
-use closing::Closing;
+use closing::ClosingSpeedBounds;
 use rigid_ccd::table::motions::Motions;
 
 mod closing;
@@ -32,8 +32,8 @@ mod tests;
 #[derive(Clone, Debug)]
 pub struct C2a {
     trees: Trees,
-    patience: Patience,
-    closing: Closing,
+    patience: WorkLimit,
+    closing_speeds: ClosingSpeedBounds,
     pairs: Vec<Candidate>,
 }
 
@@ -52,7 +52,7 @@ struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
     /// The nearest triangles; `None` before any are found.
-    nearest: Option<(Leaves, Pair)>,
+    nearest: Option<(TrianglePair, Pair)>,
     /// The least time during which all pairs seen so far stay apart.
     step: f64,
 }
@@ -84,9 +84,9 @@ impl C2a {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         let trees = Trees::new(a, b);
         C2a {
-            closing: Closing::new(&trees),
+            closing_speeds: ClosingSpeedBounds::new(&trees),
             trees,
-            patience: Patience::default(),
+            patience: WorkLimit::default(),
             pairs: Vec::new(),
         }
     }
@@ -95,19 +95,19 @@ impl C2a {
 impl Solver for C2a {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        self.closing.begin(&a, &b);
+        self.closing_speeds.begin(&a, &b);
         let mut pairs_left = self.patience.pairs;
         let mut time = 0.0;
         let mut last = None;
         for steps in 1..=self.patience.steps {
             let frame = a.at(time);
             let setup = DescentSetup {
-                placement: &b.at(time).seen_from(&frame),
+                placement: &b.at(time).relative_to(&frame),
                 remaining: query.duration - time,
                 excess: excess(steps, last.as_ref(), query.duration, tolerance),
                 tolerance,
             };
-            self.closing.set_frame(&frame);
+            self.closing_speeds.set_frame(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
                 Descent::Done(found) => found,
                 Descent::Within => return Reply::new(Claim::Contact { time }, steps),
@@ -187,7 +187,7 @@ impl C2a {
     fn candidate(&mut self, pair: Pair) -> Candidate {
         let gap = self.trees.gap(&pair);
         Candidate {
-            step: self.closing.safe_step(&self.trees, &pair, &gap),
+            step: self.closing_speeds.safe_step(&self.trees, &pair, &gap),
             pair,
             distance: gap.distance,
         }
@@ -198,7 +198,7 @@ impl C2a {
         &mut self,
         found: &mut DescentResult,
         setup: &DescentSetup<'_>,
-        leaves: Leaves,
+        leaves: TrianglePair,
         pair: Pair,
     ) {
         let between = self.trees.nearest(leaves, setup.placement).between();
@@ -207,7 +207,7 @@ impl C2a {
             distance,
             direction: between / distance,
         };
-        let step = self.closing.safe_step(&self.trees, &pair, &gap);
+        let step = self.closing_speeds.safe_step(&self.trees, &pair, &gap);
         // NaN counts as nearer.
         if !(step >= found.step) {
             found.step = step;

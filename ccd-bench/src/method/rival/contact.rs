@@ -14,12 +14,12 @@ use super::resolution::resolution;
 use super::screw::screw;
 use super::tree::Content;
 use crate::method::solver::{Claim, Reply, Solver};
-use boxes::{Boxes, boxes};
+use boxes::{BoxRelation, relate_boxes};
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use clock::{Clock, HalvedInterval};
-use elementary::{Facet, Triangles};
-use leaf::{Touch, first_touch};
+use clock::{HalvedInterval, MotionEncloser};
+use elementary::{Facet, TrianglePair};
+use leaf::{FirstTouch, first_touch};
 use relative::Relative;
 use rigid_ccd::table::motions::Motions;
 
@@ -28,7 +28,7 @@ use rigid_ccd::table::motions::Motions;
 ///
 /// Values from 0.1 to 2 were measured; this one is the fastest, on knots of 2,880 and 11,520
 /// triangles and a bunny of 26,000.
-const SPREAD_TO_HALVE: f64 = 0.2;
+const MAX_RELATIVE_SPREAD: f64 = 0.2;
 
 /// Finds the first contact of two triangle meshes, each of which moves by the
 /// [screw](super::screw()) between the start and the end pose of its motion.
@@ -60,12 +60,12 @@ struct Limits {
     pairs: u64,
     /// The maximum number of halvings of time. Surfaces that slide past each other at a distance g are only separated
     /// over intervals in which they move by about g.
-    halvings: u64,
+    max_halvings: u64,
 }
 
 const LIMITS: Limits = Limits {
     pairs: 1 << 24,
-    halvings: 1 << 22,
+    max_halvings: 1 << 22,
 };
 
 /// A node of each tree, over an interval of time.
@@ -91,7 +91,7 @@ impl Contact {
         let courses = [RivalMotion::new(&query.a), RivalMotion::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
-        let start = courses[0].at(0.0).seen_from(&courses[1].at(0.0));
+        let start = courses[0].at(0.0).relative_to(&courses[1].at(0.0));
         if crosses(a, b, &start, &mut self.static_stack) {
             let claim = Claim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
@@ -106,7 +106,7 @@ impl Contact {
         let relative = Relative::new(first, second);
         let mut search = Search {
             trees: order.map(|k| &self.trees[k]),
-            clock: Clock::new(relative, resolution, self.limits.halvings),
+            clock: MotionEncloser::new(relative, resolution, self.limits.max_halvings),
             most_pairs: self.limits.pairs,
             stack: &mut self.stack,
             end: query.duration,
@@ -129,7 +129,7 @@ impl Solver for Contact {
 /// The search for the answer to one query.
 struct Search<'a> {
     trees: [&'a ObbTree; 2],
-    clock: Clock,
+    clock: MotionEncloser,
     most_pairs: u64,
     stack: &'a mut Vec<Pair>,
     /// The time after which nothing matters: the first known contact, or the duration.
@@ -157,12 +157,12 @@ impl Search<'_> {
                 break;
             }
             match self.visit(pair) {
-                Touch::At(time) => {
+                FirstTouch::At(time) => {
                     self.end = time;
                     found = Some(time);
                 }
-                Touch::Never => {}
-                Touch::Unknown => {
+                FirstTouch::Never => {}
+                FirstTouch::Unknown => {
                     self.stack.push(pair);
                     break;
                 }
@@ -176,25 +176,27 @@ impl Search<'_> {
 
     /// Examines a pair: drops it, pushes its halves or children onto the stack, or finds when it
     /// touches.
-    fn visit(&mut self, pair: Pair) -> Touch {
+    fn visit(&mut self, pair: Pair) -> FirstTouch {
         let Pair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(interval)) {
-            Boxes::Apart => return Touch::Never,
-            Boxes::Near { spread } => spread,
+        let spread = match relate_boxes(&a.bounds, &b.bounds, self.clock.placements(interval)) {
+            BoxRelation::Apart => return FirstTouch::Never,
+            BoxRelation::NotSeparated { spread } => spread,
         };
-        let size = [a, b].map(|node| node.bounds.half.max_element());
-        let wide = spread > SPREAD_TO_HALVE * greater(size[0], size[1]);
-        if wide && !self.clock.is_shortest(interval) {
+        let size = [a, b].map(|node| node.bounds.half_extents.max_element());
+        let wide = spread > MAX_RELATIVE_SPREAD * greater(size[0], size[1]);
+        if wide && !self.clock.is_at_resolution(interval) {
             self.clock.halvings += 1;
             let [early, late] = interval.halves();
             self.stack
                 .extend([late, early].map(|interval| Pair { nodes, interval }));
-            return Touch::Never;
+            return FirstTouch::Never;
         }
         let open = match (a.content, b.content) {
-            (Content::Triangle(p), Content::Triangle(q)) => return self.leaf([p, q], interval),
+            (Content::Triangle(p), Content::Triangle(q)) => {
+                return self.visit_leaves([p, q], interval);
+            }
             (Content::Nodes(children), Content::Triangle(_)) => {
                 children.map(|child| [child, nodes[1]])
             }
@@ -205,11 +207,11 @@ impl Search<'_> {
         };
         self.stack
             .extend(open.map(|nodes| Pair { nodes, interval }));
-        Touch::Never
+        FirstTouch::Never
     }
 
-    fn leaf(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> Touch {
-        let triangles = Triangles {
+    fn visit_leaves(&mut self, [p, q]: [u32; 2], interval: HalvedInterval) -> FirstTouch {
+        let triangles = TrianglePair {
             a: Facet::new(self.trees[0].triangle(p)),
             b: Facet::new(self.trees[1].triangle(q)),
         };

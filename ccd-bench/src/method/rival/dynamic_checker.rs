@@ -2,8 +2,8 @@
 //! free.
 
 use super::RivalMotion;
-use super::patience::Patience;
-use super::swept_spheres::{Pair, PairChildren, SphereTree, Trees};
+use super::patience::WorkLimit;
+use super::swept_spheres::{Pair, PairChildren, RssTree, Trees};
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -36,16 +36,16 @@ mod tests;
 #[derive(Clone, Debug)]
 pub struct DynamicChecker {
     trees: Trees,
-    patience: Patience,
-    reach_a: Reach,
-    reach_b: Reach,
+    patience: WorkLimit,
+    radius_a: CachedRadius,
+    radius_b: CachedRadius,
     segments: Vec<Segment>,
     pairs: Vec<(Pair, f64)>,
 }
 
 /// The largest distance of a body's points from its last centre of rotation, kept from query to query.
 #[derive(Clone, Copy, Debug, Default)]
-struct Reach(Option<(DVec3, f64)>);
+struct CachedRadius(Option<(DVec3, f64)>);
 
 /// A segment of the duration, and lower bounds on the distance at its ends.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +69,7 @@ struct RequiredPrecision {
 #[derive(Clone, Copy, Debug)]
 enum LowerBound {
     Apart(f64),
-    Meet,
+    Touching,
     /// The work limit was reached, or numbers are not finite.
     GaveUp,
 }
@@ -92,9 +92,9 @@ impl DynamicChecker {
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         DynamicChecker {
             trees: Trees::new(a, b),
-            patience: Patience::default(),
-            reach_a: Reach::default(),
-            reach_b: Reach::default(),
+            patience: WorkLimit::default(),
+            radius_a: CachedRadius::default(),
+            radius_b: CachedRadius::default(),
             segments: Vec::new(),
             pairs: Vec::new(),
         }
@@ -109,8 +109,8 @@ impl Solver for DynamicChecker {
         let mut task = Task {
             a,
             b,
-            speed: speed(&a, self.reach_a.radius_about(a.centre, &self.trees.a))
-                + speed(&b, self.reach_b.radius_about(b.centre, &self.trees.b)),
+            speed: speed(&a, self.radius_a.radius_about(a.centre, &self.trees.a))
+                + speed(&b, self.radius_b.radius_about(b.centre, &self.trees.b)),
             tolerance,
             earliest_touch: None,
             steps: 0,
@@ -127,7 +127,7 @@ impl DynamicChecker {
         let path = task.speed * duration;
         let distance_at_from = match self.bound(0.0, RequiredPrecision::at_least(path), task) {
             LowerBound::Apart(distance) => distance,
-            LowerBound::Meet => return Claim::Contact { time: 0.0 },
+            LowerBound::Touching => return Claim::Contact { time: 0.0 },
             LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
         };
         let distance_at_to = match self.bound(
@@ -136,7 +136,7 @@ impl DynamicChecker {
             task,
         ) {
             LowerBound::Apart(distance) => distance,
-            LowerBound::Meet => {
+            LowerBound::Touching => {
                 task.earliest_touch = Some(duration);
                 0.0
             }
@@ -182,11 +182,11 @@ impl DynamicChecker {
         if path <= task.tolerance || !(from < middle && middle < to) {
             return match self.bound(
                 from,
-                RequiredPrecision::exactly(path - distance_at_to),
+                RequiredPrecision::exact_up_to(path - distance_at_to),
                 task,
             ) {
                 LowerBound::Apart(distance) if path < distance + distance_at_to => None,
-                LowerBound::Apart(_) | LowerBound::Meet => Some(Claim::Contact { time: from }),
+                LowerBound::Apart(_) | LowerBound::Touching => Some(Claim::Contact { time: from }),
                 LowerBound::GaveUp => Some(gave_up),
             };
         }
@@ -202,7 +202,7 @@ impl DynamicChecker {
                 });
                 distance
             }
-            LowerBound::Meet => {
+            LowerBound::Touching => {
                 // They touch by then, so nothing later can be the first contact.
                 self.segments.clear();
                 task.earliest_touch = Some(middle);
@@ -221,7 +221,7 @@ impl DynamicChecker {
 
     /// Returns the least distance of nodes at which a descent of both trees stops.
     fn bound(&mut self, time: f64, precision: RequiredPrecision, task: &mut Task) -> LowerBound {
-        let placement = task.b.at(time).seen_from(&task.a.at(time));
+        let placement = task.b.at(time).relative_to(&task.a.at(time));
         let Some(roots) = self.trees.roots(&placement) else {
             return LowerBound::Apart(f64::INFINITY);
         };
@@ -248,7 +248,7 @@ impl DynamicChecker {
                         return LowerBound::GaveUp;
                     }
                     if apart == 0.0 {
-                        return LowerBound::Meet;
+                        return LowerBound::Touching;
                     }
                     least = lesser(least, apart);
                 }
@@ -288,7 +288,7 @@ impl RequiredPrecision {
         }
     }
 
-    fn exactly(sufficient: f64) -> Self {
+    fn exact_up_to(sufficient: f64) -> Self {
         RequiredPrecision {
             sufficient,
             coarseness: 0.0,
@@ -301,8 +301,8 @@ impl RequiredPrecision {
     }
 }
 
-impl Reach {
-    fn radius_about(&mut self, centre: DVec3, tree: &SphereTree) -> f64 {
+impl CachedRadius {
+    fn radius_about(&mut self, centre: DVec3, tree: &RssTree) -> f64 {
         match self.0 {
             Some((last, reach)) if last == centre => reach,
             _ => {

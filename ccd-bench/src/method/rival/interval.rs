@@ -18,20 +18,20 @@ pub(super) type IntervalMat = Interval<DMat3>;
 
 /// The ranges of cosine and sine over all angles between −h and h, for a half angle h.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Arc {
+pub(super) struct SineCosineRange {
     pub(super) cos: Interval,
     /// The radius of the range of the sine, which is centred at zero.
     pub(super) sin: f64,
 }
 
-impl Arc {
+impl SineCosineRange {
     /// Returns the ranges of cosine and sine over an arc of the given half angle.
     #[inline]
     pub(super) fn new(half_angle: f64) -> Self {
         use std::f64::consts::{FRAC_PI_2, PI};
         let (sin, cos) = half_angle.sin_cos();
         let least_cos = if half_angle < PI { cos } else { -1.0 };
-        Arc {
+        SineCosineRange {
             cos: Interval {
                 middle: 0.5 * (1.0 + least_cos),
                 radius: 0.5 * (1.0 - least_cos),
@@ -133,13 +133,13 @@ impl IntervalVec {
 
     /// Returns the largest absolute value of each coordinate.
     #[inline]
-    pub(super) fn largest(self) -> DVec3 {
+    pub(super) fn magnitude(self) -> DVec3 {
         self.middle.abs() + self.radius
     }
 
     /// Returns the smallest absolute value of each coordinate; negative if the interval contains zero.
     #[inline]
-    pub(super) fn smallest(self) -> DVec3 {
+    pub(super) fn mignitude(self) -> DVec3 {
         self.middle.abs() - self.radius
     }
 }
@@ -173,7 +173,7 @@ impl Mul<IntervalVec> for IntervalMat {
     fn mul(self, vector: IntervalVec) -> IntervalVec {
         IntervalVec {
             middle: self.middle * vector.middle,
-            radius: self.middle.abs() * vector.radius + self.radius * vector.largest(),
+            radius: self.middle.abs() * vector.radius + self.radius * vector.magnitude(),
         }
     }
 }

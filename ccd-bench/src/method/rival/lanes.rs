@@ -5,20 +5,20 @@ use wide::f64x4;
 
 /// Four vectors, stored by coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Vectors(pub(super) [f64x4; 3]);
+pub(super) struct Vec3x4(pub(super) [f64x4; 3]);
 
 /// The shortest vector so far in each of the four lanes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shortest {
     squared: f64x4,
-    vectors: Vectors,
+    vectors: Vec3x4,
 }
 
-impl Vectors {
+impl Vec3x4 {
     /// Packs four vectors; the last one may repeat another.
     #[inline(always)]
     pub(super) fn new([a, b, c, d]: [DVec3; 4]) -> Self {
-        Vectors([
+        Vec3x4([
             f64x4::new([a.x, b.x, c.x, d.x]),
             f64x4::new([a.y, b.y, c.y, d.y]),
             f64x4::new([a.z, b.z, c.z, d.z]),
@@ -28,20 +28,20 @@ impl Vectors {
     /// Returns the same vector four times.
     #[inline(always)]
     pub(super) fn splat(v: DVec3) -> Self {
-        Vectors([f64x4::splat(v.x), f64x4::splat(v.y), f64x4::splat(v.z)])
+        Vec3x4([f64x4::splat(v.x), f64x4::splat(v.y), f64x4::splat(v.z)])
     }
 
     /// Returns `self + factors · direction`.
     #[inline(always)]
     pub(super) fn plus(self, factors: f64x4, direction: DVec3) -> Self {
-        self.plus_each(factors, Vectors::splat(direction))
+        self.plus_each(factors, Vec3x4::splat(direction))
     }
 
     /// Returns `self + factors · directions`, lane by lane.
     #[inline(always)]
-    pub(super) fn plus_each(self, factors: f64x4, Vectors(d): Vectors) -> Self {
-        let Vectors([x, y, z]) = self;
-        Vectors([
+    pub(super) fn plus_each(self, factors: f64x4, Vec3x4(d): Vec3x4) -> Self {
+        let Vec3x4([x, y, z]) = self;
+        Vec3x4([
             factors.mul_add(d[0], x),
             factors.mul_add(d[1], y),
             factors.mul_add(d[2], z),
@@ -50,29 +50,29 @@ impl Vectors {
 
     /// Returns `self − other`, lane by lane.
     #[inline(always)]
-    pub(super) fn minus(self, Vectors(o): Vectors) -> Self {
-        let Vectors([x, y, z]) = self;
-        Vectors([x - o[0], y - o[1], z - o[2]])
+    pub(super) fn minus(self, Vec3x4(o): Vec3x4) -> Self {
+        let Vec3x4([x, y, z]) = self;
+        Vec3x4([x - o[0], y - o[1], z - o[2]])
     }
 
     /// Returns the inner products with one vector.
     #[inline(always)]
     pub(super) fn dot(self, v: DVec3) -> f64x4 {
-        self.dot_each(Vectors::splat(v))
+        self.dot_each(Vec3x4::splat(v))
     }
 
     /// Returns the inner products with other vectors, lane by lane.
     #[inline(always)]
-    pub(super) fn dot_each(self, Vectors(o): Vectors) -> f64x4 {
-        let Vectors([x, y, z]) = self;
+    pub(super) fn dot_each(self, Vec3x4(o): Vec3x4) -> f64x4 {
+        let Vec3x4([x, y, z]) = self;
         x.mul_add(o[0], y.mul_add(o[1], z * o[2]))
     }
 
     /// Returns the cross products with other vectors, lane by lane.
     #[inline(always)]
-    pub(super) fn cross_each(self, Vectors(o): Vectors) -> Self {
-        let Vectors([x, y, z]) = self;
-        Vectors([
+    pub(super) fn cross_each(self, Vec3x4(o): Vec3x4) -> Self {
+        let Vec3x4([x, y, z]) = self;
+        Vec3x4([
             y.mul_sub(o[2], z * o[1]),
             z.mul_sub(o[0], x * o[2]),
             x.mul_sub(o[1], y * o[0]),
@@ -81,7 +81,7 @@ impl Vectors {
 
     /// Returns the vector in one of the four lanes.
     pub(super) fn lane(self, k: usize) -> DVec3 {
-        let Vectors(v) = self;
+        let Vec3x4(v) = self;
         DVec3::from_array(v.map(|lanes| lanes.to_array()[k]))
     }
 }
@@ -92,25 +92,25 @@ impl Shortest {
     pub(super) fn empty() -> Self {
         Shortest {
             squared: f64x4::splat(f64::INFINITY),
-            vectors: Vectors::splat(DVec3::ZERO),
+            vectors: Vec3x4::splat(DVec3::ZERO),
         }
     }
 
     /// Adds four more vectors, one to each lane; NaN is never shorter.
     #[inline(always)]
-    pub(super) fn with_four(self, more: Vectors) -> Self {
+    pub(super) fn include_four(self, more: Vec3x4) -> Self {
         let squared = more.dot_each(more);
         let shorter = squared.simd_lt(self.squared);
         let keep = |k: usize| shorter.select(more.0[k], self.vectors.0[k]);
         Shortest {
             squared: self.squared.fast_min(squared),
-            vectors: Vectors([keep(0), keep(1), keep(2)]),
+            vectors: Vec3x4([keep(0), keep(1), keep(2)]),
         }
     }
 
     /// Returns the squared length of the shortest vector in any lane, and the vector.
     #[inline(always)]
-    pub(super) fn overall(self) -> (f64, DVec3) {
+    pub(super) fn shortest(self) -> (f64, DVec3) {
         let (lane, squared) = least(self.squared);
         (squared, self.vectors.lane(lane))
     }

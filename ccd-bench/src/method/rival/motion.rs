@@ -62,7 +62,7 @@ impl Placement {
     }
 
     /// Returns this placement in the frame of another: `other⁻¹ ∘ self`.
-    pub fn seen_from(&self, other: &Placement) -> Placement {
+    pub fn relative_to(&self, other: &Placement) -> Placement {
         let back = other.rotation.transpose();
         Placement {
             rotation: back * self.rotation,

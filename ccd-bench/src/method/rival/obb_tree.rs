@@ -41,7 +41,7 @@ pub(super) struct Obb {
     /// The unit axes of the box, as columns. The longest is first if the box is fitted well.
     pub(super) axes: DMat3,
     pub(super) centre: DVec3,
-    pub(super) half: DVec3,
+    pub(super) half_extents: DVec3,
 }
 
 impl ObbTree {
@@ -101,7 +101,7 @@ impl Obb {
         let bounds = Obb {
             axes,
             centre: mean + axes * (0.5 * (low + high)),
-            half: 0.5 * (high - low),
+            half_extents: 0.5 * (high - low),
         };
         (mean, bounds)
     }

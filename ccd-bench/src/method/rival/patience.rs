@@ -2,17 +2,17 @@
 
 /// The maximum work of a rival in one query.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Patience {
+pub(super) struct WorkLimit {
     /// The maximum number of steps in time.
     pub(super) steps: u64,
     /// The maximum number of pairs of nodes whose distance is measured.
     pub(super) pairs: u64,
 }
 
-impl Default for Patience {
+impl Default for WorkLimit {
     /// Returns limits of about ten seconds of work, thousands of times the cost of a usual query.
     fn default() -> Self {
-        Patience {
+        WorkLimit {
             steps: 1_000_000,
             pairs: 100_000_000,
         }

@@ -1,7 +1,7 @@
 //! Computes the shortest vector between two rectangles in space.
 
 use super::Placement;
-use super::lanes::{Shortest, Vectors};
+use super::lanes::{Shortest, Vec3x4};
 use ccd_core::glam::{DVec2, DVec3};
 use wide::f64x4;
 
@@ -20,7 +20,7 @@ mod tests;
 /// Constant: the least of the 16 pairs of edges and the 8 pairs of a corner and a face \[PQP99
 /// §4\], four at a time. PQP tests pair by pair whether it is the nearest and stops there. Four at
 /// a time, it is faster to compute all.
-pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
+pub(super) fn shortest_vector(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
     let corners_b = corners(b, placement);
     let back = Placement {
         rotation: placement.rotation.transpose(),
@@ -33,15 +33,15 @@ pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
     {
         return DVec3::ZERO;
     }
-    let mut shortest = Shortest::empty().with_four(vectors_from_face(corners_b, a));
+    let mut shortest = Shortest::empty().include_four(vectors_from_face(corners_b, a));
     shortest = vectors_between_edges::<0, 0>(shortest, a, b, placement);
     shortest = vectors_between_edges::<0, 1>(shortest, a, b, placement);
     shortest = vectors_between_edges::<1, 0>(shortest, a, b, placement);
     shortest = vectors_between_edges::<1, 1>(shortest, a, b, placement);
-    let (squared, to_b) = shortest.overall();
+    let (squared, to_b) = shortest.shortest();
     let (squared_off_b, off_b) = Shortest::empty()
-        .with_four(vectors_from_face(corners_a, b))
-        .overall();
+        .include_four(vectors_from_face(corners_a, b))
+        .shortest();
     if squared_off_b < squared {
         -(placement.rotation * off_b)
     } else {
@@ -51,19 +51,19 @@ pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
 
 /// Returns the corners of a rectangle in cyclic order.
 #[inline(always)]
-fn corners(lengths: DVec2, placement: &Placement) -> Vectors {
+fn corners(lengths: DVec2, placement: &Placement) -> Vec3x4 {
     let x = f64x4::new([0.0, lengths.x, lengths.x, 0.0]);
     let y = f64x4::new([0.0, 0.0, lengths.y, lengths.y]);
-    Vectors::splat(placement.translation)
+    Vec3x4::splat(placement.translation)
         .plus(x, placement.rotation.x_axis)
         .plus(y, placement.rotation.y_axis)
 }
 
 /// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given points.
 #[inline(always)]
-fn vectors_from_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
+fn vectors_from_face(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
     let zero = f64x4::splat(0.0);
-    Vectors([
+    Vec3x4([
         x - x.fast_clamp(zero, f64x4::splat(face.x)),
         y - y.fast_clamp(zero, f64x4::splat(face.y)),
         z,
@@ -84,7 +84,7 @@ fn vectors_between_edges<const I: usize, const J: usize>(
     let aside_a = f64x4::new([0.0, a[1 - I], 0.0, a[1 - I]]);
     let aside_b = f64x4::new([0.0, 0.0, b[1 - J], b[1 - J]]);
     // From the start of A's edge to that of B's; s and t are the positions of the points along them.
-    let mut apart = Vectors::splat(placement.translation).plus(aside_b, aside);
+    let mut apart = Vec3x4::splat(placement.translation).plus(aside_b, aside);
     apart.0[1 - I] -= aside_a;
     let (ahead_a, ahead_b) = (apart.0[I], apart.dot(along));
     let cosine = f64x4::splat(along.dot(axes_a[I]));
@@ -102,18 +102,18 @@ fn vectors_between_edges<const I: usize, const J: usize>(
     let s = cosine.mul_add(t, ahead_a).fast_clamp(zero, length_a);
     let mut vectors = apart.plus(t, along);
     vectors.0[I] -= s;
-    shortest.with_four(vectors)
+    shortest.include_four(vectors)
 }
 
 /// Returns true if there are points on both sides of the plane z = 0.
 #[inline(always)]
-fn straddles_plane(Vectors([_, _, z]): Vectors) -> bool {
+fn straddles_plane(Vec3x4([_, _, z]): Vec3x4) -> bool {
     let zero = f64x4::splat(0.0);
     z.simd_lt(zero).any() && z.simd_gt(zero).any()
 }
 
 /// Returns true if an edge between successive corners runs through a rectangle in its own frame.
-fn edges_pierce(Vectors([x, y, z]): Vectors, face: DVec2) -> bool {
+fn edges_pierce(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> bool {
     let next = |v: f64x4| {
         let [a, b, c, d] = v.to_array();
         f64x4::new([b, c, d, a])

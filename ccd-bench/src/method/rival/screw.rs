@@ -9,7 +9,7 @@ use rigid_ccd::table::motions::Motions;
 ///
 /// The axis lies up to travel / (2 · this) away, and rounding moves the end pose by 2⁻⁵³ of that:
 /// at 2⁻¹² about 3e-13 of the travel.
-const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
+const MIN_HALF_ANGLE_SINE: f64 = 1.0 / 4096.0;
 
 /// The largest distance of a point's positions on two equal motions due to rounding, as a share of its displacement.
 const ROUNDING_SHARE: f64 = 1e-9;
@@ -57,7 +57,7 @@ fn screw_motion(motion: &Motion, duration: f64) -> Result<Motion, InputError> {
     let Some(axis) = motion.spin().try_normalize() else {
         return Ok(*motion);
     };
-    if !(half_turn.sin().abs() >= LEAST_HALF_SINE) {
+    if !(half_turn.sin().abs() >= MIN_HALF_ANGLE_SINE) {
         return Ok(*motion);
     }
     let along = motion.velocity().dot(axis) * axis;
@@ -65,11 +65,11 @@ fn screw_motion(motion: &Motion, duration: f64) -> Result<Motion, InputError> {
     // The turn by 2h about the axis at `offset` from the centre moves the centre by `across`: the
     // centre, its image and the axis are an isosceles triangle with the angle 2h at the axis.
     let offset = 0.5 * (across + axis.cross(across) * (half_turn.cos() / half_turn.sin()));
-    let centre = motion.centre() + into_body(motion.start().rotation(), offset);
+    let centre = motion.centre() + to_body_frame(motion.start().rotation(), offset);
     Motion::about(motion.start(), along, motion.spin(), centre)
 }
 
-fn into_body(rotation: DQuat, vector: DVec3) -> DVec3 {
+fn to_body_frame(rotation: DQuat, vector: DVec3) -> DVec3 {
     rotation.conjugate() * vector
 }
 

@@ -35,7 +35,7 @@ impl Stepping {
     }
 
     fn crosses(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
-        let placement = courses[0].at(time).seen_from(&courses[1].at(time));
+        let placement = courses[0].at(time).relative_to(&courses[1].at(time));
         let [a, b] = &self.trees;
         crosses(a, b, &placement, &mut self.stack)
     }

@@ -2,7 +2,7 @@
 
 use super::principal_axes::principal_axes;
 use super::tree::Content;
-use super::triangles_apart::{Nearest, Triangle, nearest};
+use super::triangles_apart::{NearestPoints, Triangle, nearest};
 use super::{Placement, rectangles};
 use ccd_core::glam::{DVec2, DVec3};
 use ccd_core::order::greater;
@@ -17,7 +17,7 @@ mod tests;
 /// A node splits at the mean of its triangles' centres along its longest axis. The authors leave
 /// the case of a lopsided split open. Here it becomes a split into halves, so that no tree is deep.
 #[derive(Clone, Debug)]
-pub(super) struct SphereTree {
+pub(super) struct RssTree {
     /// The nodes of the tree: the root first, two children side by side.
     nodes: Vec<Node>,
     /// The frames of the nodes' rectangles, relative to the body's frame.
@@ -33,14 +33,14 @@ struct Node {
     /// The side lengths of the rectangle along its x and y axes.
     lengths: DVec2,
     radius: f64,
-    below: Content,
+    content: Content,
 }
 
 /// The trees of two bodies, which are descended together.
 #[derive(Clone, Debug)]
 pub(super) struct Trees {
-    pub(super) a: SphereTree,
-    pub(super) b: SphereTree,
+    pub(super) a: RssTree,
+    pub(super) b: RssTree,
 }
 
 /// A node of A's tree and a node of B's tree.
@@ -57,12 +57,12 @@ pub(super) enum PairChildren {
     /// The children of one node, each paired with the other node.
     Pairs([Pair; 2]),
     /// The triangles of two leaves, which have no children.
-    Triangles(Leaves),
+    Triangles(TrianglePair),
 }
 
 /// A triangle of A and a triangle of B, by their indices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leaves {
+pub(super) struct TrianglePair {
     a: u32,
     b: u32,
 }
@@ -76,7 +76,7 @@ pub(super) struct Gap {
     pub(super) direction: DVec3,
 }
 
-impl SphereTree {
+impl RssTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corner = |&v: &u32| mesh.vertices()[v as usize];
         let triangle = |[a, b, c]: &[u32; 3]| [corner(a), corner(b), corner(c)];
@@ -119,8 +119,8 @@ impl Node {
 impl Trees {
     pub(super) fn new(a: &TriangleMesh, b: &TriangleMesh) -> Self {
         Trees {
-            a: SphereTree::new(a),
-            b: SphereTree::new(b),
+            a: RssTree::new(a),
+            b: RssTree::new(b),
         }
     }
 
@@ -130,7 +130,7 @@ impl Trees {
         Some(Pair {
             a: 0,
             b: 0,
-            placement: compose(placement, b).seen_from(a),
+            placement: compose(placement, b).relative_to(a),
         })
     }
 
@@ -149,7 +149,7 @@ impl Trees {
     #[inline]
     pub(super) fn gap(&self, pair: &Pair) -> Gap {
         let (a, b) = self.nodes(pair);
-        let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
+        let between = rectangles::shortest_vector(a.lengths, b.lengths, &pair.placement);
         let length = between.length();
         // NaN becomes zero.
         let distance = greater(0.0, length - (a.radius + b.radius));
@@ -173,7 +173,7 @@ impl Trees {
 
     /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in this frame.
     #[inline]
-    pub(super) fn nearest(&self, leaves: Leaves, placement: &Placement) -> Nearest {
+    pub(super) fn nearest(&self, leaves: TrianglePair, placement: &Placement) -> NearestPoints {
         let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
         nearest(&self.a.triangles[leaves.a as usize], &moved)
     }
@@ -182,9 +182,9 @@ impl Trees {
     #[inline]
     pub(super) fn children(&self, pair: &Pair) -> PairChildren {
         let (a, b) = self.nodes(pair);
-        match (a.below, b.below) {
+        match (a.content, b.content) {
             (Content::Triangle(a), Content::Triangle(b)) => {
-                PairChildren::Triangles(Leaves { a, b })
+                PairChildren::Triangles(TrianglePair { a, b })
             }
             (Content::Nodes(below), Content::Nodes(_)) if a.size() > b.size() => {
                 self.split_a(pair, below)
@@ -202,7 +202,7 @@ impl Trees {
                 b: pair.b,
                 placement: pair
                     .placement
-                    .seen_from(&self.a.nodes[a as usize].placement),
+                    .relative_to(&self.a.nodes[a as usize].placement),
             }
         }))
     }

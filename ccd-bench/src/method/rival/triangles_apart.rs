@@ -2,7 +2,7 @@
 //!
 //! The rivals' own, four edges at a time: the referee that judges them shares no code with it.
 
-use super::lanes::{Vectors, least};
+use super::lanes::{Vec3x4, least};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use wide::f64x4;
@@ -15,14 +15,14 @@ pub(super) type Triangle = [DVec3; 3];
 
 /// The nearest points of two triangles; the same point twice if the triangles meet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nearest {
+pub(super) struct NearestPoints {
     /// The nearest point on triangle A.
     pub(super) on_a: DVec3,
     /// The nearest point on triangle B.
     pub(super) on_b: DVec3,
 }
 
-impl Nearest {
+impl NearestPoints {
     /// Returns the vector from the point on A to the point on B.
     pub(super) fn between(&self) -> DVec3 {
         self.on_b - self.on_a
@@ -37,16 +37,16 @@ impl Nearest {
 /// # Complexity
 /// Constant: the nearest of the nine pairs of edges and the six pairs of a corner and a face
 /// \[PQP99 §4\], with the three features of one triangle at a time.
-pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
-    let (face_a, face_b) = (Face::new(a), Face::new(b));
+pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
+    let (face_a, face_b) = (TrianglePlane::new(a), TrianglePlane::new(b));
     let (over_a, over_b) = (face_a.heights(b), face_b.heights(a));
     // Nothing is above or below the plane of a needle, which has no normal.
-    let cut = |face: &Face, heights| face.is_needle() || straddle(heights);
+    let cut = |face: &TrianglePlane, heights| face.is_needle() || straddle(heights);
     if cut(&face_a, over_a) && cut(&face_b, over_b) {
         let meeting =
             piercing_point(&face_a, over_a, b).or_else(|| piercing_point(&face_b, over_b, a));
         if let Some(point) = meeting {
-            return Nearest {
+            return NearestPoints {
                 on_a: point,
                 on_b: point,
             };
@@ -55,13 +55,13 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     let (mut squared, mut best) = nearest_on_edges(a, b);
     if let Some((less, foot, k)) = face_a.least_height(over_a, b).filter(|f| f.0 < squared) {
         squared = less;
-        best = Nearest {
+        best = NearestPoints {
             on_a: foot,
             on_b: b[k],
         };
     }
     if let Some((_, foot, k)) = face_b.least_height(over_b, a).filter(|f| f.0 < squared) {
-        best = Nearest {
+        best = NearestPoints {
             on_a: a[k],
             on_b: foot,
         };
@@ -71,7 +71,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
 
 /// Returns the nearest points of the triangles' edges, and their squared distance.
 #[inline(always)]
-fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
+fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
     let (from_b, along_b) = (pack_vectors(b), pack_vectors(&edges(b)));
     let long_b = along_b.dot_each(along_b);
     let scale_b = reciprocal(long_b);
@@ -81,12 +81,12 @@ fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
     let [mut s_best, mut t_best, mut edge] = [zero; 3];
     for (i, along) in edges_a.into_iter().enumerate() {
         // The points are at s on A's edge and at t on B's edges.
-        let apart = from_b.minus(Vectors::splat(a[i]));
+        let apart = from_b.minus(Vec3x4::splat(a[i]));
         let long_a = f64x4::splat(along.length_squared());
         let both = along_b.dot(along);
         let (ahead_a, ahead_b) = (apart.dot(along), apart.dot_each(along_b));
         // By the sine, not by 1 − cos²: edges that are nearly parallel still cross somewhere.
-        let sine = Vectors::splat(along).cross_each(along_b);
+        let sine = Vec3x4::splat(along).cross_each(along_b);
         let sine_squared = sine.dot_each(sine);
         let s = apart.dot_each(along_b.cross_each(sine)) / sine_squared;
         let skew = sine_squared.simd_gt(zero);
@@ -95,7 +95,7 @@ fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
         let s = (both.mul_add(t, ahead_a) * reciprocal(long_a)).fast_clamp(zero, one);
         let vectors = apart
             .plus_each(t, along_b)
-            .minus(Vectors::splat(DVec3::ZERO).plus(s, along));
+            .minus(Vec3x4::splat(DVec3::ZERO).plus(s, along));
         let found = vectors.dot_each(vectors);
         let nearer = found.simd_lt(squared);
         squared = squared.fast_min(found);
@@ -110,7 +110,7 @@ fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
         t_best.to_array()[k],
     );
     let (i, k) = (i as usize, k % 3);
-    let nearest = Nearest {
+    let nearest = NearestPoints {
         on_a: a[i] + s * edges_a[i],
         on_b: b[k] + t * edges(b)[k],
     };
@@ -119,18 +119,18 @@ fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
 
 /// The least ratio of a triangle's height to its longest edge; flatter ones count as needles. Below it, the edges
 /// represent the triangle, since its normal is mostly rounding.
-const NEEDLE: f64 = 1e-12;
+const MIN_HEIGHT_RATIO: f64 = 1e-12;
 
 /// A triangle with its normal, to which distances of points are computed.
-struct Face {
+struct TrianglePlane {
     corners: Triangle,
     /// The normal, not of unit length; zero for a needle.
     normal: DVec3,
     /// 1 / |normal|²; zero for a needle.
-    scale: f64,
+    inverse_squared_normal: f64,
 }
 
-impl Face {
+impl TrianglePlane {
     #[inline(always)]
     fn new(corners: &Triangle) -> Self {
         let [u, v, w] = edges(corners);
@@ -141,35 +141,35 @@ impl Face {
             .iter()
             .copied()
             .fold(0.0, greater);
-        let solid = squared > (NEEDLE * longest) * (NEEDLE * longest);
-        Face {
+        let solid = squared > (MIN_HEIGHT_RATIO * longest) * (MIN_HEIGHT_RATIO * longest);
+        TrianglePlane {
             corners: *corners,
             normal: if solid { normal } else { DVec3::ZERO },
-            scale: if solid { 1.0 / squared } else { 0.0 },
+            inverse_squared_normal: if solid { 1.0 / squared } else { 0.0 },
         }
     }
 
     fn is_needle(&self) -> bool {
-        !(self.scale > 0.0)
+        !(self.inverse_squared_normal > 0.0)
     }
 
     /// Returns the heights of points above the triangle's plane, times |normal|; all zero for a needle.
     #[inline(always)]
     fn heights(&self, points: &Triangle) -> f64x4 {
         pack_vectors(points)
-            .minus(Vectors::splat(self.corners[0]))
+            .minus(Vec3x4::splat(self.corners[0]))
             .dot(self.normal)
     }
 
     /// Returns a mask of the points whose perpendicular feet lie in the triangle.
     #[inline(always)]
-    fn is_above(&self, points: Vectors) -> f64x4 {
+    fn projects_inside(&self, points: Vec3x4) -> f64x4 {
         let [u, v, w] = edges(&self.corners).map(|edge| self.normal.cross(edge));
         let [a, b, c] = self.corners;
         let zero = f64x4::splat(0.0);
         let inside = |corner, inward| {
             points
-                .minus(Vectors::splat(corner))
+                .minus(Vec3x4::splat(corner))
                 .dot(inward)
                 .simd_ge(zero)
         };
@@ -182,24 +182,27 @@ impl Face {
         if self.is_needle() {
             return None;
         }
-        let squared = heights * heights * f64x4::splat(self.scale);
+        let squared = heights * heights * f64x4::splat(self.inverse_squared_normal);
         let far = f64x4::splat(f64::INFINITY);
-        let (k, squared) = least(self.is_above(pack_vectors(points)).select(squared, far));
+        let (k, squared) = least(
+            self.projects_inside(pack_vectors(points))
+                .select(squared, far),
+        );
         let height = heights.to_array()[k];
         let k = k % 3;
-        let foot = points[k] - height * self.scale * self.normal;
+        let foot = points[k] - height * self.inverse_squared_normal * self.normal;
         (squared < f64::INFINITY).then_some((squared, foot, k))
     }
 }
 
 /// Returns the point where an edge of a triangle runs through a face, from the heights of its corners.
-fn piercing_point(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
+fn piercing_point(face: &TrianglePlane, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
     let share = heights / (heights - next);
     let points = pack_vectors(corners).plus_each(share, pack_vectors(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
-    let hits = (crosses & face.is_above(points)).to_bitmask();
+    let hits = (crosses & face.projects_inside(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
 }
 
@@ -217,8 +220,8 @@ fn edges([a, b, c]: &Triangle) -> Triangle {
 
 /// Packs three vectors into four lanes, the first one twice.
 #[inline(always)]
-fn pack_vectors([a, b, c]: &Triangle) -> Vectors {
-    Vectors::new([*a, *b, *c, *a])
+fn pack_vectors([a, b, c]: &Triangle) -> Vec3x4 {
+    Vec3x4::new([*a, *b, *c, *a])
 }
 
 /// Returns the reciprocal in each lane, and zero for zero: the nearest point of an edge without length is its start.

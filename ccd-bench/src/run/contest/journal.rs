@@ -17,13 +17,13 @@ pub struct Journal {
     trials: Vec<Trial>,
     folder: PathBuf,
     /// The claim that excludes other processes from the folder.
-    _claim: Option<Claim>,
+    _folder_lock: Option<Claim>,
 }
 
 /// The name of the file that describes the program and settings of the measurements in a folder.
-const STAMP: &str = "measured-with.txt";
-const CHART: &str = "chart.csv";
-const TRIALS: &str = "trials.csv";
+const STAMP_FILE: &str = "measured-with.txt";
+const CHART_FILE: &str = "chart.csv";
+const TRIALS_FILE: &str = "trials.csv";
 
 /// The scene, the method and the bits of the tolerance of a cell.
 type Key = (String, String, u64);
@@ -36,11 +36,11 @@ impl Journal {
     /// If the folder cannot be written to, or another process writes to it.
     pub fn open(folder: &Path, stamp: &str) -> Result<Self> {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-        let chart = folder.join(CHART);
+        let chart = folder.join(CHART_FILE);
         let claim = Claim::new(chart.clone()).with_context(|| chart.display().to_string())?;
-        let stamp_file = folder.join(STAMP);
+        let stamp_file = folder.join(STAMP_FILE);
         if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
-            for name in [CHART, TRIALS] {
+            for name in [CHART_FILE, TRIALS_FILE] {
                 let path = folder.join(name);
                 if path.exists() {
                     let aside = folder.join(format!("{name}.old"));
@@ -55,7 +55,7 @@ impl Journal {
                 .with_context(|| stamp_file.display().to_string())?;
         }
         let journal = Journal {
-            _claim: Some(claim),
+            _folder_lock: Some(claim),
             ..Journal::read(folder)
         };
         journal.write()?;
@@ -64,8 +64,8 @@ impl Journal {
 
     /// Reads the journal of a folder, whatever its settings.
     pub fn read(folder: &Path) -> Self {
-        let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART));
-        let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS));
+        let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART_FILE));
+        let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS_FILE));
         // Trials are written before their cell, so a cell implies all of its trials.
         let mut counts: HashMap<Key, usize> = HashMap::new();
         for trial in &trials {
@@ -78,7 +78,7 @@ impl Journal {
             cells,
             trials,
             folder: folder.to_owned(),
-            _claim: None,
+            _folder_lock: None,
         }
     }
 
@@ -95,16 +95,16 @@ impl Journal {
     /// # Errors
     /// If they cannot be written.
     pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<()> {
-        append(&self.folder.join(TRIALS), &trials)?;
-        append(&self.folder.join(CHART), std::slice::from_ref(&cell))?;
+        append(&self.folder.join(TRIALS_FILE), &trials)?;
+        append(&self.folder.join(CHART_FILE), std::slice::from_ref(&cell))?;
         self.cells.push(cell);
         self.trials.extend(trials);
         Ok(())
     }
 
     fn write(&self) -> Result<()> {
-        write(&self.folder.join(TRIALS), &self.trials)?;
-        write(&self.folder.join(CHART), &self.cells)
+        write(&self.folder.join(TRIALS_FILE), &self.trials)?;
+        write(&self.folder.join(CHART_FILE), &self.cells)
     }
 
     /// Returns all cells in the journal, in the order of measurement.

@@ -1,9 +1,9 @@
 //! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
-use crate::method::guarded::{Guarded, Programs, QueryOutcome, Setting};
+use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
 use crate::method::solver::{Solver, answer_timed};
-use crate::method::{Method, Ours, USUAL_TOLERANCE};
+use crate::method::{Method, Ours, PAPER_TOLERANCE};
 use crate::scene::Scene;
 use ccd_core::Settings;
 use rigid_ccd::batch::ScheduleKind;
@@ -20,7 +20,7 @@ pub struct Session<'s> {
 /// The solver of a session, in this process or in a separate one that can be stopped.
 enum Runner<'s> {
     InProcess(Box<dyn Solver + 's>),
-    Guarded(Box<Guarded>),
+    Guarded(Box<GuardedMethod>),
 }
 
 impl<'s> Session<'s> {
@@ -44,8 +44,8 @@ impl<'s> Session<'s> {
             }
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
-                let setting = Setting::new(method, USUAL_TOLERANCE);
-                Runner::Guarded(Box::new(Guarded::new(programs, setting, meshes)?))
+                let setting = GuardSettings::new(method, PAPER_TOLERANCE);
+                Runner::Guarded(Box::new(GuardedMethod::new(programs, setting, meshes)?))
             }
         };
         Ok(Some(Session { method, runner }))
@@ -95,7 +95,7 @@ impl<'s> Session<'s> {
             }
             Runner::Guarded(guarded) => {
                 guarded.set_tolerance(tolerance);
-                guarded.ask(query, patience)
+                guarded.run_query(query, patience)
             }
         }
     }

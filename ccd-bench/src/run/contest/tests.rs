@@ -3,7 +3,7 @@ use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::solver::Claim;
 use crate::scene::model::cuboid;
-use crate::scene::{Models, Pieces, listings};
+use crate::scene::{Models, PieceKind, listings};
 use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
@@ -74,7 +74,7 @@ fn small_scene() -> Scene {
     listing.make(&mut Models::default()).unwrap()
 }
 
-const EVERYTHING: Allowance = Allowance {
+const EVERYTHING: MeasurementLimits = MeasurementLimits {
     cell: Duration::MAX,
     patience: Duration::MAX,
     rows: usize::MAX,
@@ -85,7 +85,7 @@ const EVERYTHING: Allowance = Allowance {
 #[test]
 fn every_prefix_of_the_order_is_spread_over_all_rows() {
     let scene = small_scene();
-    let contest = Contest::new(&scene).unwrap();
+    let contest = PreparedScene::new(&scene).unwrap();
     let count = scene.queries.len();
     let mut all = contest.order(usize::MAX);
     assert_eq!(contest.order(5), all[..5]);
@@ -99,8 +99,8 @@ fn every_prefix_of_the_order_is_spread_over_all_rows() {
 #[test]
 fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     let scene = small_scene();
-    let contest = Contest::new(&scene).unwrap();
-    let method = Method::Ours(SolverKind::default(), Pieces::Least);
+    let contest = PreparedScene::new(&scene).unwrap();
+    let method = Method::Ours(SolverKind::default(), PieceKind::Least);
     let session = Session::open(method, &scene, &Programs::default());
     let mut session = session.unwrap().unwrap();
     let measured = contest.run(&mut session, 1e-6, &EVERYTHING);

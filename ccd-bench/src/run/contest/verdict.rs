@@ -40,7 +40,7 @@ pub enum Verdict {
 
 /// The verdict on a claim, with the error of the claimed time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Judged {
+pub struct Judgement {
     /// The verdict on the claim.
     pub verdict: Verdict,
     /// The distance of the reported time of contact from the bracket of the true one, as a fraction
@@ -51,18 +51,18 @@ pub struct Judged {
 /// The lateness above which a contact is late, as a fraction of the duration. Poses by two formulas of one motion
 /// differ by about 1e-15 of the coordinates, and the slowest scene moves by a hundredth of these during its duration;
 /// the value is ten times that.
-const LATENESS_ALLOWED: f64 = 1e-12;
+const MAX_LATENESS: f64 = 1e-12;
 
 /// The widest bracket that counts as an exact time, as a fraction of the duration.
-const WIDEST_BRACKET: f64 = 1e-9;
+const MAX_BRACKET_WIDTH: f64 = 1e-9;
 
 /// The allowed excess of a solver's distance over the tolerance due to rounding, as a fraction of the tolerance.
 const ROUNDING: f64 = 1e-6;
 
-impl Judged {
+impl Judgement {
     /// Returns a judgement without an error of the time.
     pub fn without_error(verdict: Verdict) -> Self {
-        Judged {
+        Judgement {
             verdict,
             error: None,
         }
@@ -70,11 +70,11 @@ impl Judged {
 }
 
 /// Judges the outcome of a query, where the function `judge` judges a reply.
-pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
+pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judgement) -> Judgement {
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),
-        QueryOutcome::CutOff => Judged::without_error(Verdict::CutOff),
-        QueryOutcome::Died => Judged::without_error(Verdict::Died),
+        QueryOutcome::CutOff => Judgement::without_error(Verdict::CutOff),
+        QueryOutcome::Died => Judgement::without_error(Verdict::Died),
     }
 }
 
@@ -85,14 +85,14 @@ pub fn judge(
     truth: Truth,
     claim: Claim,
     tolerance: f64,
-) -> Judged {
-    let near = |time: f64| is_near(referee, query, time, tolerance);
-    let plain = Judged::without_error;
-    if claim == Claim::Static {
+) -> Judgement {
+    let near = |time: f64| is_within_tolerance(referee, query, time, tolerance);
+    let plain = Judgement::without_error;
+    if claim == Claim::NoClaim {
         return plain(Verdict::NotJudged);
     }
     match truth {
-        Truth::Hit { lo, hi } if hi - lo > WIDEST_BRACKET * query.duration => {
+        Truth::Hit { lo, hi } if hi - lo > MAX_BRACKET_WIDTH * query.duration => {
             plain(Verdict::Undecided)
         }
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
@@ -100,14 +100,19 @@ pub fn judge(
             Claim::Contact { time } if near(time) => Verdict::Right,
             Claim::Contact { .. } => Verdict::False,
             Claim::Free => Verdict::Right,
-            Claim::Unresolved { .. } | Claim::Refused | Claim::Static => Verdict::Unresolved,
+            Claim::Unresolved { .. } | Claim::Refused | Claim::NoClaim => Verdict::Unresolved,
         }),
         Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => plain(Verdict::Undecided),
     }
 }
 
 /// Returns whether the bodies are within a tolerance at a time.
-pub fn is_near(referee: &Referee<'_>, query: &Motions, time: f64, tolerance: f64) -> bool {
+pub fn is_within_tolerance(
+    referee: &Referee<'_>,
+    query: &Motions,
+    time: f64,
+    tolerance: f64,
+) -> bool {
     referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING)
 }
 
@@ -118,28 +123,28 @@ pub fn judge_contact(
     [lo, hi]: [f64; 2],
     claim: Claim,
     near: impl Fn(f64) -> bool,
-) -> Judged {
-    let plain = Judged::without_error;
+) -> Judgement {
+    let plain = Judgement::without_error;
     let time = match claim {
         Claim::Contact { time } => time,
         Claim::Free => return plain(Verdict::Missed),
         // This claim is a proof too, and may be wrong.
-        Claim::Unresolved { safe_until } if safe_until > hi + LATENESS_ALLOWED * duration => {
+        Claim::Unresolved { safe_until } if safe_until > hi + MAX_LATENESS * duration => {
             return plain(Verdict::Late);
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
-        Claim::Static => return plain(Verdict::NotJudged),
+        Claim::NoClaim => return plain(Verdict::NotJudged),
     };
     let off = greater(0.0, greater(lo - time, time - hi)) / duration;
     // The comparison treats NaN as late.
-    let verdict = if !(time <= hi + LATENESS_ALLOWED * duration) {
+    let verdict = if !(time <= hi + MAX_LATENESS * duration) {
         Verdict::Late
     } else if time < lo && !near(time) {
         Verdict::Early
     } else {
         Verdict::Right
     };
-    Judged {
+    Judgement {
         verdict,
         // An invalid time has no error: `max` has dropped the NaN.
         error: Some(off).filter(|_| !time.is_nan()),

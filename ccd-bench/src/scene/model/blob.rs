@@ -16,7 +16,7 @@ pub struct Blob {
     /// The large bumps, on a core of radius 1.
     lobes: &'static [Lobe],
     /// The height of the ripples, relative to the core's radius.
-    ripple: f64,
+    ripple_height: f64,
     /// The random seed of the ripples.
     seed: u64,
 }
@@ -37,7 +37,7 @@ impl Blob {
             ([-0.5, -0.8, -0.5], 0.4, 15.0),
             ([0.6, -0.8, 0.0], 0.4, 8.0),
         ],
-        ripple: 0.012,
+        ripple_height: 0.012,
         seed: 70,
     };
 
@@ -51,7 +51,7 @@ impl Blob {
             ([0.4, 0.1, -1.0], 0.8, 20.0),
             ([-0.4, 0.1, -1.0], 0.8, 20.0),
         ],
-        ripple: 0.015,
+        ripple_height: 0.015,
         seed: 38,
     };
 
@@ -86,9 +86,9 @@ impl Blob {
             .sum();
         let waves: f64 = ripples
             .iter()
-            .map(|r| (r.wave.dot(direction) + r.phase).sin())
+            .map(|r| (r.wave_vector.dot(direction) + r.phase).sin())
             .sum();
-        1.0 + lobes + self.ripple * waves
+        1.0 + lobes + self.ripple_height * waves
     }
 
     fn ripples(&self) -> Vec<Ripple> {
@@ -97,7 +97,7 @@ impl Blob {
             .map(|_| {
                 let [x, y, z, phase] = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
                 Ripple {
-                    wave: SHORTEST_RIPPLE * DVec3::new(x, y, z),
+                    wave_vector: MAX_WAVE_NUMBER * DVec3::new(x, y, z),
                     phase: TAU * phase,
                 }
             })
@@ -107,11 +107,11 @@ impl Blob {
 
 /// A plane wave in space, evaluated on the sphere.
 struct Ripple {
-    wave: DVec3,
+    wave_vector: DVec3,
     phase: f64,
 }
 
 /// The number of plane waves that are added up.
 const RIPPLES: usize = 24;
 /// The highest wave number along each axis, in radians per core radius.
-const SHORTEST_RIPPLE: f64 = 20.0;
+const MAX_WAVE_NUMBER: f64 = 20.0;

@@ -13,12 +13,12 @@ use std::f64::consts::TAU;
 pub(crate) fn ring(
     [segments, sides]: [usize; 2],
     radius: f64,
-    tube: f64,
+    tube_radius: f64,
 ) -> Result<TriangleMesh, MeshError> {
     closed_grid(segments, sides, |u, v| {
         let (sin_u, cos_u) = (TAU * u).sin_cos();
         let (sin_v, cos_v) = (TAU * v).sin_cos();
         let outward = DVec3::new(cos_u, sin_u, 0.0);
-        (radius + tube * cos_v) * outward - tube * sin_v * DVec3::Z
+        (radius + tube_radius * cos_v) * outward - tube_radius * sin_v * DVec3::Z
     })
 }

@@ -10,7 +10,7 @@ const TURNS: f64 = 2.0;
 /// The number of turns of the knot around the torus' tube in the same period.
 const WINDINGS: f64 = 3.0;
 /// The radius of the torus that the knot lies on, and the radius of the torus' tube.
-const TORUS: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
+const TORUS_RADII: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 
 /// Returns the closed mesh of a tube around the (2, 3) torus knot, the trefoil, centred at the torus' centre:
 /// `2 · segments · sides` triangles of as many rings along the tube, at least 3, with as many corners, at least 3. The
@@ -31,7 +31,7 @@ pub fn torus_knot([segments, sides]: [usize; 2], tube: f64) -> Result<TriangleMe
 fn frame(t: f64) -> (DVec3, DVec3, DVec3) {
     let (sin_a, cos_a) = (TURNS * t).sin_cos();
     let (sin_b, cos_b) = (WINDINGS * t).sin_cos();
-    let (radius, tube) = TORUS;
+    let (radius, tube) = TORUS_RADII;
     let outward = DVec3::new(cos_a, sin_a, 0.0);
     let around = DVec3::new(-sin_a, cos_a, 0.0);
     let normal = cos_b * outward - sin_b * DVec3::Z;

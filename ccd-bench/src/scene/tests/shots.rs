@@ -14,11 +14,11 @@ pub(crate) struct Shots {
     /// The number of flights to make.
     pub(crate) count: usize,
     /// The number of flights, the first ones, that do not rotate.
-    pub(crate) translations: usize,
+    pub(crate) translation_count: usize,
     /// The range of distances from the resting body's origin at which flights start.
     pub(crate) distance: Range<f64>,
     /// The largest distance of a flight's path from the resting body's origin.
-    pub(crate) aside: f64,
+    pub(crate) max_offset: f64,
     /// The seed of the random numbers.
     pub(crate) seed: u64,
 }
@@ -33,15 +33,15 @@ impl Shots {
         (0..self.count)
             .map(|row| {
                 let from = rng.random_range(self.distance.clone()) * unit_vector(&mut rng);
-                let target = self.aside * in_unit_ball(&mut rng);
+                let target = self.max_offset * in_unit_ball(&mut rng);
                 let start = Pose::new(from, orientation(&mut rng))?;
                 let velocity = 2.0 * (target - from);
-                let spin = if row < self.translations {
+                let spin = if row < self.translation_count {
                     DVec3::ZERO
                 } else {
                     rng.random_range(0.0..FRAC_PI_2) * unit_vector(&mut rng)
                 };
-                at_rest(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
+                query_against_resting(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
             })
             .collect()
     }
@@ -66,12 +66,12 @@ pub(crate) fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, 
                 _ => 0.0,
             };
             let board = DVec3::new(aside, 0.0, height);
-            at_rest(row, motion, board)
+            query_against_resting(row, motion, board)
         })
         .collect()
 }
 
-fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
+fn query_against_resting(row: usize, a: Motion, b: DVec3) -> Result<Motions, InputError> {
     Ok(Motions {
         id: row.to_string(),
         a,

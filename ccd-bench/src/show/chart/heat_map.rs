@@ -14,7 +14,7 @@ use plotters::style::{FontTransform, RGBColor, WHITE};
 #[derive(Clone, Debug)]
 pub struct HeatMap {
     /// What the colours of the cells show.
-    pub kind: &'static HeatKind,
+    pub kind: &'static HeatMapKind,
     /// The names of the methods, one for each column.
     pub methods: Vec<String>,
     /// The rows of the map, one for each family of scenes.
@@ -34,7 +34,7 @@ pub struct HeatRow {
 
 /// What the colours of a heat map show, in words.
 #[derive(Debug)]
-pub struct HeatKind {
+pub struct HeatMapKind {
     title: &'static str,
     /// The two lines of text below the title.
     remark: [&'static str; 2],
@@ -42,7 +42,7 @@ pub struct HeatKind {
 }
 
 /// The kind of map that shows how far each method is right in each family: cells of [`HeatCell::reach`].
-pub const REACH: &HeatKind = &HeatKind {
+pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
     title: "How far each method follows each family: bluer is better",
     remark: [
         "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the share of",
@@ -50,7 +50,7 @@ pub const REACH: &HeatKind = &HeatKind {
     ],
     legend: &[
         ("right", RIGHT_COLOUR),
-        ("unresolved or refused", GREY_COLOUR),
+        ("unresolved or refused", MISSING_COLOUR),
         ("early", EARLY_COLOUR),
         ("false contact", FALSE_COLOUR),
         ("late or missed", MISSED_COLOUR),
@@ -59,7 +59,7 @@ pub const REACH: &HeatKind = &HeatKind {
 };
 
 /// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::growth`].
-pub const GROWTH: &HeatKind = &HeatKind {
+pub const GROWTH: &HeatMapKind = &HeatMapKind {
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     remark: [
         "The largest mean number of steps of a query and one for the query itself, as a multiple of that of the family's",
@@ -96,7 +96,7 @@ const SMALLEST_FONT: f64 = 7.5;
 /// The colour of families in which all answers are right.
 const RIGHT_COLOUR: RGBColor = COLOURS[0];
 /// The colour of missing answers.
-const GREY_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
+const MISSING_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
 /// The colours of early contacts and of false contacts.
 const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
 const FALSE_COLOUR: RGBColor = COLOURS[4];
@@ -108,10 +108,10 @@ const BLACK: RGBColor = COLOURS[6];
 #[derive(Clone, Debug)]
 pub struct HeatCell {
     fill: RGBColor,
-    ink: RGBColor,
+    text_colour: RGBColor,
     lines: [String; 2],
     /// The length of the bar, as a share of the cell's width.
-    bar: f64,
+    bar_length: f64,
 }
 
 impl HeatCell {
@@ -121,9 +121,9 @@ impl HeatCell {
         let (fill, word, ink) = verdict_style(worst);
         HeatCell {
             fill,
-            ink,
+            text_colour: ink,
             lines: [word.to_owned(), limit],
-            bar: share,
+            bar_length: share,
         }
     }
 
@@ -138,9 +138,9 @@ impl HeatCell {
         };
         HeatCell {
             fill: GROWTH_COLOURS[darkness],
-            ink: if darkness < 2 { TEXT_COLOUR } else { WHITE },
+            text_colour: if darkness < 2 { TEXT_COLOUR } else { WHITE },
             lines: [String::new(), number],
-            bar: 0.0,
+            bar_length: 0.0,
         }
     }
 }
@@ -155,11 +155,11 @@ impl HeatMap {
         svg(self.kind.title, (WIDTH, height), |sheet| {
             draw_header(sheet, self.kind)?;
             let format = TextFormat {
-                turn: FontTransform::Rotate270,
-                ..small()
+                rotation: FontTransform::Rotate270,
+                ..small_text()
             };
             for (column, method) in self.methods.iter().enumerate() {
-                let middle = self.left(column) + 0.5 * self.column();
+                let middle = self.column_left(column) + 0.5 * self.column();
                 text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
@@ -174,20 +174,20 @@ impl HeatMap {
         (WIDTH - 2.0 * MARGIN - NAMES_WIDTH) / self.methods.len() as f64
     }
 
-    fn left(&self, column: usize) -> f64 {
+    fn column_left(&self, column: usize) -> f64 {
         MARGIN + NAMES_WIDTH + self.column() * column as f64
     }
 
     fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         let smallest = TextFormat {
             size: SMALLEST_FONT,
-            ..small()
+            ..small_text()
         };
         text(
             sheet,
             &row.name,
             (MARGIN, top + 0.34 * ROW_HEIGHT),
-            &small(),
+            &small_text(),
         )?;
         text(
             sheet,
@@ -197,7 +197,7 @@ impl HeatMap {
         )?;
         for (column, cell) in row.cells.iter().enumerate() {
             if let Some(cell) = cell {
-                let corner = (self.left(column) + 0.5, top + 0.5);
+                let corner = (self.column_left(column) + 0.5, top + 0.5);
                 draw_cell(sheet, corner, self.column() - 1.0, cell)?;
             }
         }
@@ -205,7 +205,7 @@ impl HeatMap {
     }
 }
 
-fn small() -> TextFormat {
+fn small_text() -> TextFormat {
     TextFormat {
         size: SMALL_FONT,
         ..TextFormat::default()
@@ -213,19 +213,24 @@ fn small() -> TextFormat {
 }
 
 /// Draws the title, the remark and the legend of a kind of map.
-fn draw_header(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
+fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
-        ..small()
+        ..small_text()
     };
     text(sheet, kind.title, (MARGIN, 18.0), &title)?;
     for (line, words) in kind.remark.iter().enumerate() {
-        text(sheet, words, (MARGIN, 38.0 + 14.0 * line as f64), &small())?;
+        text(
+            sheet,
+            words,
+            (MARGIN, 38.0 + 14.0 * line as f64),
+            &small_text(),
+        )?;
     }
     let (mut left, top) = (MARGIN, 72.0);
     for &(name, colour) in kind.legend {
         rect(sheet, (left, top), (12.0, 12.0), colour)?;
-        text(sheet, name, (left + 17.0, top + 6.0), &small())?;
+        text(sheet, name, (left + 17.0, top + 6.0), &small_text())?;
         left += 34.0 + text_width(name, SMALL_FONT);
     }
     Ok(())
@@ -235,12 +240,12 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatKind) -> Result<()> {
 fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW_HEIGHT - 1.0;
     rect(sheet, (x, y), (width, height), cell.fill)?;
-    let bar = (width * cell.bar, BAR_HEIGHT);
+    let bar = (width * cell.bar_length, BAR_HEIGHT);
     rect(sheet, (x, y + height - BAR_HEIGHT), bar, RIGHT_COLOUR)?;
     let format = TextFormat {
         size: SMALLEST_FONT,
-        colour: cell.ink,
-        across: HPos::Center,
+        colour: cell.text_colour,
+        alignment: HPos::Center,
         ..TextFormat::default()
     };
     for (line, down) in cell.lines.iter().zip([5.0, 13.5]) {
@@ -253,9 +258,9 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCe
 fn verdict_style(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
         Verdict::Right => (RIGHT_COLOUR, "", WHITE),
-        Verdict::Undecided | Verdict::NotJudged => (GREY_COLOUR, "?", TEXT_COLOUR),
-        Verdict::Refused => (GREY_COLOUR, "refused", TEXT_COLOUR),
-        Verdict::Unresolved => (GREY_COLOUR, "unres.", TEXT_COLOUR),
+        Verdict::Undecided | Verdict::NotJudged => (MISSING_COLOUR, "?", TEXT_COLOUR),
+        Verdict::Refused => (MISSING_COLOUR, "refused", TEXT_COLOUR),
+        Verdict::Unresolved => (MISSING_COLOUR, "unres.", TEXT_COLOUR),
         Verdict::Early => (EARLY_COLOUR, "early", TEXT_COLOUR),
         Verdict::False => (FALSE_COLOUR, "false", TEXT_COLOUR),
         Verdict::Late => (MISSED_COLOUR, "late", WHITE),

@@ -1,9 +1,9 @@
 //! Draws the charts of time against error: one plane for each scene, with a strip for unsafe methods.
 
 use super::plane::{
-    HEAD_HEIGHT, Plane, Point, decades, draw_footer, draw_header, footer_height, marker, series,
+    HEAD_HEIGHT, PlotArea, Point, decades, draw_footer, draw_header, footer_height, marker, series,
 };
-use super::sheet::{FONT_SIZE, Sheet, TEXT_COLOUR, WIDTH, font, svg, units};
+use super::sheet::{FONT_SIZE, Sheet, TEXT_COLOUR, WIDTH, font, svg, to_units};
 use super::style::WARNING_COLOUR;
 use super::{Charts, Family, Shown};
 use crate::run::measured::Cell;
@@ -38,7 +38,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<String>> {
     let Some(times) = decades(all.iter().map(|cell| cell.median_us)) else {
         return Ok(None);
     };
-    let plane = Plane {
+    let plane = PlotArea {
         x: (
             errors.unwrap_or(LEAST_ERROR..1.0),
             "mean error, share of duration",
@@ -67,8 +67,8 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<String>> {
             "One line per method, a marker for each tolerance; hollow in the strip beside: late or missed contacts \
              somewhere, so no accuracy to show",
         )?;
-        let (panels, _) = sheet.split_vertically(units(bottom));
-        let (_, panels) = panels.split_vertically(units(HEAD_HEIGHT));
+        let (panels, _) = sheet.split_vertically(to_units(bottom));
+        let (_, panels) = panels.split_vertically(to_units(HEAD_HEIGHT));
         let panels = panels.split_evenly((rows, PANELS_AND_HEIGHT.0));
         for (scene, panel) in scenes.iter().zip(&panels) {
             draw_scene(charts, panel, scene, &plane, &shown)?;
@@ -82,7 +82,7 @@ fn draw_scene(
     charts: &Charts<'_>,
     panel: &Sheet<'_>,
     scene: &str,
-    plane: &Plane,
+    plane: &PlotArea,
     shown: &[Shown<'_>],
 ) -> Result<()> {
     let (hollow, solid): (Vec<_>, Vec<_>) = shown.iter().partition(|(_, style)| style.is_unsafe);
@@ -94,7 +94,7 @@ fn draw_scene(
         ),
     };
     let width = panel.dim_in_pixel().0 as i32;
-    let (panel, strip) = panel.split_horizontally(width - units(strip));
+    let (panel, strip) = panel.split_horizontally(width - to_units(strip));
     let bold = font(FONT_SIZE, FontStyle::Bold);
     let panel = panel.titled(scene, bold.color(&TEXT_COLOUR))?;
     let mut drawn = plane.draw(&panel)?;

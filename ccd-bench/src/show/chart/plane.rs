@@ -1,7 +1,7 @@
 //! Draws a plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
 
 use super::MethodFacts;
-use super::sheet::{FONT_SIZE, MARGIN, Sheet, TEXT_COLOUR, TextFormat, font, text, units};
+use super::sheet::{FONT_SIZE, MARGIN, Sheet, TEXT_COLOUR, TextFormat, font, text, to_units};
 use super::style::{MARKER_RADIUS, MethodStyle};
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
@@ -21,7 +21,7 @@ const GRID_COLOUR: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
 
 /// The two axes of a plane, with their labels and ranges.
 #[derive(Clone)]
-pub(super) struct Plane {
+pub(super) struct PlotArea {
     pub(super) x: (Range<f64>, &'static str),
     pub(super) y: (Range<f64>, &'static str),
 }
@@ -49,7 +49,7 @@ pub(super) fn decades(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     Some(10f64.powf(low)..10f64.powf(greater(high, low + 1.0)))
 }
 
-impl Plane {
+impl PlotArea {
     /// Draws the axes of the plane on a sheet.
     pub(super) fn draw<'a, 's>(&self, sheet: &'a Sheet<'s>) -> Result<Drawn<'a, 's>> {
         let mut drawn = self.empty_plane_beside(sheet, self.x.0.clone())?;
@@ -58,7 +58,7 @@ impl Plane {
             .max_light_lines(1)
             .bold_line_style(GRID_COLOUR.stroke_width(10))
             .axis_style(TEXT_COLOUR.stroke_width(10))
-            .set_all_tick_mark_size(units(4.0))
+            .set_all_tick_mark_size(to_units(4.0))
             .x_labels(4)
             .y_labels(6)
             .x_desc(self.x.1)
@@ -78,11 +78,11 @@ impl Plane {
     ) -> Result<Drawn<'a, 's>> {
         let narrow = x != self.x.0;
         Ok(ChartBuilder::on(sheet)
-            .margin_top(units(MARGIN))
-            .margin_bottom(units(MARGIN))
-            .margin_right(units(MARGIN))
-            .x_label_area_size(units(38.0))
-            .y_label_area_size(if narrow { 0 } else { units(66.0) })
+            .margin_top(to_units(MARGIN))
+            .margin_bottom(to_units(MARGIN))
+            .margin_right(to_units(MARGIN))
+            .x_label_area_size(to_units(38.0))
+            .y_label_area_size(if narrow { 0 } else { to_units(66.0) })
             .build_cartesian_2d(x.log_scale(), self.y.0.clone().log_scale())?)
     }
 }
@@ -90,7 +90,7 @@ impl Plane {
 /// Draws a line through values, with a marker on each. Values beyond the axes are at the edge.
 pub(super) fn series(
     drawn: &mut Drawn<'_, '_>,
-    plane: &Plane,
+    plane: &PlotArea,
     points: &[Point],
     style: &MethodStyle,
 ) -> Result<()> {
@@ -99,10 +99,13 @@ pub(super) fn series(
     let at = |point: &Point| (within(point.x, &plane.x.0), within(point.y, &plane.y.0));
     let spots: Vec<(f64, f64)> = known.clone().map(at).collect();
     match style.dash {
-        None => drawn.draw_series(LineSeries::new(spots, style.pen(14)))?,
-        Some((dash, gap)) => {
-            drawn.draw_series(DashedLineSeries::new(spots, dash, gap, style.pen(14)))?
-        }
+        None => drawn.draw_series(LineSeries::new(spots, style.line_style(14)))?,
+        Some((dash, gap)) => drawn.draw_series(DashedLineSeries::new(
+            spots,
+            dash,
+            gap,
+            style.line_style(14),
+        ))?,
     };
     for point in known {
         marker(drawn, at(point), point.is_lower_bound, style)?;
@@ -126,8 +129,9 @@ pub(super) fn marker(
             (3.0, 8.0),
             (0.0, 12.0),
         ];
-        let arrow = arrow.map(|(x, up)| (units(x), -units(up)));
-        drawn.draw_series([EmptyElement::at(at) + PathElement::new(arrow, style.pen(13))])?;
+        let arrow = arrow.map(|(x, up)| (to_units(x), -to_units(up)));
+        drawn
+            .draw_series([EmptyElement::at(at) + PathElement::new(arrow, style.line_style(13))])?;
     }
     Ok(())
 }
@@ -139,7 +143,7 @@ fn glyph<'s, C>(at: C, style: &MethodStyle) -> Glyph<'s, C> {
     let inside = if style.is_unsafe { WHITE } else { style.colour };
     EmptyElement::at(at)
         + Polygon::new(corners, inside.filled())
-        + PathElement::new(closed, style.pen(13))
+        + PathElement::new(closed, style.line_style(13))
 }
 
 /// The polygon of a marker, with its corners relative to its position.
@@ -173,11 +177,16 @@ pub(super) fn draw_footer(
     for (index, (method, style)) in shown.iter().enumerate() {
         let left = MARGIN + width * (index % columns) as f64;
         let middle = top + LINE_HEIGHT * ((index / columns) as f64 + 0.5);
-        let (from, at, to) = (units(left), units(left + 15.0), units(left + 30.0));
-        let line = vec![(from, units(middle)), (to, units(middle))];
+        let (from, at, to) = (to_units(left), to_units(left + 15.0), to_units(left + 30.0));
+        let line = vec![(from, to_units(middle)), (to, to_units(middle))];
         let (dash, gap) = style.dash.unwrap_or((300, 0));
-        sheet.draw(&DashedPathElement::new(line, dash, gap, style.pen(15)))?;
-        sheet.draw(&glyph((at, units(middle)), style))?;
+        sheet.draw(&DashedPathElement::new(
+            line,
+            dash,
+            gap,
+            style.line_style(15),
+        ))?;
+        sheet.draw(&glyph((at, to_units(middle)), style))?;
         let mark = if style.is_unsafe { " (unsafe)" } else { "" };
         let label = format!("{}: {}{mark}", method.family.title(), method.name);
         text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;

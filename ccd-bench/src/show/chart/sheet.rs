@@ -31,8 +31,8 @@ pub(super) struct TextFormat {
     pub(super) size: f64,
     pub(super) colour: RGBColor,
     pub(super) weight: FontStyle,
-    pub(super) across: HPos,
-    pub(super) turn: FontTransform,
+    pub(super) alignment: HPos,
+    pub(super) rotation: FontTransform,
 }
 
 impl Default for TextFormat {
@@ -41,8 +41,8 @@ impl Default for TextFormat {
             size: FONT_SIZE,
             colour: TEXT_COLOUR,
             weight: FontStyle::Normal,
-            across: HPos::Left,
-            turn: FontTransform::None,
+            alignment: HPos::Left,
+            rotation: FontTransform::None,
         }
     }
 }
@@ -53,7 +53,10 @@ pub(super) fn svg(
     size: PixelPosition,
     body: impl FnOnce(&Sheet<'_>) -> Result<()>,
 ) -> Result<String> {
-    let (width, height) = (units(size.0).unsigned_abs(), units(size.1).unsigned_abs());
+    let (width, height) = (
+        to_units(size.0).unsigned_abs(),
+        to_units(size.1).unsigned_abs(),
+    );
     let mut text = String::new();
     {
         let sheet = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
@@ -80,10 +83,10 @@ pub(super) fn text(
     format: &TextFormat,
 ) -> Result<()> {
     let style = font(format.size, format.weight)
-        .transform(format.turn.clone())
+        .transform(format.rotation.clone())
         .color(&format.colour)
-        .pos(Pos::new(format.across, VPos::Center));
-    Ok(sheet.draw(&Text::new(text, (units(x), units(y)), style))?)
+        .pos(Pos::new(format.alignment, VPos::Center));
+    Ok(sheet.draw(&Text::new(text, (to_units(x), to_units(y)), style))?)
 }
 
 /// Fills a rectangle that is given by its upper left corner and its size.
@@ -93,7 +96,7 @@ pub(super) fn rect(
     size: PixelPosition,
     colour: RGBColor,
 ) -> Result<()> {
-    let corners = [(x, y), (x + size.0, y + size.1)].map(|(x, y)| (units(x), units(y)));
+    let corners = [(x, y), (x + size.0, y + size.1)].map(|(x, y)| (to_units(x), to_units(y)));
     Ok(sheet.draw(&Rectangle::new(corners, colour.filled()))?)
 }
 
@@ -113,6 +116,6 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
 
 /// Converts pixels to drawing units; NaN becomes 0.
 // The cast saturates, and a sheet is some thousand pixels wide.
-pub(super) fn units(pixels: f64) -> i32 {
+pub(super) fn to_units(pixels: f64) -> i32 {
     (pixels * UNITS_PER_PIXEL).round() as i32
 }

@@ -1,6 +1,6 @@
 //! Chooses the colour and the marker of each method, the same in every chart.
 
-use super::sheet::units;
+use super::sheet::to_units;
 use super::{Family, MethodFacts};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
@@ -70,7 +70,7 @@ pub(super) fn styles(
 
 impl MethodStyle {
     /// Returns the style of the method's lines, with a width in tenths of a pixel.
-    pub(super) fn pen(&self, width: u32) -> ShapeStyle {
+    pub(super) fn line_style(&self, width: u32) -> ShapeStyle {
         self.colour.stroke_width(width)
     }
 
@@ -80,8 +80,8 @@ impl MethodStyle {
         let corner = |corner: u32| {
             let angle = first + TAU * f64::from(corner) / f64::from(count);
             (
-                units(MARKER_RADIUS * angle.cos()),
-                units(MARKER_RADIUS * angle.sin()),
+                to_units(MARKER_RADIUS * angle.cos()),
+                to_units(MARKER_RADIUS * angle.sin()),
             )
         };
         (0..count).map(corner).collect()

@@ -28,7 +28,7 @@ fn a_method_on_easy_rows_only_is_slower_than_the_reference() {
         cells[1].median_us < cells[0].median_us,
         "the plain medians mislead"
     );
-    let moved = Reference::new(OURS, &trials).comparable(&cells);
+    let moved = Reference::new(OURS, &trials).comparable_cells(&cells);
     assert_eq!(moved[0], cells[0], "the reference keeps its median, 46");
     // The ratios are 3 and 4.
     assert_eq!(moved[1].median_us, 46.0 * 3.5);
@@ -52,10 +52,10 @@ fn a_cell_keeps_its_median_where_there_is_nothing_to_compare() {
         assert_eq!(reference.ratio(cell), None);
     }
     let both = [finer, elsewhere];
-    assert_eq!(reference.comparable(&both), both);
+    assert_eq!(reference.comparable_cells(&both), both);
     trials.retain(|trial| trial.method != OURS);
     assert_eq!(
-        Reference::new(OURS, &trials).comparable(std::slice::from_ref(&slow)),
+        Reference::new(OURS, &trials).comparable_cells(std::slice::from_ref(&slow)),
         [slow]
     );
 }

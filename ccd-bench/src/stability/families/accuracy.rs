@@ -1,6 +1,6 @@
 //! Scenes whose contact depends on the last digits: nearly parallel parts, hardly any overlap.
 
-use super::super::family::{BodyMotion, Family, Step, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
 use super::{family, negative_powers_of_ten, onto_slab};
 use anyhow::Result;
@@ -35,24 +35,24 @@ pub(super) fn families() -> Vec<Family> {
 const TIME_ERROR: f64 = 1e-14;
 
 /// Makes case T1, tilted by an angle: a face falls onto a face.
-fn face_onto_face(angle: f64) -> Result<Step> {
+fn face_onto_face(angle: f64) -> Result<FamilyStep> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_y(angle));
     onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T8 with rods at a small angle: an edge meets an edge.
-fn edge_across_edge(angle: f64) -> Result<Step> {
+fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_z(angle) * on_edge);
     let lying = BodyMotion::STILL.oriented(on_edge);
     let expected = contact_at((3.0 - 0.2 * SQRT_2) / 4.0, TIME_ERROR);
-    let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
+    let step = FamilyStep::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
     step.with_rotated_queries(falling, lying, expected)
 }
 
 /// Makes case T8: a cube falls onto a slab on a corner, with its diagonal nearly upright.
-fn corner_onto_face(angle: f64) -> Result<Step> {
+fn corner_onto_face(angle: f64) -> Result<FamilyStep> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
     let falling = BodyMotion::FALLING.oriented(turned);
@@ -61,12 +61,12 @@ fn corner_onto_face(angle: f64) -> Result<Step> {
 }
 
 /// Makes case T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
-fn peg_in_a_hole(clearance: f64) -> Result<Step> {
+fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
     let half = 0.5;
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
     let turning = BodyMotion::STILL.spinning(2.0 * angle * DVec3::Z);
-    let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
+    let step = FamilyStep::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
     let expected = contact_at(0.5, 1e-15 / clearance);
@@ -74,7 +74,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step> {
 }
 
 /// Makes case T25: a cube falls flat onto a slab, and rotates very little.
-fn slight_rotation(turn: f64) -> Result<Step> {
+fn slight_rotation(turn: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING.spinning(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
@@ -86,44 +86,48 @@ fn slight_rotation(turn: f64) -> Result<Step> {
 }
 
 /// Makes a cube that comes down on a slab at a small angle, halfway through its flight.
-fn flat_approach(angle: f64) -> Result<Step> {
+fn flat_approach(angle: f64) -> Result<FamilyStep> {
     let (sin, cos) = angle.sin_cos();
     let height = 2.0 * sin;
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = contact_at(0.5, 1e-15 / sin);
-    let step = Step::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
+    let step = FamilyStep::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
     step.with_rotated_queries(flying, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn barely_overlapping(overlap: f64) -> Result<Step> {
+fn barely_overlapping(overlap: f64) -> Result<FamilyStep> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = contact_at(1.0 / 3.0, TIME_ERROR);
-    let step = Step::new(cube()?, cube()?);
+    let step = FamilyStep::new(cube()?, cube()?);
     step.with_rotated_queries_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
 
 /// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
-fn barely_reaching_wall(share: f64) -> Result<Step> {
+fn barely_reaching_wall(share: f64) -> Result<FamilyStep> {
     let (long, thin) = (2.0f64, 0.05);
     let wall = long.hypot(thin) * (1.0 - share);
     let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = contact_at(time, 1e-15 / share.sqrt());
-    let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
-    step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
+    let step = FamilyStep::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
+    step.with_rotated_queries(
+        turning,
+        BodyMotion::resting_at((wall + 1.0) * DVec3::X),
+        expected,
+    )
 }
 
 /// Makes case T17: two linked rings, a small distance apart.
-fn linked_rings(way: f64) -> Result<Step> {
+fn linked_rings(way: f64) -> Result<FamilyStep> {
     let (radius, tube) = (1.0, 0.25);
     // At the start the rings are each in the middle of the other's hole; then one moves until their inner
     // rims are a small way apart.
     let rim = radius - 2.0 * tube;
     let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
     let hanging = BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).oriented(upright);
-    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?)
+    let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
     let expected = contact_at(way, TIME_ERROR);
     step.with_query(hanging, BodyMotion::STILL, expected)

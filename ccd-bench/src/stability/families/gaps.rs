@@ -1,6 +1,6 @@
 //! Scenes of bodies that never meet, with smaller and smaller gaps.
 
-use super::super::family::{BodyMotion, Family, Step};
+use super::super::family::{BodyMotion, Family, FamilyStep};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
 use super::{family, negative_powers_of_ten};
 use crate::truth::Truth;
@@ -28,63 +28,63 @@ fn tolerance(gap: f64) -> f64 {
 }
 
 /// Returns a step with a gap, in rotated worlds too if the gap survives their rounding.
-fn free_step(step: Step, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<Step> {
+fn free_step(step: FamilyStep, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<FamilyStep> {
     let step = step.with_tolerance(tolerance(gap));
     step.with_rotated_queries_if(gap >= 1e-12, a, b, Truth::Free)
 }
 
-fn ball_passing_a_box(gap: f64) -> Result<Step> {
-    let step = Step::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
+fn ball_passing_a_box(gap: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
     free_step(step, gap, flying, BodyMotion::SLAB_BELOW)
 }
 
-fn cubes_passing(gap: f64) -> Result<Step> {
-    let step = Step::new(cube()?, cube()?);
+fn cubes_passing(gap: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(cube()?, cube()?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
     free_step(step, gap, flying, BodyMotion::STILL)
 }
 
-fn balls_passing(gap: f64) -> Result<Step> {
-    let step = Step::new(ball(0.5, 600)?, ball(0.5, 600)?);
+fn balls_passing(gap: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(ball(0.5, 600)?, ball(0.5, 600)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
     free_step(step, gap, flying, BodyMotion::STILL)
 }
 
-fn sliding(gap: f64) -> Result<Step> {
-    let step = Step::new(cube()?, slab()?);
+fn sliding(gap: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(cube()?, slab()?);
     let sliding = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
     free_step(step, gap, sliding, BodyMotion::SLAB_BELOW)
 }
 
-fn leaving(gap: f64) -> Result<Step> {
-    let step = Step::new(cube()?, slab()?);
+fn leaving(gap: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(cube()?, slab()?);
     let rising = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
     free_step(step, gap, rising, BodyMotion::SLAB_BELOW)
 }
 
 /// Makes case T16: a peg moves through a hole with a gap on all four sides.
-fn peg_through_a_hole(gap: f64) -> Result<Step> {
-    let step = Step::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
+fn peg_through_a_hole(gap: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
     let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
     free_step(step, gap, falling, BodyMotion::STILL)
 }
 
-fn spinning_top(gap: f64) -> Result<Step> {
+fn spinning_top(gap: f64) -> Result<FamilyStep> {
     let spinning = BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X).spinning(50.0 * DVec3::Z);
-    let step = Step::new(cone(24, 0.7)?, slab()?);
+    let step = FamilyStep::new(cone(24, 0.7)?, slab()?);
     free_step(step, gap, spinning, BodyMotion::SLAB_BELOW)
 }
 
 /// Makes a rod of half length 2 that rotates by half a turn about its middle, past a wall that its corners just do not
 /// reach.
-fn rod_past_a_wall(gap: f64) -> Result<Step> {
+fn rod_past_a_wall(gap: f64) -> Result<FamilyStep> {
     let (long, thin) = (2.0, 0.05);
     let reach = f64::hypot(long, thin);
     let turning = BodyMotion::STILL.spinning(std::f64::consts::PI * DVec3::Y);
-    let wall = BodyMotion::rest((reach + gap + 1.0) * DVec3::X);
+    let wall = BodyMotion::resting_at((reach + gap + 1.0) * DVec3::X);
     // The reach is rounded, and the gap with it.
-    let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?)
+    let step = FamilyStep::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?)
         .with_tolerance(greater(tolerance(gap), 1e-11));
     step.with_rotated_queries(turning, wall, Truth::Free)
 }

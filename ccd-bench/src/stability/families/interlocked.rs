@@ -1,7 +1,7 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{BodyMotion, Family, Step, contact_at};
-use super::super::shapes::{cuboid, extrude, ribbon, sheet, slit_plate, stacked_squares, torus};
+use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
+use super::super::shapes::{cuboid, extrude, helicoid, sheet, slit_plate, stacked_squares, torus};
 use super::{family, negative_powers_of_ten};
 use crate::truth::Truth;
 use anyhow::Result;
@@ -24,7 +24,7 @@ pub(super) fn families() -> Vec<Family> {
             .with_values("gap", negative_powers_of_ten(1..=12)),
         family("plate through a slit", through_slit)
             .with_values("gap", negative_powers_of_ten(1..=12)),
-        family("turned frames", turned_frame).with_values(
+        family("turned frames", rod_in_rotated_frame).with_values(
             "degrees",
             vec![0.0, 1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 90.0, 120.0, 180.0],
         ),
@@ -32,7 +32,7 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Makes case T15: two interlocked hooks, at right angles to each other, are pulled apart until their bars meet.
-fn hooks(slack: f64) -> Result<Step> {
+fn hooks(slack: f64) -> Result<FamilyStep> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
     let hook = extrude(
@@ -44,15 +44,15 @@ fn hooks(slack: f64) -> Result<Step> {
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .oriented(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
-    let step = Step::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
+    let step = FamilyStep::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
     step.with_rotated_queries(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
 }
 
 /// Makes a ring that falls flat onto an equal one; they meet all around.
-fn ring_onto_ring(way: f64) -> Result<Step> {
+fn ring_onto_ring(way: f64) -> Result<FamilyStep> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?)
+    let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }
@@ -60,26 +60,26 @@ fn ring_onto_ring(way: f64) -> Result<Step> {
 /// The pitch of the threads: their rise per turn.
 const PITCH: f64 = 0.2;
 /// The inner and outer radii of the threads.
-const THREAD: [f64; 2] = [0.9, 1.0];
+const THREAD_RADII: [f64; 2] = [0.9, 1.0];
 
 /// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch; `play` is its share
 /// between the flanks.
-fn threads(turns: f64, play: f64) -> Result<Step> {
+fn threads(turns: f64, play: f64) -> Result<FamilyStep> {
     // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
     let sides = 64;
-    let flank = ribbon(THREAD, PITCH, sides, 3)?;
+    let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;
     let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .spinning(TAU * turns * DVec3::Z);
-    let step = Step::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
+    let step = FamilyStep::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
     step.with_rotated_queries(turning, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a sheet that slides between two others.
-fn between(gap: f64) -> Result<Step> {
+fn between(gap: f64) -> Result<FamilyStep> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
     free_step(
-        Step::new(
+        FamilyStep::new(
             sheet(4)?,
             stacked_squares(&sheet(4)?, [-gap, gap].into_iter())?,
         ),
@@ -89,31 +89,35 @@ fn between(gap: f64) -> Result<Step> {
 }
 
 /// Makes case T16: a tilted plate moves through a slit that is wider than its edges by a gap.
-fn through_slit(gap: f64) -> Result<Step> {
+fn through_slit(gap: f64) -> Result<FamilyStep> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
     let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
         .oriented(DQuat::from_rotation_y(tilt));
     free_step(
-        Step::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
+        FamilyStep::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
         moving,
     )
 }
 
-fn free_step(step: Step, gap: f64, moving: BodyMotion) -> Result<Step> {
+fn free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilyStep> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
     step.with_rotated_queries_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes case T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
-fn turned_frame(degrees: f64) -> Result<Step> {
+fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
     let (long, thin, wall) = (2.0f64, 0.05, 1.2);
     let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
     let rod = cuboid(thin, 0.3, long)?.transformed(DAffine3::from_quat(frame.inverse()))?;
     let turning = BodyMotion::STILL.oriented(frame).spinning(PI * DVec3::Y);
-    let step = Step::new(rod, cuboid(1.0, 3.0, 3.0)?);
+    let step = FamilyStep::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(angle / PI, 1e-14);
-    step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
+    step.with_rotated_queries(
+        turning,
+        BodyMotion::resting_at((wall + 1.0) * DVec3::X),
+        expected,
+    )
 }

@@ -1,6 +1,6 @@
 //! Scenes of meshes with many triangles, and of meshes with bad ones.
 
-use super::super::family::{BodyMotion, Family, Step, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{
     TOOTH_SHARE, ball, comb, cone, cube, field_of_cubes, layers, sliver_slab, with_bad_faces,
 };
@@ -31,8 +31,8 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Makes case T19: the teeth of two combs pass between each other, until their tips meet the bars.
-fn comb_into_comb(teeth: f64) -> Result<Step> {
-    let step = Step::new(comb(teeth as u32)?, comb(teeth as u32)?);
+fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
     // TOOTH of the step.
     let shift = 1.0 - (0.5 - TOOTH_SHARE) / teeth;
@@ -42,47 +42,47 @@ fn comb_into_comb(teeth: f64) -> Result<Step> {
 }
 
 /// Makes case T22: a ball with a vertex at its pole falls onto a slab.
-fn ball_onto_slab(triangles: f64) -> Result<Step> {
+fn ball_onto_slab(triangles: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING.spinning(2.0 * DVec3::Z);
     onto_slab(ball(0.5, triangles as usize / 2 + 2)?, falling, 0.625)
 }
 
 /// Makes a cone that falls onto a slab, tip first.
-fn tip_onto_slab(sides: f64) -> Result<Step> {
+fn tip_onto_slab(sides: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).spinning(2.0 * DVec3::Z);
     onto_slab(cone(sides as u32, 0.7)?, falling, 0.625)
 }
 
 /// Makes a cube that falls onto the first of many open sheets.
-fn onto_layers(count: f64) -> Result<Step> {
-    let step = Step::new(cube()?, layers(count as u32)?);
+fn onto_layers(count: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(cube()?, layers(count as u32)?);
     let falling = BodyMotion::FALLING;
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.625, 1e-14))
 }
 
 /// Makes case T21: a cube with repeated and collapsed faces.
-fn cube_with_bad_faces(count: f64) -> Result<Step> {
+fn cube_with_bad_faces(count: f64) -> Result<FamilyStep> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
     onto_slab(cube, BodyMotion::FALLING, 0.625)
 }
 
 /// Makes a cube that falls onto a sliver triangle of a slab.
-fn sliver(width: f64) -> Result<Step> {
-    let step = Step::new(cube()?, sliver_slab(width)?);
+fn sliver(width: f64) -> Result<FamilyStep> {
+    let step = FamilyStep::new(cube()?, sliver_slab(width)?);
     let expected = contact_at(0.625, 1e-14);
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::SLAB_BELOW, expected)
 }
 
 /// Makes a cube that falls onto one mesh of many cubes, of which every other one is inside out.
-fn field_of_solids(count: f64) -> Result<Step> {
+fn field_of_solids(count: f64) -> Result<FamilyStep> {
     // The cube covers the middle of the field, where at least four others are.
-    let step = Step::new(cube()?, field_of_cubes(count as u32)?);
+    let step = FamilyStep::new(cube()?, field_of_cubes(count as u32)?);
     let expected = contact_at(0.625, 1e-14);
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
 /// Makes two cones that meet beside their tips: the tip of each touches a face of the other.
-fn tip_onto_tip(aside: f64) -> Result<Step> {
+fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let (sides, radius) = (8, 0.7);
     // After a rotation by half a side, a face looks along x. It rises by 1 up to its middle.
     let half_side = PI / f64::from(sides);
@@ -90,7 +90,7 @@ fn tip_onto_tip(aside: f64) -> Result<Step> {
     let slope = 1.0 / (radius * half_side.cos());
     let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
     let upside_down = BodyMotion::STILL.oriented(DQuat::from_rotation_y(PI));
-    let step = Step::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
+    let step = FamilyStep::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = contact_at((2.0 + aside * slope) / 4.0, 1e-14);
     step.with_rotated_queries(falling, upside_down, expected)
 }

@@ -1,6 +1,6 @@
 //! Scenes whose sizes, distances and units are far from 1.
 
-use super::super::family::{BodyMotion, Family, Step, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cone, cube, cuboid, slab};
 use super::{family, negative_powers_of_ten, onto_slab, powers_of_ten};
 use crate::truth::Truth;
@@ -25,7 +25,7 @@ pub(super) fn families() -> Vec<Family> {
         family("bullet and paper", bullet_and_paper)
             .with_values("way against thickness", powers_of_ten(0..=9)),
         family("margin", margin).with_values("margin against size", margins()),
-        family("one inside the other", inside)
+        family("one inside the other", cube_inside_cube)
             .with_values("size against size", negative_powers_of_ten(0..=9)),
         family("unit of time", unit_of_time).with_values("duration", sizes(1..=9)),
         family("moving together", moving_together)
@@ -44,77 +44,81 @@ fn margins() -> Vec<f64> {
 }
 
 /// Makes a cube that falls onto a larger or smaller one, which it meets halfway.
-fn size_against_size(size: f64) -> Result<Step> {
+fn size_against_size(size: f64) -> Result<FamilyStep> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
-    let step =
-        Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?).with_tolerance(1e-6 * way);
+    let step = FamilyStep::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
+        .with_tolerance(1e-6 * way);
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes case T1 in other units of length.
-fn unit_of_length(size: f64) -> Result<Step> {
+fn unit_of_length(size: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
-    let step = Step::new(
+    let step = FamilyStep::new(
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
     .with_tolerance(1e-6 * size);
-    let slab = BodyMotion::rest(-size * DVec3::Z);
+    let slab = BodyMotion::resting_at(-size * DVec3::Z);
     step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes case T1 in other units of time.
-fn unit_of_time(duration: f64) -> Result<Step> {
+fn unit_of_time(duration: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING;
-    let step = Step::new(cube()?, slab()?);
-    let step = Step { duration, ..step };
+    let step = FamilyStep::new(cube()?, slab()?);
+    let step = FamilyStep { duration, ..step };
     let slab = BodyMotion::SLAB_BELOW;
     step.with_rotated_queries(falling, slab, contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another one, while both travel far to the side.
-fn moving_together(travel: f64) -> Result<Step> {
+fn moving_together(travel: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
-    let step = Step::new(cube()?, cube()?);
+    let step = FamilyStep::new(cube()?, cube()?);
     step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, and so moves nearly straight to a wall.
-fn far_centre(distance: f64) -> Result<Step> {
+fn far_centre(distance: f64) -> Result<FamilyStep> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
-        spin: spin * DVec3::Y,
+        angular_velocity: spin * DVec3::Y,
         centre: -distance * DVec3::Z,
         ..BodyMotion::STILL
     };
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
-    let step = Step::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
+    let step = FamilyStep::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-14);
-    step.with_query(turning, BodyMotion::rest(2.0 * DVec3::X), expected)
+    step.with_query(turning, BodyMotion::resting_at(2.0 * DVec3::X), expected)
 }
 
 /// Makes a cone that falls onto a slab on its tip; its sides are long and thin triangles.
-fn needle(width: f64) -> Result<Step> {
+fn needle(width: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
 /// Makes case T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
-fn far_from_the_origin(distance: f64) -> Result<Step> {
+fn far_from_the_origin(distance: f64) -> Result<FamilyStep> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let step = Step::new(cube()?, cube()?);
-    step.with_query(falling, BodyMotion::rest(origin), contact_at(0.5, 1e-14))
+    let step = FamilyStep::new(cube()?, cube()?);
+    step.with_query(
+        falling,
+        BodyMotion::resting_at(origin),
+        contact_at(0.5, 1e-14),
+    )
 }
 
 /// Makes a needle that falls onto a slab; its sides are long and thin triangles.
-fn slender_needle(ratio: f64) -> Result<Step> {
+fn slender_needle(ratio: f64) -> Result<FamilyStep> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_x(0.3));
@@ -123,30 +127,30 @@ fn slender_needle(ratio: f64) -> Result<Step> {
 }
 
 /// Makes case T13: a bullet travels distance 1; a thin sheet stands halfway.
-fn bullet_and_paper(ratio: f64) -> Result<Step> {
+fn bullet_and_paper(ratio: f64) -> Result<FamilyStep> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
-    let paper = BodyMotion::rest(0.5 * DVec3::X);
-    let step = Step::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
+    let paper = BodyMotion::resting_at(0.5 * DVec3::X);
+    let step = FamilyStep::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = contact_at(0.5 - half - bullet, 1e-14);
     step.with_rotated_queries(flying, paper, expected)
 }
 
 /// Makes a cube that falls onto a slab, and comes as near as the margin halfway.
-fn margin(margin: f64) -> Result<Step> {
+fn margin(margin: f64) -> Result<FamilyStep> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
-    let step = Step::new(cube()?, slab()?);
-    let step = Step { margin, ..step };
+    let step = FamilyStep::new(cube()?, slab()?);
+    let step = FamilyStep { margin, ..step };
     let slab = BodyMotion::SLAB_BELOW;
     step.with_rotated_queries(falling, slab, contact_at(0.5, 1e-14))
 }
 
 /// Makes case T24: a cube inside another one, both closed.
-fn inside(size: f64) -> Result<Step> {
+fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
-    let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
+    let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
     step.with_rotated_queries(moving, BodyMotion::STILL, Truth::Start)
 }

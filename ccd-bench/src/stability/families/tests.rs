@@ -1,7 +1,7 @@
 //! Compares the exact answers of the families with those of the referee.
 
 use super::families;
-use crate::stability::{Case, Family, Step};
+use crate::stability::{Case, Family, FamilyStep};
 use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -64,7 +64,7 @@ fn the_referee_finds_the_answers_that_are_claimed() {
 /// Asserts that the referee agrees on a step, and returns the number of queries that it decided.
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
     let step = (family.make)(value).unwrap();
-    let Step { meshes, cases, .. } = &step;
+    let FamilyStep { meshes, cases, .. } = &step;
     let many = meshes
         .iter()
         .any(|mesh| mesh.faces().len() > MOST_TRIANGLES);

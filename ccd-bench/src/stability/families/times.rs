@@ -1,6 +1,6 @@
 //! Scenes whose contact is close to the start or close to the end.
 
-use super::super::family::{BodyMotion, Family, Step, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, sheet, slab};
 use super::{family, negative_powers_of_ten};
 use crate::truth::Truth;
@@ -35,28 +35,28 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Returns a cube that falls at speed 1 onto a slab, and reaches it at a given time.
-fn falling(time: f64) -> Result<(Step, BodyMotion)> {
-    let step = Step::new(cube()?, slab()?);
+fn falling(time: f64) -> Result<(FamilyStep, BodyMotion)> {
+    let step = FamilyStep::new(cube()?, slab()?);
     Ok((
         step,
         BodyMotion::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
     ))
 }
 
-fn after_the_start(time: f64) -> Result<Step> {
+fn after_the_start(time: f64) -> Result<FamilyStep> {
     let (step, falling) = falling(time)?;
     let step = step.with_tolerance(greater(0.1 * time, 1e-11));
     let expected = contact_at(time, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn before_the_end(before: f64) -> Result<Step> {
+fn before_the_end(before: f64) -> Result<FamilyStep> {
     let (step, falling) = falling(1.0 - before)?;
     let expected = contact_at(1.0 - before, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn after_the_end(after: f64) -> Result<Step> {
+fn after_the_end(after: f64) -> Result<FamilyStep> {
     let (step, falling) = falling(1.0 + after)?;
     let step = step.with_tolerance(greater(0.25 * after, 1e-11));
     let slab = BodyMotion::SLAB_BELOW;
@@ -64,8 +64,8 @@ fn after_the_end(after: f64) -> Result<Step> {
 }
 
 /// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
-fn sheets(way: f64) -> Result<Step> {
+fn sheets(way: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
-    let step = Step::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
+    let step = FamilyStep::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))
 }

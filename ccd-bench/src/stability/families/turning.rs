@@ -1,6 +1,6 @@
 //! Scenes of rotations, from very small ones to thousands of turns.
 
-use super::super::family::{BodyMotion, Family, Step, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid};
 use super::{family, onto_slab, powers_of_ten};
 use anyhow::Result;
@@ -19,7 +19,7 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
-fn falling_while_spinning(turns: f64) -> Result<Step> {
+fn falling_while_spinning(turns: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
     onto_slab(cube()?, falling, 0.625)
 }
@@ -30,45 +30,50 @@ const ROD_HALF_LENGTH: f64 = 2.0;
 const ROD_HALF_WIDTH: f64 = 0.05;
 
 /// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
-fn rod_into_a_wall(turns: f64) -> Result<Step> {
+fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let spin = TAU * turns;
     let angle = (wall / ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)).asin()
         - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH);
     let turning = BodyMotion::STILL.spinning(spin * DVec3::Y);
-    let step = Step::new(
+    let step = FamilyStep::new(
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
         cuboid(1.0, 3.0, 3.0)?,
     );
     let expected = contact_at(angle / spin, 1e-15);
-    step.with_rotated_queries(turning, BodyMotion::rest((wall + 1.0) * DVec3::X), expected)
+    step.with_rotated_queries(
+        turning,
+        BodyMotion::resting_at((wall + 1.0) * DVec3::X),
+        expected,
+    )
 }
 
 /// Makes case T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip
 /// moves along the wall, so that a bound on the speeds of that moment finds no approach.
-fn swinging_arm(spin: f64) -> Result<Step> {
+fn swinging_arm(spin: f64) -> Result<FamilyStep> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_WIDTH, 0.5 * arm, ROD_HALF_WIDTH)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
     let swinging = BodyMotion::STILL.spinning(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_WIDTH) + (wall / arm.hypot(ROD_HALF_WIDTH)).asin();
-    let step = Step::new(hanging, cuboid(3.0, 1.0, 3.0)?);
+    let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(
         swinging,
-        BodyMotion::rest((wall + 1.0) * DVec3::Y),
+        BodyMotion::resting_at((wall + 1.0) * DVec3::Y),
         expected,
     )
 }
 
 /// Makes case T14: two rods rotate against each other, as mirror images.
-fn rods(turns: f64) -> Result<Step> {
+fn rods(turns: f64) -> Result<FamilyStep> {
     let (apart, spin) = (3.0, TAU * turns);
-    let turning = |spin: f64, x: f64| BodyMotion::rest(x * DVec3::X).spinning(spin * DVec3::Y);
+    let turning =
+        |spin: f64, x: f64| BodyMotion::resting_at(x * DVec3::X).spinning(spin * DVec3::Y);
     let angle = (0.5 * apart / ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)).asin()
         - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH);
     debug_assert!(angle < PI);
-    let step = Step::new(
+    let step = FamilyStep::new(
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
     );

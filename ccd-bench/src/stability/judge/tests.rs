@@ -10,7 +10,7 @@ fn contact(time: f64) -> Claim {
     Claim::Contact { time }
 }
 
-fn safe(safe_until: f64) -> Claim {
+fn unresolved(safe_until: f64) -> Claim {
     Claim::Unresolved { safe_until }
 }
 
@@ -23,17 +23,17 @@ fn safe(safe_until: f64) -> Claim {
 #[case("margin", contact(0.5001), Verdict::Late)]
 #[case("margin", contact(f64::NAN), Verdict::Late)]
 #[case("margin", FREE, Verdict::Missed)]
-#[case("margin", safe(0.4), Verdict::Unresolved)]
-#[case("margin", safe(0.6), Verdict::Late)]
+#[case("margin", unresolved(0.4), Verdict::Unresolved)]
+#[case("margin", unresolved(0.6), Verdict::Late)]
 #[case("margin", Claim::Refused, Verdict::Refused)]
 #[case("cubes passing", FREE, Verdict::Right)]
 #[case("cubes passing", contact(0.5), Verdict::False)]
-#[case("cubes passing", safe(0.9), Verdict::Unresolved)]
+#[case("cubes passing", unresolved(0.9), Verdict::Unresolved)]
 #[case("one inside the other", contact(0.0), Verdict::Right)]
 #[case("one inside the other", contact(0.1), Verdict::Late)]
 #[case("one inside the other", FREE, Verdict::Missed)]
-#[case("one inside the other", safe(0.0), Verdict::Unresolved)]
-#[case("one inside the other", safe(0.1), Verdict::Late)]
+#[case("one inside the other", unresolved(0.0), Verdict::Unresolved)]
+#[case("one inside the other", unresolved(0.1), Verdict::Late)]
 fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict: Verdict) {
     let family = families().into_iter().find(|f| f.name == family).unwrap();
     let step = (family.make)(family.values[1]).unwrap();

@@ -51,7 +51,7 @@ fn cubes_in_a_field_are_turned_inside_out_one_by_one() {
 
 #[test]
 fn a_ribbon_rises_by_its_pitch() {
-    let ribbon = ribbon([0.9, 1.0], 0.2, 16, 3).unwrap();
+    let ribbon = helicoid([0.9, 1.0], 0.2, 16, 3).unwrap();
     assert_eq!(ribbon.faces().len(), 96);
     let highest = ribbon.vertices().last().unwrap();
     assert!((highest - dvec3(1.0, 0.0, 0.6)).length() < 1e-15);

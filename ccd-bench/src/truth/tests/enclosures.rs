@@ -1,6 +1,6 @@
 //! Compares sines, cosines and rotations with known values.
 
-use super::super::enclosure::{Matrix, sin_cos};
+use super::super::enclosure::{IntervalMatrix, sin_cos};
 use super::super::interval::{Interval, exact};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
@@ -76,14 +76,14 @@ fn rotations_are_those_of_floats_and_narrow() {
     ] {
         let expected = DMat3::from_quat(DQuat::from_scaled_axis(spin * time));
         let off = 1e-15 * (2.0 + spin.length() * time);
-        assert_close(&Matrix::turn(spin, time), expected, off);
+        assert_close(&IntervalMatrix::turn(spin, time), expected, off);
     }
     let quaternion = DQuat::from_xyzw(0.5, -0.1, 0.3, 0.7).normalize();
-    let matrix = Matrix::from_quaternion(quaternion * 3.0);
+    let matrix = IntervalMatrix::from_quaternion(quaternion * 3.0);
     assert_close(&matrix, DMat3::from_quat(quaternion), 2e-15);
 }
 
-fn assert_close(found: &Matrix, expected: DMat3, off: f64) {
+fn assert_close(found: &IntervalMatrix, expected: DMat3, off: f64) {
     let rows = expected.transpose().to_cols_array_2d();
     for (&found, expected) in found.0.iter().flatten().zip(rows.iter().flatten()) {
         assert!(

@@ -1,6 +1,6 @@
 //! Tests scenes whose first contact is known exactly.
 
-use super::super::{Bracket, Referee, Surface, Truth};
+use super::super::{DistanceBounds, Referee, Surface, Truth};
 use super::{at, cuboid, judge, query, still};
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
@@ -216,7 +216,7 @@ fn contact_at_the_start_is_found_and_the_inside_is_free() {
     let inside = query(still(0.0, 0.0, 0.0), still(0.1, 0.2, 0.3), 1.0);
     assert_eq!(judge([&cube, &shell], &inside), Truth::Free);
     let distance = Referee::new(&cube, &shell).distance(&inside, 0.5);
-    let Bracket { lower, upper } = distance;
+    let DistanceBounds { lower, upper } = distance;
     assert!(
         lower <= 1.2 && 1.2 <= upper && upper - lower < 1e-12,
         "{distance:?}"

@@ -68,7 +68,7 @@ fn is_above(x: f64, exact: &Relaxed) -> bool {
     is_below(-x, &-exact)
 }
 
-fn holds(found: Interval, exact: &Relaxed) -> bool {
+fn contains(found: Interval, exact: &Relaxed) -> bool {
     !is_above(found.inf(), exact) && !is_below(found.sup(), exact)
 }
 
@@ -76,7 +76,7 @@ fn holds(found: Interval, exact: &Relaxed) -> bool {
 fn assert_tight(found: Interval, results: &[Relaxed], context: &str) {
     for exact in results {
         assert!(
-            holds(found, exact),
+            contains(found, exact),
             "{context}: {found:?} is without {exact}"
         );
     }
@@ -110,7 +110,7 @@ fn sums_products_and_quotients_hold_the_exact_ones_tightly() {
         assert_tight(x + y, &each_with_each(x, y, |a, b| a + b), &named("+"));
         assert_tight(x - y, &each_with_each(x, y, |a, b| a - b), &named("-"));
         assert_tight(x * y, &each_with_each(x, y, |a, b| a * b), &named("*"));
-        if holds(y, &Relaxed::ZERO) {
+        if contains(y, &Relaxed::ZERO) {
             assert_eq!(x / y, Interval::ENTIRE);
         } else {
             quotients += 1;
@@ -126,7 +126,7 @@ fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
     let mut roots = 0;
     for _ in 0..PAIRS {
         let x = random_interval(&mut rng);
-        let straddles = holds(x, &Relaxed::ZERO);
+        let straddles = contains(x, &Relaxed::ZERO);
         let mut squares = numbers(x).map(|a| &a * &a).to_vec();
         let mut sizes = [x.inf(), x.sup()].map(f64::abs).to_vec();
         if straddles {

@@ -30,7 +30,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
         let query = query(a, b, 1.0);
         let first = (0..=SAMPLES)
             .map(|k| f64::from(k) / f64::from(SAMPLES))
-            .find(|&time| meet(&meshes, [&a, &b], time));
+            .find(|&time| meshes_pierce(&meshes, [&a, &b], time));
         let truth = referee.first_contact(&query);
         match (truth, first) {
             (Truth::Hit { lo, hi }, first) => {
@@ -46,7 +46,11 @@ fn brackets_agree_with_all_pairs_at_many_times() {
                 );
                 assert!(referee.distance(&query, hi).upper < 1e-10, "{round}");
                 // Contact is visible shortly afterwards in plain floats.
-                assert!((1..40).any(|k| meet(&meshes, [&a, &b], hi + 1e-9 * 1.3_f64.powi(k))));
+                assert!((1..40).any(|k| meshes_pierce(
+                    &meshes,
+                    [&a, &b],
+                    hi + 1e-9 * 1.3_f64.powi(k)
+                )));
             }
             (Truth::Free, None) => free += 1,
             (Truth::Start, Some(0.0)) => initial += 1,
@@ -60,7 +64,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
 }
 
 /// Returns true if an edge of any triangle passes through another one, by the engine's own poses.
-fn meet(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
+fn meshes_pierce(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
     let placed = [0, 1].map(|body| {
         let pose = motions[body].pose(time);
         let mesh = &meshes[body];

@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
 /// `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
-    let hull = Growing::hull_of_all(points, simplex);
+    let hull = HullBuilder::hull_of_all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_on_hull);
     left.map(|facet| facet.corners).collect()
 }
@@ -23,7 +23,7 @@ fn hash(v: u32) -> u32 {
 }
 
 /// The largest capacity of a point list that is kept for reuse.
-const REUSED_CAPACITY: usize = 64;
+const MAX_REUSED_CAPACITY: usize = 64;
 
 /// The index that stands for no facet and no point.
 const NONE: u32 = u32::MAX;
@@ -34,13 +34,13 @@ struct Facet {
     /// The indices of the adjacent facets. The first is across the edge from the first corner to the second.
     adjacent: [u32; 3],
     /// The points that see the facet and are not inserted yet.
-    seen_by: Vec<u32>,
+    conflict_points: Vec<u32>,
     is_on_hull: bool,
     /// The last point that was tested against the facet, and whether it sees it.
     last_test: (u32, bool),
 }
 
-struct Growing<'a> {
+struct HullBuilder<'a> {
     points: LocalPoints<'a>,
     /// Empty point lists for reuse.
     spare: Vec<Vec<u32>>,
@@ -50,22 +50,22 @@ struct Growing<'a> {
     /// By point, the last facet that the point was tested against.
     last_tested: Vec<u32>,
     /// By point, the new facet whose horizon edge starts there.
-    facet_at_rim_start: Vec<u32>,
+    facet_at_horizon_start: Vec<u32>,
 }
 
 /// A horizon edge, which bounds the visible part of the hull: its ends, the hidden facet, and the visible facet.
-struct RimEdge {
+struct HorizonEdge {
     ends: [u32; 2],
     beyond: u32,
     seen: u32,
 }
 
-impl<'a> Growing<'a> {
+impl<'a> HullBuilder<'a> {
     fn hull_of_all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         order.sort_unstable_by_key(|&v| (hash(v).leading_zeros(), v));
         order.reverse();
-        let mut hull = Growing::new(points, simplex, &order);
+        let mut hull = HullBuilder::new(points, simplex, &order);
         for v in order {
             hull.insert(v);
         }
@@ -73,13 +73,13 @@ impl<'a> Growing<'a> {
     }
 
     fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4], order: &[u32]) -> Self {
-        let mut hull = Growing {
+        let mut hull = HullBuilder {
             points: LocalPoints::new(points),
             spare: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
             visible_facet: vec![NONE; points.len()],
             last_tested: vec![NONE; points.len()],
-            facet_at_rim_start: vec![NONE; points.len()],
+            facet_at_horizon_start: vec![NONE; points.len()],
         };
         hull.push([a, b, c], [1, 2, 3], order);
         hull.push([b, a, d], [0, 3, 2], order);
@@ -108,7 +108,7 @@ impl<'a> Growing<'a> {
             corners,
             plane,
             adjacent,
-            seen_by,
+            conflict_points: seen_by,
             is_on_hull: true,
             last_test: (NONE, false),
         });
@@ -123,17 +123,17 @@ impl<'a> Growing<'a> {
         let (removed, rim) = self.remove_visible(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
-            self.facet_at_rim_start[edge.ends[0] as usize] = k;
+            self.facet_at_horizon_start[edge.ends[0] as usize] = k;
         }
         let mut candidates = Vec::new();
         for (k, edge) in (base..).zip(&rim) {
             let [a, b] = edge.ends;
             candidates.clear();
             for facet in [edge.seen, edge.beyond] {
-                candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
+                candidates.extend_from_slice(&self.facets[facet as usize].conflict_points);
             }
             // The previous facet is set once all are added.
-            let adjacent = [edge.beyond, self.facet_at_rim_start[b as usize], NONE];
+            let adjacent = [edge.beyond, self.facet_at_horizon_start[b as usize], NONE];
             self.push([a, b, v], adjacent, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
@@ -145,8 +145,8 @@ impl<'a> Growing<'a> {
             self.facets[after as usize].adjacent[2] = k;
         }
         for facet in removed {
-            let mut seen_by = std::mem::take(&mut self.facets[facet as usize].seen_by);
-            if seen_by.capacity() <= REUSED_CAPACITY {
+            let mut seen_by = std::mem::take(&mut self.facets[facet as usize].conflict_points);
+            if seen_by.capacity() <= MAX_REUSED_CAPACITY {
                 seen_by.clear();
                 self.spare.push(seen_by);
             }
@@ -155,7 +155,7 @@ impl<'a> Growing<'a> {
 
     /// Removes the facets that the point `v` sees, which are connected over edges from `first`. Returns them with
     /// their horizon edges.
-    fn remove_visible(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
+    fn remove_visible(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<HorizonEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_on_hull = false;
         let mut at = 0;
@@ -175,7 +175,7 @@ impl<'a> Growing<'a> {
                     removed.push(beyond);
                 } else {
                     let ends = [corners[k], corners[(k + 1) % 3]];
-                    rim.push(RimEdge { ends, beyond, seen });
+                    rim.push(HorizonEdge { ends, beyond, seen });
                 }
             }
         }

@@ -17,12 +17,12 @@ fn the_identity_keeps_all_bits() {
 fn maps_follow_each_other() {
     let turned = AffineMap::from(Pose::new([1.0, 0.0, 0.0], DQuat::from_rotation_z(1.0)).unwrap());
     let stretched = AffineMap::from(DAffine3::from_scale(dvec3(2.0, 3.0, -1.0)));
-    let both = turned.after(&stretched);
+    let both = turned.compose_after(&stretched);
     let point = dvec3(0.3, -0.7, 2.0);
     let expected = turned.apply(stretched.apply(point));
     assert!(both.apply(point).distance(expected) < 1e-15);
-    assert_eq!(turned.after(&AffineMap::IDENTITY), turned);
-    assert_eq!(AffineMap::IDENTITY.after(&turned), turned);
+    assert_eq!(turned.compose_after(&AffineMap::IDENTITY), turned);
+    assert_eq!(AffineMap::IDENTITY.compose_after(&turned), turned);
     assert!(both.mirrors() && !turned.mirrors());
 }
 

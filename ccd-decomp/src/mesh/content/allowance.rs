@@ -1,7 +1,7 @@
 //! The budget for the expansion of a file: it limits how much a few bytes can produce by repeated references.
 
 use crate::mesh::error::MeshFault;
-use crate::tolerance::{EXPANSION_BASE, EXPANSION_MAX, EXPANSION_PER_BYTE, VERTEX_COST};
+use crate::tolerance::{EXPANSION_BASE, EXPANSION_PER_BYTE, MAX_EXPANSION, VERTEX_COST};
 
 /// The remaining budget of elements that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ impl Allowance {
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);
         let repeated = EXPANSION_BASE.saturating_add(bytes.saturating_mul(EXPANSION_PER_BYTE));
-        let limit = once.saturating_add(repeated.min(EXPANSION_MAX));
+        let limit = once.saturating_add(repeated.min(MAX_EXPANSION));
         Allowance {
             remaining: limit,
             limit,

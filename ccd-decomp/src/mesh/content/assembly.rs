@@ -83,7 +83,7 @@ impl Assembly {
             append_image(&mut all, shape, &map);
             waiting.extend(members.iter().rev().map(|member| PlacedObject {
                 object: member.object,
-                map: map.after(&member.map),
+                map: map.compose_after(&member.map),
             }));
         }
         Ok(all)

@@ -10,7 +10,7 @@ use std::ops::Range;
 pub(crate) struct Groups {
     pub(crate) names: Vec<Option<String>>,
     /// By face, the number of its group; empty if all faces are in the first group.
-    pub(crate) of_face: Vec<u32>,
+    pub(crate) group_of_face: Vec<u32>,
 }
 
 impl Groups {
@@ -18,7 +18,7 @@ impl Groups {
     pub(crate) fn single() -> Self {
         Groups {
             names: vec![None],
-            of_face: Vec::new(),
+            group_of_face: Vec::new(),
         }
     }
 
@@ -32,7 +32,7 @@ impl Groups {
         list.check_corners()?;
         let mut faces = vec![Vec::new(); self.names.len()];
         for face in 0..list.ends.len() {
-            let group = self.of_face.get(face).copied().unwrap_or(0);
+            let group = self.group_of_face.get(face).copied().unwrap_or(0);
             faces[group as usize].push(face);
         }
         let mut numbers = vec![0; list.vertices.len()];

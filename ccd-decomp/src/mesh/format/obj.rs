@@ -190,7 +190,10 @@ impl Labels {
     }
 
     fn add_face(&mut self) {
-        let Groups { names, of_face } = &mut self.groups;
+        let Groups {
+            names,
+            group_of_face: of_face,
+        } = &mut self.groups;
         let number = match self.numbers.get(&self.current) {
             Some(&number) => number,
             None => {

@@ -48,7 +48,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
             }
         }
     }
-    check_end(reader.get_ref())?;
+    check_no_trailing_bytes(reader.get_ref())?;
     if header.encoding == Encoding::Ascii {
         check_lines(payload, first_line, &header)?;
     }
@@ -70,9 +70,11 @@ fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
 
 /// Converts lone carriage returns to line feeds, except in a binary payload.
 fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
-    const END: &[u8] = b"end_header\r";
-    let end = bytes.windows(END.len()).position(|window| window == END);
-    match (bytes, end.map(|end| end + END.len())) {
+    const END_HEADER: &[u8] = b"end_header\r";
+    let end = bytes
+        .windows(END_HEADER.len())
+        .position(|window| window == END_HEADER);
+    match (bytes, end.map(|end| end + END_HEADER.len())) {
         ([b'p', b'l', b'y', b'\r', next, ..], Some(end)) if *next != b'\n' => {
             let mut header = text::with_line_feeds(bytes[..end].into()).into_owned();
             let is_text = header.windows(12).any(|window| window == b"format ascii");
@@ -118,7 +120,7 @@ fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
 }
 
 /// Checks that the file has no bytes after the last element.
-fn check_end(rest: &[u8]) -> Result<(), MeshFault> {
+fn check_no_trailing_bytes(rest: &[u8]) -> Result<(), MeshFault> {
     if rest.trim_ascii().is_empty() {
         Ok(())
     } else {

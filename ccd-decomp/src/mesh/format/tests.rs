@@ -79,7 +79,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
 #[cfg(feature = "gltf")]
 fn gltf() -> crate::test_files::Gltf {
     let mut gltf = crate::test_files::Gltf::new();
-    let position = gltf.floats(&POINTS);
+    let position = gltf.add_vec3_accessor(&POINTS);
     let indices = gltf.indices(
         FACES
             .as_flattened()
@@ -104,7 +104,7 @@ fn threemf() -> Vec<u8> {
     )])
 }
 
-fn valid() -> Vec<(Format, Vec<u8>)> {
+fn valid_files() -> Vec<(Format, Vec<u8>)> {
     vec![
         (Format::Obj, OBJ.into()),
         (Format::Obj, RICH_OBJ.into()),
@@ -139,7 +139,7 @@ fn all_formats_read_the_same_tetrahedron() {
         .iter()
         .map(|face| face.map(|v| ccd_core::glam::Vec3::from_array(POINTS[v as usize]).as_dvec3()))
         .collect();
-    for (format, bytes) in valid() {
+    for (format, bytes) in valid_files() {
         let mesh = read(format, &bytes).unwrap();
         assert_eq!(corners(&mesh), expected, "{format:?}");
         assert_eq!(mesh.vertices().len(), 4, "{format:?}");
@@ -188,7 +188,7 @@ fn a_byte_order_mark_hides_no_vertex() {
 #[test]
 fn a_pointer_of_git_lfs_is_recognised() {
     let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n";
-    for (format, _) in valid() {
+    for (format, _) in valid_files() {
         let fault = read(format, pointer).unwrap_err();
         assert!(
             matches!(fault, MeshFault::LfsPointer),

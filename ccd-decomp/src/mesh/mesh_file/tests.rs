@@ -1,4 +1,4 @@
-use super::{MeshFile, files_of};
+use super::{MeshFile, source_paths};
 use crate::test_files::Folder;
 use crate::{Format, MeshFault, TriangleMesh, Unit};
 use ccd_core::glam::DVec3;
@@ -123,7 +123,7 @@ fn faults_name_the_file() {
     let file = MeshFile::read(&path).unwrap();
     let error = file.part("top").unwrap_err();
     assert_eq!(error.file.as_deref(), Some(path.as_path()));
-    assert_eq!(files_of(&path).unwrap(), [path.as_path()]);
+    assert_eq!(source_paths(&path).unwrap(), [path.as_path()]);
     let unknown = folder.write("two.gbl", OBJ);
     let message = TriangleMesh::read(unknown).unwrap_err().to_string();
     assert!(message.contains("use .gltf, .glb, .3mf, .obj"), "{message}");
@@ -153,7 +153,7 @@ mod beside {
         let data = folder.write("deep er/data.bin", &gltf.binary);
         let mesh = TriangleMesh::read(&path).unwrap();
         assert_eq!(mesh.vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
-        assert_eq!(files_of(&path).unwrap(), [path.clone(), data.clone()]);
+        assert_eq!(source_paths(&path).unwrap(), [path.clone(), data.clone()]);
         // A truncated buffer file is named as that buffer.
         std::fs::write(&data, &gltf.binary[..35]).unwrap();
         let message = TriangleMesh::read(&path).unwrap_err().to_string();

@@ -12,7 +12,7 @@ fn turn(p: DVec3, q: DVec3, r: DVec3) -> f64 {
 }
 
 /// Returns whether two edges of an outline that are not neighbours meet. Tests all pairs exactly.
-fn meets_itself(points: &[DVec3]) -> bool {
+fn is_self_intersecting(points: &[DVec3]) -> bool {
     let n = points.len();
     let at = |k: usize| points[k % n];
     let between = |p: DVec3, q: DVec3, x: DVec3| {
@@ -53,7 +53,7 @@ fn outlines_are_filled_unless_they_meet_themselves() {
         };
         let points: Vec<DVec3> = radii.iter().enumerate().map(corner).collect();
         let filled = triangulate_outline(&points);
-        if meets_itself(&points) {
+        if is_self_intersecting(&points) {
             assert_eq!(filled, None, "{points:?}");
             crossed += 1;
             continue;

@@ -1,12 +1,12 @@
 use super::*;
 use crate::mesh::TriangleMesh;
-use crate::solid::bounding_solid;
+use crate::solid::solid_surface;
 use crate::test_meshes::{block, cubes, merged_meshes, placed, reversed_faces, tetrahedron};
 use ccd_core::Origin;
 use ccd_core::glam::dvec3;
 
 fn polytope(mesh: &TriangleMesh) -> Result<Polytope, DecomposeError> {
-    convex_polytope(&bounding_solid(mesh)?)
+    convex_polytope(&solid_surface(mesh)?)
 }
 
 #[test]

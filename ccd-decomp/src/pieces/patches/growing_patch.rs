@@ -6,9 +6,9 @@ use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
 use crate::search::region::Region;
-use crate::solid::flats::Flats;
+use crate::solid::flats::ConvexPolygons;
 use crate::solid::manifold::Manifold;
-use crate::tolerance::PATCH_CORNERS;
+use crate::tolerance::MAX_PATCH_CORNERS;
 use crate::work::Work;
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
@@ -24,7 +24,7 @@ pub(super) struct GrowingPatch {
 
 /// The result of an attempt to add a polygon to a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Join {
+pub(super) enum JoinResult {
     Joined,
     /// The polygon can never join the patch.
     Refused,
@@ -33,7 +33,7 @@ pub(super) enum Join {
 }
 
 impl GrowingPatch {
-    pub(super) fn new(flats: &Flats, seed: u32) -> Self {
+    pub(super) fn new(flats: &ConvexPolygons, seed: u32) -> Self {
         GrowingPatch {
             flats: vec![seed],
             hull: ExactHull::from_polygon(&flats.get(seed).corners),
@@ -58,20 +58,20 @@ impl GrowingPatch {
     pub(super) fn join(
         &mut self,
         manifold: &Manifold<'_>,
-        flats: &Flats,
+        flats: &ConvexPolygons,
         flat: u32,
         work: &Work,
-    ) -> Join {
+    ) -> JoinResult {
         let points = manifold.mesh().vertices();
-        if self.hull.corners().len() + flats.get(flat).corners.len() > PATCH_CORNERS {
-            return Join::Refused;
+        if self.hull.corners().len() + flats.get(flat).corners.len() > MAX_PATCH_CORNERS {
+            return JoinResult::Refused;
         }
         let plane = |f: u32| manifold.faces()[flats.get(f).faces[0] as usize];
         // The hull so far must lie behind the polygon, …
         match self.side_of_highest_corner(points, plane(flat)) {
-            Ordering::Greater => return Join::Refused,
+            Ordering::Greater => return JoinResult::Refused,
             Ordering::Equal if !self.has_volume && self.is_hull_in_plane(points, plane(flat)) => {
-                return Join::InPlane;
+                return JoinResult::InPlane;
             }
             _ => {}
         }
@@ -83,7 +83,7 @@ impl GrowingPatch {
             self.flats.iter().any(sees)
         };
         if new.iter().any(in_front) {
-            return Join::Refused;
+            return JoinResult::Refused;
         }
         if !self.has_volume {
             // The first point has to be off the plane.
@@ -107,13 +107,13 @@ impl GrowingPatch {
             let corners = hull.corners().iter().map(|&v| points[v as usize]);
             let near = Region::inside(corners.collect(), facets.collect(), changed);
             if !manifold.boxes().all_meeting(&near, work, is_apart) {
-                return Join::Refused;
+                return JoinResult::Refused;
             }
             self.hull = hull;
             self.has_volume = true;
         }
         self.flats.push(flat);
-        Join::Joined
+        JoinResult::Joined
     }
 
     /// Compares the highest corner of the hull above a plane to the plane: in front, on or behind.

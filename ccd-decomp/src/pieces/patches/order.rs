@@ -1,6 +1,6 @@
 //! The order in which patches start and grow.
 
-use crate::solid::flats::Flats;
+use crate::solid::flats::ConvexPolygons;
 use crate::solid::manifold::{Dihedral, Manifold};
 use std::collections::VecDeque;
 
@@ -17,7 +17,11 @@ pub enum Order {
 }
 
 /// Returns all polygons in the order in which they may start a patch.
-pub(super) fn seed_order(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
+pub(super) fn seed_order(
+    manifold: &Manifold<'_>,
+    flats: &ConvexPolygons,
+    order: Order,
+) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == Order::Cresting {
         let height = steps_to_reflex(manifold, flats);
@@ -27,7 +31,7 @@ pub(super) fn seed_order(manifold: &Manifold<'_>, flats: &Flats, order: Order) -
 }
 
 /// Returns, for each polygon, the number of steps to a polygon with a reflex edge; `u32::MAX` if there is none.
-fn steps_to_reflex(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
+fn steps_to_reflex(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();
     for flat in 0..flats.len() as u32 {

@@ -3,7 +3,7 @@
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
 use crate::pieces::polytope::{CoveredFacet, polytope};
-use crate::solid::flats::{Flat, Flats};
+use crate::solid::flats::{ConvexPolygons, Flat};
 use crate::solid::manifold::Manifold;
 use ccd_core::glam::DVec3;
 use ccd_core::{Origin, Polytope};
@@ -21,7 +21,11 @@ pub struct Patch {
 }
 
 impl Patch {
-    pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &GrowingPatch) -> Self {
+    pub(super) fn new(
+        manifold: &Manifold<'_>,
+        flats: &ConvexPolygons,
+        region: &GrowingPatch,
+    ) -> Self {
         let members: Vec<&Flat> = region.flats.iter().map(|&f| flats.get(f)).collect();
         let mut faces: Vec<u32> = members
             .iter()

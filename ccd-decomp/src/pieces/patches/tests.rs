@@ -1,9 +1,9 @@
 use super::*;
-use crate::solid::bounding_solid;
+use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, placed, prism, prism_under_prism, reversed_faces, star, teeth,
-    tetrahedron,
+    block, cubes, merged_meshes, placed, prism, prism_under_prism, reversed_faces, star,
+    tetrahedron, toothed_disc_outline,
 };
 use ccd_core::Origin;
 use ccd_core::glam::DVec3;
@@ -97,7 +97,7 @@ fn the_same_mesh_gives_the_same_patches() {
 }
 
 /// Returns the winding number of a surface about a point, by the solid angles of its triangles.
-fn winding(mesh: &TriangleMesh, point: DVec3) -> f64 {
+fn winding_number(mesh: &TriangleMesh, point: DVec3) -> f64 {
     let angle = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| mesh.vertices()[v as usize] - point);
         let [x, y, z] = [a, b, c].map(DVec3::length);
@@ -125,7 +125,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
 #[rstest]
 #[case::prism_under_prism(prism_under_prism(12), 2)]
 #[case::star(star(9, 0.4), 4)]
-#[case::teeth(prism(&teeth(7)), 7)]
+#[case::teeth(prism(&toothed_disc_outline(7)), 7)]
 #[case::stairs(cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]), 4)]
 #[case::ring(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]]), 4)]
 #[case::wide_and_narrow(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [1, 0, 1], [2, 0, 1], [2, 0, 2], [2, 1, 2]]), 3)]
@@ -140,7 +140,7 @@ fn patches_are_few_and_within_the_solid(#[case] mesh: TriangleMesh, #[case] coun
                 continue;
             }
             for point in inner_points(&patch.polytope.points) {
-                let winding = winding(&mesh, point);
+                let winding = winding_number(&mesh, point);
                 assert!(winding > 0.9, "{order:?}: {point} of {patch:?}, {winding}");
             }
             thick += 1;
@@ -152,7 +152,7 @@ fn patches_are_few_and_within_the_solid(#[case] mesh: TriangleMesh, #[case] coun
 /// Tests that a patch stops at the maximum number of polygons, on the flank of a cone on a disc.
 #[test]
 fn patches_are_capped() {
-    let count = 4 * PATCH_POLYGONS as u32;
+    let count = 4 * MAX_PATCH_POLYGONS as u32;
     let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(count);
     let rim = |radius: f64, z: f64| {
         (0..count).map(move |k| DVec3::new(radius * angle(k).cos(), radius * angle(k).sin(), z))
@@ -184,13 +184,13 @@ fn patches_are_capped() {
     let decomposition = decompose(&cone, Order::Cresting).unwrap();
     check(&cone, &decomposition);
     let largest = decomposition.patches.iter().map(|p| p.faces.len()).max();
-    assert!(largest >= Some(PATCH_POLYGONS), "{largest:?}");
+    assert!(largest >= Some(MAX_PATCH_POLYGONS), "{largest:?}");
     let flank = |f: u32| f.is_multiple_of(6);
     let of_flank = decomposition.patches.iter().filter(|p| flank(p.faces[0]));
     let most = of_flank
         .map(|p| p.faces.iter().filter(|&&f| flank(f)).count())
         .max();
-    assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
+    assert!(most <= Some(MAX_PATCH_POLYGONS), "{most:?}");
 }
 
 /// Tests that the work is linear in the number of patches, all of which meet in two apices.
@@ -198,10 +198,10 @@ fn patches_are_capped() {
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
         let mesh = star(corners, 0.5);
-        let manifold = bounding_solid(&mesh).unwrap();
-        let flats = Flats::new(&manifold);
+        let manifold = solid_surface(&mesh).unwrap();
+        let flats = ConvexPolygons::new(&manifold);
         let work = Work::with_steps(1_000 * u64::from(corners));
-        let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
+        let decomposition = decompose_polygons(&manifold, &flats, Order::default(), &work).unwrap();
         check(&mesh, &decomposition);
         assert_eq!(decomposition.patches.len(), corners as usize / 2);
     }
@@ -211,12 +211,15 @@ fn patches_of_slivers_take_linear_work() {
 #[test]
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {
-        for mesh in [prism(&teeth(count)), prism_under_prism(count)] {
+        for mesh in [
+            prism(&toothed_disc_outline(count)),
+            prism_under_prism(count),
+        ] {
             let manifold =
                 Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
             let work = Work::unbounded();
-            let flats = Flats::new(&manifold);
-            let found = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
+            let flats = ConvexPolygons::new(&manifold);
+            let found = decompose_polygons(&manifold, &flats, Order::default(), &work).unwrap();
             check(&mesh, &found);
             let steps = work.steps_spent() / mesh.faces().len() as u64;
             assert!(steps < 8_000, "{count}: {steps}");

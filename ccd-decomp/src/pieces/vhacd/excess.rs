@@ -4,7 +4,7 @@ mod part_planes;
 mod under;
 
 use super::target::{Location, Target};
-use crate::tolerance::{EXCESS_BOXES, EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
+use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK, MAX_EXCESS_BOXES};
 use crate::work::Work;
 use ccd_core::Hull;
 use ccd_core::glam::{BVec3, DVec3};
@@ -45,7 +45,7 @@ pub(super) fn excess_bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
 const SAMPLED_CORNERS: usize = 256;
 
 /// The number of boxes that are split in parallel.
-const BATCH: usize = 16;
+const BOXES_PER_BATCH: usize = 16;
 
 /// The number of plane tests that cost as much as a triangle test, one step of work.
 const PLANES_PER_STEP: usize = 16;
@@ -115,7 +115,7 @@ impl Search<'_> {
             EXCESS_RATIO * self.largest_distance,
             self.largest_distance + floor,
         );
-        let worst: Vec<BoundedBox> = (0..BATCH)
+        let worst: Vec<BoundedBox> = (0..BOXES_PER_BATCH)
             .map_while(|_| {
                 let worst = self.waiting.last_entry()?;
                 (worst.get().bound > target).then(|| worst.remove())
@@ -132,7 +132,7 @@ impl Search<'_> {
         examined
             .into_iter()
             .for_each(|examined| self.record(examined));
-        !worst.is_empty() && self.steps_spent < EXCESS_WORK && self.waiting.len() < EXCESS_BOXES
+        !worst.is_empty() && self.steps_spent < EXCESS_WORK && self.waiting.len() < MAX_EXCESS_BOXES
     }
 
     fn record(&mut self, examined: Examined) {

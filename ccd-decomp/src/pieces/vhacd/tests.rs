@@ -31,7 +31,7 @@ fn cube(lo: DVec3, hi: DVec3) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     )
 }
 
-fn cubes(boxes: &[[DVec3; 2]]) -> TriangleMesh {
+fn box_mesh(boxes: &[[DVec3; 2]]) -> TriangleMesh {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for &[lo, hi] in boxes {
         let base = vertices.len() as u32;
@@ -145,7 +145,7 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
 }
 
 /// Returns whether a point is in a polytope, or at most the distance `way` from it.
-fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
+fn is_within(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     let at = |v: u32| polytope.points[v as usize];
     let fan = |f: &Facet| -> Vec<_> {
         f.corners[1..]
@@ -160,7 +160,7 @@ fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     inside || distance(&fans.concat(), point) <= way
 }
 
-fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdError> {
+fn approximate_mesh(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdError> {
     approximate(mesh, &Topology::of(mesh), hulls)
 }
 
@@ -170,19 +170,19 @@ fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdE
 #[case::comb(crate::test_meshes::comb(&[5.0; 40]), 8)]
 #[case::torus(torus(24, 12, 0.3), 8)]
 #[case::thin_torus(torus(48, 8, 0.05), 16)]
-#[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 12)]
-#[case::two(cubes(&[cubic(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]), 4)]
+#[case::hollow(box_mesh(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 12)]
+#[case::two(box_mesh(&[cubic(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]), 4)]
 #[case::sheet(sheet(), 8)]
-#[case::far_off(far_off(), 8)]
+#[case::far_off(distant_torus(), 8)]
 fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
-    let found = approximated(&mesh, hulls).expect("an approximation");
+    let found = approximate_mesh(&mesh, hulls).expect("an approximation");
     assert!((1..=hulls as usize).contains(&found.polytopes.len()));
     let size = mesh
         .vertices()
         .iter()
         .map(|p| p.abs().max_element())
         .fold(0.0, greater);
-    assert!(found.uncovered <= 1e-12 * size);
+    assert!(found.uncovered_bound <= 1e-12 * size);
     let mut next = noise();
     let closed = crate::Topology::of(&mesh).is_closed();
     let [lo, hi] = Target::new(&mesh, &Topology::of(&mesh)).bounds();
@@ -201,7 +201,7 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
         .collect();
     samples.extend(in_box);
     for point in samples {
-        let covers = |p: &Polytope| is_in(p, point, found.uncovered);
+        let covers = |p: &Polytope| is_within(p, point, found.uncovered_bound);
         assert!(found.polytopes.iter().any(covers), "{point} is outside");
     }
     let mut farthest = 0.0_f64;
@@ -216,13 +216,13 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
         }
     }
     assert!(
-        farthest <= found.sticks_out,
+        farthest <= found.excess_bound,
         "{farthest} > {}",
-        found.sticks_out
+        found.excess_bound
     );
 }
 
-fn far_off() -> TriangleMesh {
+fn distant_torus() -> TriangleMesh {
     let torus = torus(24, 12, 0.3);
     let moved: Vec<DVec3> = torus
         .vertices()
@@ -236,16 +236,16 @@ fn far_off() -> TriangleMesh {
 /// mouths, or a cavity, whose farthest point is its centre.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
-#[case::cavity(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
+#[case::cavity(box_mesh(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
 #[case::prism(l_shape(), 0.5)]
 fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
-    let found = approximated(&mesh, 1).expect("an approximation");
+    let found = approximate_mesh(&mesh, 1).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
-    let ratio = found.sticks_out / expected;
+    let ratio = found.excess_bound / expected;
     assert!(
         (1.0 - 2e-3..1.02).contains(&ratio),
         "{} for {expected}",
-        found.sticks_out
+        found.excess_bound
     );
 }
 
@@ -254,8 +254,8 @@ fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
 #[case(2)]
 #[case(7)]
 fn a_box_is_approximated_exactly(#[case] hulls: u32) {
-    let found = approximated(&cubes(&[cubic(1.0)]), hulls).expect("an approximation");
-    assert!(found.sticks_out < 1e-6, "{}", found.sticks_out);
+    let found = approximate_mesh(&box_mesh(&[cubic(1.0)]), hulls).expect("an approximation");
+    assert!(found.excess_bound < 1e-6, "{}", found.excess_bound);
     if hulls == 1 {
         assert_eq!(found.polytopes[0].facets.len(), 6);
         assert_eq!(found.polytopes[0].points.len(), 8);
@@ -265,39 +265,40 @@ fn a_box_is_approximated_exactly(#[case] hulls: u32) {
 #[test]
 fn more_hulls_stick_out_less() {
     let mesh = torus(48, 16, 0.2);
-    let errors = [1, 4, 16, 64].map(|hulls| approximated(&mesh, hulls).expect("hulls").sticks_out);
+    let errors =
+        [1, 4, 16, 64].map(|hulls| approximate_mesh(&mesh, hulls).expect("hulls").excess_bound);
     assert!(errors.windows(2).all(|e| e[1] < 0.6 * e[0]), "{errors:?}");
 }
 
 #[test]
 fn the_same_twice() {
     let mesh = torus(24, 12, 0.3);
-    let [one, other] = [(); 2].map(|()| approximated(&mesh, 8).expect("hulls"));
+    let [one, other] = [(); 2].map(|()| approximate_mesh(&mesh, 8).expect("hulls"));
     assert_eq!(one.polytopes, other.polytopes);
-    assert_eq!(one.sticks_out, other.sticks_out);
+    assert_eq!(one.excess_bound, other.excess_bound);
 }
 
 #[test]
 fn needles_and_points() {
     let needle = mesh(&[DVec3::ZERO, DVec3::X, 2.0 * DVec3::X], &[[0, 1, 2]]);
-    let found = approximated(&needle, 1).expect("a segment");
+    let found = approximate_mesh(&needle, 1).expect("a segment");
     assert_eq!(found.polytopes[0].points, [DVec3::ZERO, 2.0 * DVec3::X]);
     assert!(found.polytopes[0].facets.is_empty());
-    let many = approximated(&needle, u32::MAX).expect("segments");
+    let many = approximate_mesh(&needle, u32::MAX).expect("segments");
     assert!(!many.polytopes.is_empty());
 }
 
 #[test]
 fn refusals() {
-    let cube = cubes(&[cubic(1.0)]);
-    assert_eq!(approximated(&cube, 0).err(), Some(VhacdError::NoHulls));
+    let cube = box_mesh(&[cubic(1.0)]);
+    assert_eq!(approximate_mesh(&cube, 0).err(), Some(VhacdError::NoHulls));
     let fine = mesh(&[DVec3::ZERO, DVec3::X, DVec3::splat(1e-95)], &[[0, 1, 2]]);
     assert_eq!(
-        approximated(&fine, 4).err(),
+        approximate_mesh(&fine, 4).err(),
         Some(VhacdError::TooFine { vertex: 2 })
     );
-    let apart = cubes(&[cubic(1.0), [DVec3::splat(9.0), DVec3::splat(10.0)]]);
-    let error = approximated(&apart, 1).err();
+    let apart = box_mesh(&[cubic(1.0), [DVec3::splat(9.0), DVec3::splat(10.0)]]);
+    let error = approximate_mesh(&apart, 1).err();
     assert!(
         matches!(error, Some(VhacdError::TooCoarse { .. })),
         "{error:?}"
@@ -308,8 +309,8 @@ fn refusals() {
 #[rstest]
 #[case::prism(l_shape())]
 #[case::torus(torus(8, 4, 0.5))]
-#[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
-#[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
+#[case::hollow(box_mesh(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
+#[case::inside_out(box_mesh(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn places(#[case] mesh: TriangleMesh) {
     let (target, surface) = (Target::new(&mesh, &Topology::of(&mesh)), triangles(&mesh));
     for k in 0..21 * 21 * 21 {
@@ -334,8 +335,8 @@ fn places(#[case] mesh: TriangleMesh) {
 #[test]
 fn a_convex_solid_is_one_hull() {
     let cones = crate::test_meshes::star(400, 1.0);
-    let found = approximated(&cones, 32).expect("an approximation");
+    let found = approximate_mesh(&cones, 32).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
     assert_eq!(found.polytopes[0].points.len(), 402);
-    assert!(found.sticks_out < 1e-6, "{}", found.sticks_out);
+    assert!(found.excess_bound < 1e-6, "{}", found.excess_bound);
 }

@@ -1,11 +1,11 @@
 use super::*;
-use crate::solid::bounding_solid;
 use crate::solid::manifold::Dihedral;
+use crate::solid::solid_surface;
 use crate::test_meshes::{block, cubes, merged_meshes, placed, tetrahedron};
 use crate::tolerance::AUTO_WORK;
 use ccd_core::glam::DVec3;
 
-fn why(mesh: &TriangleMesh) -> Why {
+fn chosen_reason(mesh: &TriangleMesh) -> Why {
     let (parts, why) = choose(mesh, &Topology::of(mesh), &Work::with_steps(AUTO_WORK));
     let fits = match why {
         Why::Convex => matches!(parts, Parts::Hull(_)),
@@ -18,8 +18,8 @@ fn why(mesh: &TriangleMesh) -> Why {
 
 #[test]
 fn convex_solids_are_hulls() {
-    assert_eq!(why(&tetrahedron()), Why::Convex);
-    assert_eq!(why(&cubes(&block([3, 3, 3]))), Why::Convex);
+    assert_eq!(chosen_reason(&tetrahedron()), Why::Convex);
+    assert_eq!(chosen_reason(&cubes(&block([3, 3, 3]))), Why::Convex);
 }
 
 /// Tests that a solid with large planar parts becomes patches if these have many triangles, and stays triangles if
@@ -27,14 +27,14 @@ fn convex_solids_are_hulls() {
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
-    assert!(matches!(why(&coarse), Why::TrianglesFaster(_)));
+    assert!(matches!(chosen_reason(&coarse), Why::TrianglesFaster(_)));
     let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let fine = cubes(&cells.collect::<Vec<_>>());
     assert!(
-        matches!(why(&fine), Why::PatchesFaster(_)),
+        matches!(chosen_reason(&fine), Why::PatchesFaster(_)),
         "{}",
-        why(&fine)
+        chosen_reason(&fine)
     );
 }
 
@@ -46,7 +46,7 @@ fn the_largest_plane_is_found_whole() {
         .filter(|c| *c != [2, 0, 1])
         .collect();
     let mesh = cubes(&cells);
-    let manifold = bounding_solid(&mesh).unwrap();
+    let manifold = solid_surface(&mesh).unwrap();
     let plane = RegionMerger::merge_all(&manifold).largest_planar_region();
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
@@ -54,7 +54,7 @@ fn the_largest_plane_is_found_whole() {
 
 /// Returns the largest planar part, by a walk over adjacent coplanar polygons.
 fn largest_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
-    let flats = RegionMerger::merge_all(manifold).into_flats();
+    let flats = RegionMerger::merge_all(manifold).into_polygons();
     let mut seen = vec![false; flats.len()];
     let mut largest = PlanarRegion::default();
     for seed in 0..flats.len() as u32 {
@@ -89,7 +89,7 @@ fn the_largest_plane_is_that_of_a_walk() {
         tetrahedron(),
     ];
     for mesh in &solids {
-        let manifold = bounding_solid(mesh).unwrap();
+        let manifold = solid_surface(mesh).unwrap();
         let plane = RegionMerger::merge_all(&manifold).largest_planar_region();
         assert_eq!(plane, largest_by_walk(&manifold));
     }
@@ -100,11 +100,11 @@ fn meshes_without_a_solid_stay_triangles() {
     let one = tetrahedron();
     let pierced = merged_meshes(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
     assert!(matches!(
-        why(&pierced),
+        chosen_reason(&pierced),
         Why::TrianglesFaster(_) | Why::NothingElse(_)
     ));
     let open = crate::test_meshes::mesh(one.vertices().to_vec(), &one.faces()[1..]);
-    let Why::NothingElse(error) = why(&open) else {
+    let Why::NothingElse(error) = chosen_reason(&open) else {
         panic!("an open mesh bounds no solid");
     };
     assert!(error.to_string().contains("edges with one face"));
@@ -137,7 +137,7 @@ fn folded_meshes_stay_triangles() {
         &merged_meshes(&[&solid, &two]),
     ] {
         assert!(matches!(
-            why(mesh),
+            chosen_reason(mesh),
             Why::TrianglesFaster(_) | Why::NothingElse(_)
         ));
     }

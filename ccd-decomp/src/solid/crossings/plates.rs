@@ -4,9 +4,9 @@ use crate::bounds::{Bounds, BoundsTree};
 use crate::exact::predicates::{Projection, side};
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
-use crate::solid::flats::{Flat, Flats};
+use crate::solid::flats::{ConvexPolygons, Flat};
 use crate::solid::manifold::Manifold;
-use crate::tolerance::FAN_TRIANGLES;
+use crate::tolerance::MIN_FAN_TRIANGLES;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
@@ -64,10 +64,10 @@ impl<'a, 'm> Plates<'a, 'm> {
         for &v in manifold.faces().iter().flatten() {
             count[v as usize] += 1;
         }
-        if count.iter().all(|&about| about < FAN_TRIANGLES) {
+        if count.iter().all(|&about| about < MIN_FAN_TRIANGLES) {
             return None;
         }
-        let flats = Flats::new(manifold);
+        let flats = ConvexPolygons::new(manifold);
         let mut plates = Vec::new();
         let mut plate_of = vec![NONE; manifold.faces().len()];
         for number in 0..flats.len() as u32 {
@@ -180,14 +180,14 @@ impl<'a, 'm> Plates<'a, 'm> {
 
 /// Returns whether many of these faces have a common vertex.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
-    if faces.len() < FAN_TRIANGLES as usize {
+    if faces.len() < MIN_FAN_TRIANGLES as usize {
         return false;
     }
     let corners = faces.iter().flat_map(|&f| manifold.faces()[f as usize]);
     let mut corners: Vec<u32> = corners.collect();
     corners.sort_unstable();
     let mut about = corners.chunk_by(|v, w| v == w);
-    about.any(|about| about.len() >= FAN_TRIANGLES as usize)
+    about.any(|about| about.len() >= MIN_FAN_TRIANGLES as usize)
 }
 
 impl Plate {

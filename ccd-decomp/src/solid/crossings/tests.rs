@@ -3,9 +3,10 @@ use crate::solid::error::Crossing;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
-use crate::solid::{bounding_solid, check_solid};
+use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{
-    comb, cubes, merged_meshes, mesh, placed, prism, prism_under_prism, teeth, tetrahedron,
+    comb, cubes, merged_meshes, mesh, placed, prism, prism_under_prism, tetrahedron,
+    toothed_disc_outline,
 };
 use crate::tolerance::MAX_CROSSINGS;
 use crate::work::Work;
@@ -19,7 +20,7 @@ use rstest::rstest;
 fn meet_outside_shared_corners(offset: DVec3) -> bool {
     let solid = tetrahedron();
     let both = merged_meshes(&[&solid, &placed(&solid, 1.0, offset)]);
-    match bounding_solid(&both).map(|_| ()) {
+    match solid_surface(&both).map(|_| ()) {
         Ok(()) => false,
         Err(DecomposeError::SelfIntersecting { pairs }) => {
             let across = |pair: &Crossing| pair.face < 4 && pair.other >= 4;
@@ -52,7 +53,7 @@ fn a_shared_corner_is_no_intersection() {
     let inside = placed(&solid, 0.5, DVec3::ZERO);
     let nested = merged_meshes(&[&solid, &inside]);
     assert!(matches!(
-        bounding_solid(&nested).err(),
+        solid_surface(&nested).err(),
         Some(DecomposeError::SelfIntersecting { .. } | DecomposeError::NotManifold { .. })
     ));
 }
@@ -67,7 +68,7 @@ fn a_fold_is_found() {
         dvec3(0.5, 0.5, 0.0),
     ];
     let folded = mesh(vertices, &[[0, 1, 2], [0, 2, 3], [2, 1, 3], [1, 0, 3]]);
-    let error = bounding_solid(&folded).err();
+    let error = solid_surface(&folded).err();
     assert!(
         matches!(error, Some(DecomposeError::SelfIntersecting { .. })),
         "{error:?}"
@@ -80,7 +81,7 @@ fn a_two_sided_sheet_is_found() {
         vec![DVec3::ZERO, DVec3::X, DVec3::Y],
         &[[0, 1, 2], [0, 2, 1]],
     );
-    let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&sheet).map(|_| ()) else {
+    let Err(DecomposeError::SelfIntersecting { pairs }) = solid_surface(&sheet).map(|_| ()) else {
         panic!("it holds no volume");
     };
     assert_eq!(pairs.first(), [Crossing { face: 0, other: 1 }]);
@@ -96,7 +97,7 @@ fn stairs_do_not_meet_themselves() {
         [2, 0, 1],
         [2, 0, 2],
     ]);
-    assert!(bounding_solid(&stairs).is_ok());
+    assert!(solid_surface(&stairs).is_ok());
 }
 
 /// Tests that the work grows with the number of triangles, not with the square of those about one vertex.
@@ -133,7 +134,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
-        let leaning = steps_per_face(&prism(&teeth(count)));
+        let leaning = steps_per_face(&prism(&toothed_disc_outline(count)));
         let step = steps_per_face(&prism_under_prism(count));
         let upright = steps_per_face(&comb(&vec![5.0; count as usize]));
         let steps = [leaning, step, upright];
@@ -204,7 +205,7 @@ fn crossings_are_counted_up_to_a_thousand() {
         outline.extend(corners.map(|(x, y)| dvec3(x, y, 0.0)));
     }
     let mesh = prism(&outline);
-    let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&mesh).map(|_| ()) else {
+    let Err(DecomposeError::SelfIntersecting { pairs }) = solid_surface(&mesh).map(|_| ()) else {
         panic!("overlapping fans");
     };
     assert_eq!(pairs.count(), MAX_CROSSINGS);

@@ -1,14 +1,14 @@
 use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::topology::Topology;
-use crate::solid::{bounding_solid, check_solid};
+use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{block, cubes, merged_meshes, mesh, placed, tetrahedron};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-fn flats(mesh: &TriangleMesh) -> Flats {
-    Flats::new(&bounding_solid(mesh).unwrap())
+fn flats(mesh: &TriangleMesh) -> ConvexPolygons {
+    ConvexPolygons::new(&solid_surface(mesh).unwrap())
 }
 
 #[rstest]
@@ -37,8 +37,8 @@ fn polygons_are_convex_and_leave_nothing_out() {
         .filter(|c| *c != [1, 1, 0])
         .collect();
     let mesh = cubes(&cells);
-    let manifold = bounding_solid(&mesh).unwrap();
-    let flats = Flats::new(&manifold);
+    let manifold = solid_surface(&mesh).unwrap();
+    let flats = ConvexPolygons::new(&manifold);
     let mut area = 0.0;
     for k in 0..flats.len() as u32 {
         let flat = flats.get(k);
@@ -98,7 +98,7 @@ fn folds_are_no_polygons() {
     ];
     for (mesh, polygons) in cases {
         let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
-        assert_eq!(Flats::new(&manifold).len(), polygons);
+        assert_eq!(ConvexPolygons::new(&manifold).len(), polygons);
         assert!(check_solid(&manifold, &Work::unbounded()).is_err());
     }
 }

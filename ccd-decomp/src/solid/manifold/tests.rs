@@ -1,9 +1,9 @@
 use super::*;
-use crate::solid::bounding_solid;
+use crate::solid::solid_surface;
 use crate::test_meshes::{block, cubes, merged_meshes, mesh, placed, reversed_faces, tetrahedron};
 
-fn refusal(mesh: &TriangleMesh) -> String {
-    bounding_solid(mesh)
+fn error_message(mesh: &TriangleMesh) -> String {
+    solid_surface(mesh)
         .err()
         .map_or(String::new(), |e| e.to_string())
 }
@@ -11,7 +11,7 @@ fn refusal(mesh: &TriangleMesh) -> String {
 #[test]
 fn twins_run_the_other_way() {
     let mesh = cubes(&block([2, 2, 1]));
-    let manifold = bounding_solid(&mesh).unwrap();
+    let manifold = solid_surface(&mesh).unwrap();
     for h in 0..3 * manifold.faces().len() as u32 {
         let [v, w] = manifold.ends(h);
         assert_eq!(manifold.ends(manifold.twin(h)), [w, v]);
@@ -22,7 +22,7 @@ fn twins_run_the_other_way() {
 #[test]
 fn edges_of_a_step_bend_both_ways() {
     let mesh = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
-    let manifold = bounding_solid(&mesh).unwrap();
+    let manifold = solid_surface(&mesh).unwrap();
     let count = |bend| {
         let all = 0..3 * manifold.faces().len() as u32;
         all.filter(|&h| manifold.dihedral(h) == bend).count()
@@ -37,7 +37,7 @@ fn edges_of_a_step_bend_both_ways() {
 #[test]
 fn a_mesh_that_is_inside_out_is_turned() {
     let mesh = reversed_faces(&tetrahedron());
-    let manifold = bounding_solid(&mesh).unwrap();
+    let manifold = solid_surface(&mesh).unwrap();
     assert!((0..12).all(|h| manifold.dihedral(h) == Dihedral::Convex));
 }
 
@@ -46,18 +46,18 @@ fn faults_name_the_elements() {
     let solid = tetrahedron();
     let open = mesh(solid.vertices().to_vec(), &solid.faces()[1..]);
     assert!(
-        refusal(&open).contains("edges with one face: 3 (e0-1"),
+        error_message(&open).contains("edges with one face: 3 (e0-1"),
         "{}",
-        refusal(&open)
+        error_message(&open)
     );
 
     let mut faces = solid.faces().to_vec();
     faces[3].swap(0, 1);
     let flipped = mesh(solid.vertices().to_vec(), &faces);
     assert!(
-        refusal(&flipped).contains("look opposite ways: 3 (e0-2"),
+        error_message(&flipped).contains("look opposite ways: 3 (e0-2"),
         "{}",
-        refusal(&flipped)
+        error_message(&flipped)
     );
 
     // Two tetrahedra along one edge.
@@ -66,20 +66,20 @@ fn faults_name_the_elements() {
         solid.faces(),
     );
     let along_an_edge = merged_meshes(&[&solid, &other]);
-    assert!(refusal(&along_an_edge).contains("shared by closed parts: 1 (e0-1)"));
+    assert!(error_message(&along_an_edge).contains("shared by closed parts: 1 (e0-1)"));
 
     let pierced = merged_meshes(&[&solid, &placed(&solid, 1.0, DVec3::splat(0.2))]);
     assert!(
-        refusal(&pierced).contains("faces that intersect: "),
+        error_message(&pierced).contains("faces that intersect: "),
         "{}",
-        refusal(&pierced)
+        error_message(&pierced)
     );
 
     let tiny = placed(&solid, 1e-95, DVec3::ZERO);
     assert!(
-        refusal(&tiny).contains("vertex 1 has a coordinate nearer to 0"),
+        error_message(&tiny).contains("vertex 1 has a coordinate nearer to 0"),
         "{}",
-        refusal(&tiny)
+        error_message(&tiny)
     );
 
     // A corner on the middle of an edge: one face without area.
@@ -94,8 +94,8 @@ fn faults_name_the_elements() {
     ];
     let needle = mesh(vertices, &faces);
     assert!(
-        refusal(&needle).contains("faces without area: 1 (1)"),
+        error_message(&needle).contains("faces without area: 1 (1)"),
         "{}",
-        refusal(&needle)
+        error_message(&needle)
     );
 }

@@ -2,7 +2,7 @@
 
 use super::centre_and_sides;
 use crate::rational::Exact3;
-use crate::test_meshes::CUBE;
+use crate::test_meshes::CUBE_FACES;
 use crate::tolerance::FACE_ROUNDING;
 use crate::worst::{Worst, share};
 use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
@@ -17,7 +17,7 @@ fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
         let first = points.len() as u32;
         let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { half } else { -half };
         points.extend((0..8).map(|k| middle + dvec3(sign(k, 0), sign(k, 1), sign(k, 2))));
-        faces.extend(CUBE.map(|face| {
+        faces.extend(CUBE_FACES.map(|face| {
             let [a, b, c] = face.map(|v| first + v);
             if inward { [a, c, b] } else { [a, b, c] }
         }));

@@ -1,6 +1,6 @@
 use super::*;
 use crate::mesh::TriangleMesh;
-use crate::solid::bounding_solid;
+use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
     block, cubes, merged_meshes, mesh, placed, reversed_faces, star, tetrahedron,
@@ -54,5 +54,5 @@ fn a_surface_that_winds_twice_is_not_star_shaped() {
         .collect();
     let twice = mesh(vertices, &faces);
     assert!(!is_seen(&twice));
-    assert!(bounding_solid(&twice).is_err());
+    assert!(solid_surface(&twice).is_err());
 }

@@ -1,4 +1,4 @@
-use crate::test_meshes::CUBE;
+use crate::test_meshes::CUBE_FACES;
 use crate::{Edge, Orientation, Topology, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
 
@@ -17,7 +17,7 @@ fn topology(points: Vec<DVec3>, faces: &[[u32; 3]]) -> Topology {
 
 #[test]
 fn a_cube_is_a_closed_manifold() {
-    let cube = topology(cube_points(), &CUBE);
+    let cube = topology(cube_points(), &CUBE_FACES);
     assert!(cube.is_manifold(), "{cube}");
     assert_eq!(cube.orientation(), Orientation::Outward);
     assert_eq!(cube.signed_volume, 1.0);
@@ -26,7 +26,7 @@ fn a_cube_is_a_closed_manifold() {
 
 #[test]
 fn a_cube_inside_out_is_closed() {
-    let cube = topology(cube_points(), &CUBE.map(|[a, b, c]| [a, c, b]));
+    let cube = topology(cube_points(), &CUBE_FACES.map(|[a, b, c]| [a, c, b]));
     assert!(cube.is_manifold());
     assert_eq!(cube.orientation(), Orientation::Inward);
     assert_eq!(
@@ -38,14 +38,18 @@ fn a_cube_inside_out_is_closed() {
 #[test]
 fn a_soup_of_separate_triangles_is_closed_where_their_corners_meet() {
     let points = cube_points();
-    let corners = CUBE.iter().flatten().map(|&v| points[v as usize]).collect();
+    let corners = CUBE_FACES
+        .iter()
+        .flatten()
+        .map(|&v| points[v as usize])
+        .collect();
     let faces: Vec<[u32; 3]> = (0..12).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     assert!(topology(corners, &faces).is_manifold());
 }
 
 #[test]
 fn a_missing_face_leaves_its_rim() {
-    let open = topology(cube_points(), &CUBE[1..]);
+    let open = topology(cube_points(), &CUBE_FACES[1..]);
     assert!(!open.is_closed());
     assert_eq!(open.boundary.first(), [Edge(0, 4), Edge(0, 6), Edge(4, 6)]);
     assert_eq!(
@@ -56,7 +60,7 @@ fn a_missing_face_leaves_its_rim() {
 
 #[test]
 fn a_flipped_face_is_found_at_its_edges() {
-    let mut faces = CUBE;
+    let mut faces = CUBE_FACES;
     faces[0].swap(1, 2);
     let flipped = topology(cube_points(), &faces);
     assert!(!flipped.is_closed());

@@ -2,7 +2,7 @@
 //! until one node is left (`[PLOC18]`).
 
 use super::nodes::{Below, Cuboid, Node};
-use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
+use crate::tolerance::{ADJACENT_ONLY_PASSES, SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
 /// Builds a tree over leaves. The root comes first, then pairs of siblings, parents before children.
@@ -22,7 +22,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
         if row.len() == 1 {
             break;
         }
-        let reach = if pass < SEARCH_DEPTH {
+        let reach = if pass < ADJACENT_ONLY_PASSES {
             1
         } else {
             SEARCH_DISTANCE

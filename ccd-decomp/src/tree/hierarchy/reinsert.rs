@@ -16,7 +16,7 @@ pub(super) fn reinsert(nodes: &mut [Node]) {
     let mut tree = Tree::new(nodes);
     for share in (1..32).step_by(2).map(|n| 1.0 / n as f32) {
         let count = (tree.nodes.len() as f32 * REINSERTED_SHARE * share) as usize;
-        tree.improve(count.clamp(1, tree.nodes.len() - 1));
+        tree.reinsert_largest(count.clamp(1, tree.nodes.len() - 1));
     }
 }
 
@@ -28,7 +28,7 @@ struct Tree<'a> {
 }
 
 /// A possible move: the subtree, its new sibling, and the reduction of the total area.
-struct Move {
+struct Reinsertion {
     from: u32,
     to: u32,
     gain: f32,
@@ -50,10 +50,11 @@ impl<'a> Tree<'a> {
     }
 
     /// Finds the best places for the `count` largest nodes, and makes the best moves that do not conflict.
-    fn improve(&mut self, count: usize) {
+    fn reinsert_largest(&mut self, count: usize) {
         // The first nodes are near the root, and most of the largest are among them.
         let first = self.nodes.len().min(2 * (count + 1));
-        let mut largest: Vec<(f32, u32)> = (1..first as u32).map(|n| (self.area(n), n)).collect();
+        let mut largest: Vec<(f32, u32)> =
+            (1..first as u32).map(|n| (self.half_area(n), n)).collect();
         let by_area = |a: &(f32, u32), b: &(f32, u32)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
         if count < largest.len() {
             largest.select_nth_unstable_by(count, by_area);
@@ -61,13 +62,13 @@ impl<'a> Tree<'a> {
         }
         largest.sort_unstable_by(by_area);
         // The tree is not changed until all places are found, so that the search is parallel.
-        let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SUBTREES_PER_TASK))
+        let mut moves: Vec<Reinsertion> = (largest.par_iter().with_min_len(SUBTREES_PER_TASK))
             .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
             .flatten_iter()
             .collect();
         moves.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain));
         self.touched.fill(false);
-        for Move { from, to, .. } in moves {
+        for Reinsertion { from, to, .. } in moves {
             let [old, new] = [from, to].map(|node| self.parents[node as usize]);
             let changed = [to, from, sibling(from), new, old].map(|node| node as usize);
             if !changed.iter().any(|&node| self.touched[node]) {
@@ -81,17 +82,17 @@ impl<'a> Tree<'a> {
 
     /// Finds the best place for a subtree. The search climbs to the root, and searches every subtree beside the path.
     /// A branch is pruned if its boxes grow by more than the best gain.
-    fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Move> {
+    fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Reinsertion> {
         let cuboid = self.nodes[from as usize].cuboid;
         let area = cuboid.half_area();
         let parent = self.parents[from as usize];
-        let mut best = Move {
+        let mut best = Reinsertion {
             from,
             to: 0,
             gain: 0.0,
         };
         // The boxes above the old place shrink.
-        let mut gain = self.area(parent);
+        let mut gain = self.half_area(parent);
         let (mut pivot, mut beside) = (parent, sibling(from));
         let mut left = self.nodes[beside as usize].cuboid;
         loop {
@@ -103,7 +104,7 @@ impl<'a> Tree<'a> {
                 let Node { cuboid: old, below } = self.nodes[node as usize];
                 let gain = gain - old.union(cuboid).half_area();
                 if gain > best.gain {
-                    best = Move {
+                    best = Reinsertion {
                         to: node,
                         gain,
                         ..best
@@ -116,7 +117,7 @@ impl<'a> Tree<'a> {
             }
             if pivot != parent {
                 left = left.union(self.nodes[beside as usize].cuboid);
-                gain += self.area(pivot) - left.half_area();
+                gain += self.half_area(pivot) - left.half_area();
             }
             if pivot == 0 {
                 break;
@@ -163,7 +164,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    fn area(&self, node: u32) -> f32 {
+    fn half_area(&self, node: u32) -> f32 {
         self.nodes[node as usize].cuboid.half_area()
     }
 }

@@ -1,7 +1,7 @@
 //! Splits the pieces of a hull tree node in two.
 
 use crate::hull::exact_hull::ExactHull;
-use crate::tolerance::{EIGEN_ROUNDS, MIN_CHILD_SHARE, SPREAD_PIECES};
+use crate::tolerance::{MAX_EIGEN_ITERATIONS, MAX_SPREAD_SAMPLES, MIN_CHILD_SHARE};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -46,7 +46,7 @@ impl Splitter {
     /// Returns the unit vector along which the surface of the hull of the piece centres spreads most.
     fn direction_of_largest_spread(&self, pieces: &[u32]) -> DVec3 {
         // A sample is enough.
-        let stride = pieces.len().div_ceil(SPREAD_PIECES);
+        let stride = pieces.len().div_ceil(MAX_SPREAD_SAMPLES);
         let some = pieces.iter().step_by(stride);
         let centres: Vec<DVec3> = some.map(|&k| self.centres[k as usize]).collect();
         let mean = centres.iter().sum::<DVec3>() / centres.len() as f64;
@@ -94,7 +94,7 @@ fn outer_product(p: DVec3) -> Matrix3<f64> {
 
 /// Returns the unit eigenvector of a symmetric matrix for the largest eigenvalue.
 fn principal_axis(matrix: Matrix3<f64>) -> Option<DVec3> {
-    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
+    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, MAX_EIGEN_ITERATIONS)?;
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
     unit(DVec3::new(axis[0], axis[1], axis[2]))
 }

@@ -154,7 +154,7 @@ fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
 }
 
 /// Returns blocks on a grid of 4 by 2, `gap` apart along x. The sides of a block differ in length.
-fn wall(gap: f64) -> Vec<Polytope> {
+fn block_grid(gap: f64) -> Vec<Polytope> {
     let size = DVec3::new(1.0, 0.75, 0.5);
     let corner = |k: u32| size * DVec3::new((k & 1).into(), (k >> 1 & 1).into(), (k >> 2).into());
     let block = |k: u32| {
@@ -168,7 +168,7 @@ fn wall(gap: f64) -> Vec<Polytope> {
 #[test]
 fn blocks_side_by_side_leave_no_bridge_and_blocks_apart_do() {
     let classes = |gap| {
-        let tree = build_hull_tree(&Pieces::polytopes(&wall(gap)).unwrap()).unwrap();
+        let tree = build_hull_tree(&Pieces::polytopes(&block_grid(gap)).unwrap()).unwrap();
         assert_eq!(tree.hulls().get(0).facets.len(), 6);
         let all = (0..15).flat_map(|node| tree.facet_classes(node).to_vec());
         all.collect::<Vec<_>>()

@@ -28,25 +28,25 @@ use rigid_ccd::table::motions::Motions;
 
 /// Two meshes as parry's shapes, to be cast against each other. It does not report steps.
 #[derive(Clone, Debug)]
-pub struct Cast {
+pub struct NonlinearCast {
     a: TriMesh,
     b: TriMesh,
 }
 
-impl Cast {
+impl NonlinearCast {
     /// Converts two meshes to parry's shapes.
     ///
     /// # Errors
     /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
-        Ok(Cast {
+        Ok(NonlinearCast {
             a: tri_mesh(a)?,
             b: tri_mesh(b)?,
         })
     }
 }
 
-impl Solver for Cast {
+impl Solver for NonlinearCast {
     fn answer(&mut self, query: &Motions, _: f64) -> Reply {
         // `true`: bodies that penetrate at the start are reported at once.
         let hit = cast_shapes_nonlinear(

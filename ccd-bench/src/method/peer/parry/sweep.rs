@@ -38,18 +38,18 @@ use std::f64::consts::FRAC_PI_4;
 /// Two meshes whose triangles are swept against each other. Steps are the segments examined.
 #[derive(Clone, Debug)]
 pub struct SweptPairs {
-    a: Swept,
-    b: Swept,
+    a: SweptMesh,
+    b: SweptMesh,
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
-const SLOPS_AT_HIT: f64 = 1.25;
+const MAX_HIT_SLOPS: f64 = 1.25;
 /// The largest error due to rotation within a segment, as a fraction of the tolerance.
-const SHARE_OF_TURN: f64 = 0.25;
+const ROTATION_ERROR_FRACTION: f64 = 0.25;
 /// The largest rotation, in radians, for which the library's documentation calls its sweeps a good approximation.
-const LARGEST_TURN: f64 = FRAC_PI_4;
+const MAX_ROTATION: f64 = FRAC_PI_4;
 /// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
-const LONGEST_TRAVEL: f64 = 0.5;
+const MAX_RELATIVE_TRAVEL: f64 = 0.5;
 /// The maximum number of segments of a motion; longer motions are refused.
 const MOST_SEGMENTS: f64 = 65_536.0;
 
@@ -60,8 +60,8 @@ impl SweptPairs {
     /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
         Ok(SweptPairs {
-            a: Swept::new(a)?,
-            b: Swept::new(b)?,
+            a: SweptMesh::new(a)?,
+            b: SweptMesh::new(b)?,
         })
     }
 
@@ -70,11 +70,11 @@ impl SweptPairs {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
-            turn / largest_turn(body.reach(motion), tolerance)
+            turn / largest_turn(body.radius_about_centre(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
         let travel =
-            speed * query.duration / (LONGEST_TRAVEL * lesser(self.a.radius, self.b.radius));
+            speed * query.duration / (MAX_RELATIVE_TRAVEL * lesser(self.a.radius, self.b.radius));
         let count = greater(1.0, turns.into_iter().fold(travel, greater).ceil());
         (count <= MOST_SEGMENTS).then_some(count as u64)
     }
@@ -103,7 +103,7 @@ impl SweptPairs {
             .leaf_pairs(self.b.mesh.bvh(), |node_a, node_b| {
                 swept_a(node_a.aabb()).intersects(&swept_b(node_b.aabb()))
             });
-        let slop = (tolerance / SLOPS_AT_HIT) as Real;
+        let slop = (tolerance / MAX_HIT_SLOPS) as Real;
         let mut first = None;
         for (i, j) in pairs {
             let before = first.unwrap_or(1.0);
@@ -138,7 +138,7 @@ impl Solver for SweptPairs {
 
 /// A mesh with its bounding box, in the body's frame.
 #[derive(Clone, Debug)]
-struct Swept {
+struct SweptMesh {
     mesh: TriMesh,
     /// The lowest and the highest corner of the box.
     corners: [DVec3; 2],
@@ -153,10 +153,10 @@ struct Segment {
     path_deviation: Real,
 }
 
-impl Swept {
+impl SweptMesh {
     fn new(mesh: &TriangleMesh) -> Result<Self> {
         let corners = mesh.bounding_box();
-        Ok(Swept {
+        Ok(SweptMesh {
             mesh: tri_mesh(mesh)?,
             corners,
             radius: 0.5 * (corners[1] - corners[0]).length(),
@@ -164,7 +164,7 @@ impl Swept {
     }
 
     /// Returns a bound on the distance of all points from the centre of the motion.
-    fn reach(&self, motion: &Motion) -> f64 {
+    fn radius_about_centre(&self, motion: &Motion) -> f64 {
         let [low, high] = self.corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
     }
@@ -177,7 +177,7 @@ impl Swept {
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
             // adds less than that.
-            path_deviation: (0.25 * self.reach(motion) * turn * turn) as Real,
+            path_deviation: (0.25 * self.radius_about_centre(motion) * turn * turn) as Real,
         }
     }
 
@@ -191,8 +191,8 @@ impl Swept {
 fn largest_turn(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
     // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
-    let off = SHARE_OF_TURN * tolerance / (0.2567 * 1.1 * reach);
-    lesser(LARGEST_TURN, 4.0 * off.cbrt())
+    let off = ROTATION_ERROR_FRACTION * tolerance / (0.2567 * 1.1 * reach);
+    lesser(MAX_ROTATION, 4.0 * off.cbrt())
 }
 
 /// Returns the box that contains a body's box at the start and at the end of a segment.

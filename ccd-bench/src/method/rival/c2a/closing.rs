@@ -1,14 +1,14 @@
 //! Bounds the closing speed of nodes of two moving bodies along a direction.
 
-use crate::method::rival::swept_spheres::{Gap, Pair, SphereTree, Trees};
+use crate::method::rival::swept_spheres::{Gap, Pair, RssTree, Trees};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
 /// Both motions of a query in the frame of body A at one time, with bounds on the speeds of nodes.
 #[derive(Clone, Debug)]
-pub(super) struct Closing {
-    a: Spin,
-    b: Spin,
+pub(super) struct ClosingSpeedBounds {
+    a: BodyRotation,
+    b: BodyRotation,
     /// The velocity of A's centre relative to B's, in the world frame.
     velocity_w: DVec3,
     /// The velocity of A's centre relative to B's, in A's frame.
@@ -21,7 +21,7 @@ pub(super) struct Closing {
 
 /// The rotation of a body, and the distances of its nodes from the axis.
 #[derive(Clone, Debug)]
-struct Spin {
+struct BodyRotation {
     centre: DVec3,
     /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
@@ -32,11 +32,11 @@ struct Spin {
     motion: u64,
 }
 
-impl Closing {
+impl ClosingSpeedBounds {
     pub(super) fn new(trees: &Trees) -> Self {
-        Closing {
-            a: Spin::new(&trees.a),
-            b: Spin::new(&trees.b),
+        ClosingSpeedBounds {
+            a: BodyRotation::new(&trees.a),
+            b: BodyRotation::new(&trees.b),
             velocity_w: DVec3::ZERO,
             velocity: DVec3::ZERO,
             axis_b_w: DVec3::Z,
@@ -83,9 +83,9 @@ impl Closing {
     }
 }
 
-impl Spin {
-    fn new(tree: &SphereTree) -> Self {
-        Spin {
+impl BodyRotation {
+    fn new(tree: &RssTree) -> Self {
+        BodyRotation {
             centre: DVec3::ZERO,
             axis: DVec3::Z,
             rate: 0.0,
@@ -107,7 +107,7 @@ impl Spin {
     /// Returns a bound on the speed of a node's points along a direction, from the direction's cross product with the
     /// axis.
     #[inline]
-    fn speed(&mut self, tree: &SphereTree, node: u32, across: DVec3) -> f64 {
+    fn speed(&mut self, tree: &RssTree, node: u32, across: DVec3) -> f64 {
         if self.rate == 0.0 {
             return 0.0;
         }

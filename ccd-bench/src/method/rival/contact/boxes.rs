@@ -11,11 +11,11 @@ const COSINE_SLACK: f64 = 1e-14;
 
 /// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Boxes {
+pub(super) enum BoxRelation {
     /// The boxes do not meet in the interval.
     Apart,
     /// No axis is found that separates the boxes over the whole interval.
-    Near {
+    NotSeparated {
         /// The radius of the enclosure of a corner's position over the interval, as a length.
         spread: f64,
     },
@@ -23,7 +23,7 @@ pub(super) enum Boxes {
 
 /// Tests whether one of the 15 axes separates the boxes over all of the interval. Both sides of
 /// every inequality are enclosed by interval arithmetic \[CONTACT02\].
-pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
+pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelation {
     let into = b.axes.transpose();
     let centre = enclosure.rotation * a.centre + enclosure.offset;
     let t = into * (centre.middle - b.centre);
@@ -32,17 +32,17 @@ pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
     let cos = into * (enclosure.rotation.middle * a.axes);
     let cos_radius = into.abs() * (enclosure.rotation.radius * a.axes.abs());
     let high = upper_cosines(cos, cos_radius);
-    let (ha, hb) = (a.half, b.half);
+    let (ha, hb) = (a.half_extents, b.half_extents);
     // The axes of B: the distance of the centres along them against both half widths.
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
-        return Boxes::Apart;
+        return BoxRelation::Apart;
     }
     // The axes of A. |Σ t_i c_i| has the middle |Σ t c| and the radius Σ (|t|+r)(|c|+s) − |t||c|.
     let low = cos.abs();
     let along = cos.transpose_mul_vec3(t).abs() + low.transpose_mul_vec3(t.abs());
     let width = high.transpose_mul_vec3(t_high + hb) + ha;
     if (along - width).max_element() > 0.0 {
-        return Boxes::Apart;
+        return BoxRelation::Apart;
     }
     // The axes `b_i × a_j`, for all i at once.
     let separates = |c: DVec3, c_high: DVec3, of_a: DVec3| {
@@ -58,9 +58,9 @@ pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
         || separates(cos.y_axis, y, ha.z * x + ha.x * z)
         || separates(cos.z_axis, z, ha.x * y + ha.y * x)
     {
-        return Boxes::Apart;
+        return BoxRelation::Apart;
     }
-    Boxes::Near {
+    BoxRelation::NotSeparated {
         spread: (t_radius + cos_radius * ha).max_element(),
     }
 }

@@ -15,8 +15,8 @@ pub(super) struct HalvedInterval {
 
 /// Encloses the motion over intervals of time, with a cache of the last enclosure at each level of halving.
 #[derive(Clone, Debug)]
-pub(super) struct Clock {
-    relative: Relative,
+pub(super) struct MotionEncloser {
+    relative_motion: Relative,
     resolution: f64,
     most_halvings: u64,
     placements: Vec<CachedEnclosure>,
@@ -51,7 +51,7 @@ impl HalvedInterval {
     }
 }
 
-impl Clock {
+impl MotionEncloser {
     /// Creates the clock of a motion, with the width and the number at which halving ends.
     pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
         let nothing = CachedEnclosure {
@@ -59,13 +59,13 @@ impl Clock {
                 start: f64::NAN,
                 end: f64::NAN,
             },
-            enclosure: relative.over(Span {
+            enclosure: relative.enclosure_over(Span {
                 start: 0.0,
                 end: 0.0,
             }),
         };
-        Clock {
-            relative,
+        MotionEncloser {
+            relative_motion: relative,
             resolution,
             most_halvings,
             placements: vec![nothing; MAX_LEVEL + 1],
@@ -76,7 +76,7 @@ impl Clock {
 
     /// Returns the relative motion of the two bodies.
     pub(super) fn relative(&self) -> &Relative {
-        &self.relative
+        &self.relative_motion
     }
 
     /// Returns the width at which intervals are no longer halved.
@@ -85,7 +85,7 @@ impl Clock {
     }
 
     /// Returns true if an interval must not be halved.
-    pub(super) fn is_shortest(&self, interval: HalvedInterval) -> bool {
+    pub(super) fn is_at_resolution(&self, interval: HalvedInterval) -> bool {
         !(interval.span.width() > self.resolution) || interval.level >= MAX_LEVEL
     }
 
@@ -96,14 +96,15 @@ impl Clock {
 
     /// Returns the enclosure of all placements over an interval.
     pub(super) fn placements(&mut self, interval: HalvedInterval) -> &Enclosure {
-        self.placements[interval.level]
-            .enclosure_over(interval.span, |span| self.relative.over(span))
+        self.placements[interval.level].enclosure_over(interval.span, |span| {
+            self.relative_motion.enclosure_over(span)
+        })
     }
 
     /// Returns the enclosure of all rates of change over an interval.
     pub(super) fn rates(&mut self, interval: HalvedInterval) -> &Enclosure {
         self.rates[interval.level]
-            .enclosure_over(interval.span, |span| self.relative.rates_over(span))
+            .enclosure_over(interval.span, |span| self.relative_motion.rates_over(span))
     }
 }
 

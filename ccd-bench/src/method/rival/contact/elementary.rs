@@ -19,7 +19,7 @@ pub(super) struct Facet {
 
 /// An elementary test of one feature of each of two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Test {
+pub(super) enum ElementaryTest {
     /// A corner of the first triangle against the second's face.
     CornerFace(usize),
     /// The face of the first triangle against a corner of the second.
@@ -34,7 +34,7 @@ pub(super) struct OpenTests(u16);
 
 /// Two triangles; the second is at rest in the frame of the enclosures.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Triangles {
+pub(super) struct TrianglePair {
     pub(super) a: Facet,
     pub(super) b: Facet,
 }
@@ -59,16 +59,16 @@ impl Facet {
     }
 }
 
-impl Test {
+impl ElementaryTest {
     /// The number of elementary tests of two triangles.
     const TEST_COUNT: usize = 15;
 
     /// Returns the test with the given number: corners first, then faces, then pairs of edges.
-    fn from_number(number: usize) -> Test {
+    fn from_number(number: usize) -> ElementaryTest {
         match number {
-            0..3 => Test::CornerFace(number),
-            3..6 => Test::FaceCorner(number - 3),
-            _ => Test::EdgeEdge((number - 6) / 3, number % 3),
+            0..3 => ElementaryTest::CornerFace(number),
+            3..6 => ElementaryTest::FaceCorner(number - 3),
+            _ => ElementaryTest::EdgeEdge((number - 6) / 3, number % 3),
         }
     }
 }
@@ -78,7 +78,7 @@ impl OpenTests {
     const NONE: OpenTests = OpenTests(0);
 
     /// The set of all elementary tests.
-    pub(super) const ALL: OpenTests = OpenTests((1 << Test::TEST_COUNT) - 1);
+    pub(super) const ALL: OpenTests = OpenTests((1 << ElementaryTest::TEST_COUNT) - 1);
 
     /// Returns true if no test is in the set.
     pub(super) fn is_empty(self) -> bool {
@@ -86,11 +86,11 @@ impl OpenTests {
     }
 
     /// Returns the tests of the set for which `holds` is true.
-    pub(super) fn filter(self, mut holds: impl FnMut(Test) -> bool) -> OpenTests {
+    pub(super) fn filter(self, mut holds: impl FnMut(ElementaryTest) -> bool) -> OpenTests {
         let (mut kept, mut left) = (0, self.0);
         while left != 0 {
             let k = left.trailing_zeros();
-            if holds(Test::from_number(k as usize)) {
+            if holds(ElementaryTest::from_number(k as usize)) {
                 kept |= 1 << k;
             }
             left &= left - 1;
@@ -99,17 +99,17 @@ impl OpenTests {
     }
 }
 
-impl Triangles {
+impl TrianglePair {
     /// Returns the contact function of a test at a placement. It is zero where the corner meets the
     /// plane, or where both lines meet.
-    pub(super) fn contact_function(&self, test: Test, at: &Placement) -> f64 {
+    pub(super) fn contact_function(&self, test: ElementaryTest, at: &Placement) -> f64 {
         let (a, b) = (&self.a, &self.b);
         match test {
-            Test::CornerFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
-            Test::FaceCorner(j) => {
+            ElementaryTest::CornerFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
+            ElementaryTest::FaceCorner(j) => {
                 (b.corners[j] - at.apply(a.corners[0])).dot(at.rotation * a.normal)
             }
-            Test::EdgeEdge(i, j) => {
+            ElementaryTest::EdgeEdge(i, j) => {
                 let axis = (at.rotation * a.edges[i]).cross(b.edges[j]);
                 (b.corners[j] - at.apply(a.corners[i])).dot(axis)
             }
@@ -120,20 +120,20 @@ impl Triangles {
     /// enclosures.
     pub(super) fn contact_function_rate(
         &self,
-        test: Test,
+        test: ElementaryTest,
         now: &Enclosure,
         rates: &Enclosure,
     ) -> Interval {
         let (a, b) = (&self.a, &self.b);
         match test {
-            Test::CornerFace(i) => rates.point(a.corners[i]).dot_point(b.normal),
-            Test::FaceCorner(j) => {
-                let between = from_point(b.corners[j], now.point(a.corners[0]));
+            ElementaryTest::CornerFace(i) => rates.point(a.corners[i]).dot_point(b.normal),
+            ElementaryTest::FaceCorner(j) => {
+                let between = point_minus(b.corners[j], now.point(a.corners[0]));
                 between.dot(rates.rotation * a.normal)
                     - rates.point(a.corners[0]).dot(now.rotation * a.normal)
             }
-            Test::EdgeEdge(i, j) => {
-                let between = from_point(b.corners[j], now.point(a.corners[i]));
+            ElementaryTest::EdgeEdge(i, j) => {
+                let between = point_minus(b.corners[j], now.point(a.corners[i]));
                 let axis = (now.rotation * a.edges[i]).cross_point(b.edges[j]);
                 let axis_rate = (rates.rotation * a.edges[i]).cross_point(b.edges[j]);
                 between.dot(axis_rate) - rates.point(a.corners[i]).dot(axis)
@@ -152,24 +152,24 @@ impl Triangles {
             return OpenTests::NONE;
         }
         let normal = now.rotation * a.normal;
-        let over_a = b.corners.map(|x| from_point(x, corners[0]).dot(normal));
+        let over_a = b.corners.map(|x| point_minus(x, corners[0]).dot(normal));
         if have_same_sign(over_a) {
             return OpenTests::NONE;
         }
         tests.filter(|test| match test {
-            Test::CornerFace(i) => {
-                !(b.is_flat() || over_b[i].excludes_zero()) && self.may_be_in_b(corners[i])
+            ElementaryTest::CornerFace(i) => {
+                !(b.is_flat() || over_b[i].excludes_zero()) && self.may_project_into_b(corners[i])
             }
-            Test::FaceCorner(j) => {
+            ElementaryTest::FaceCorner(j) => {
                 !(a.is_flat() || over_a[j].excludes_zero())
-                    && self.may_be_in_a(b.corners[j], &corners, now)
+                    && self.may_project_into_a(b.corners[j], &corners, now)
             }
-            Test::EdgeEdge(i, j) => self.may_cross((i, j), corners[i], now),
+            ElementaryTest::EdgeEdge(i, j) => self.may_cross((i, j), corners[i], now),
         })
     }
 
     /// Returns true if a corner of the first triangle may be above the second's face.
-    fn may_be_in_b(&self, corner: IntervalVec) -> bool {
+    fn may_project_into_b(&self, corner: IntervalVec) -> bool {
         let b = &self.b;
         (0..3).all(|k| {
             let inside = corner.minus_point(b.corners[k]).dot_point(b.inward[k]);
@@ -178,10 +178,15 @@ impl Triangles {
     }
 
     /// Returns true if a corner of the second triangle may be above the first's face.
-    fn may_be_in_a(&self, corner: DVec3, corners: &[IntervalVec; 3], now: &Enclosure) -> bool {
+    fn may_project_into_a(
+        &self,
+        corner: DVec3,
+        corners: &[IntervalVec; 3],
+        now: &Enclosure,
+    ) -> bool {
         (0..3).all(|k| {
             let inward = now.rotation * self.a.inward[k];
-            !(from_point(corner, corners[k]).dot(inward).high() < 0.0)
+            !(point_minus(corner, corners[k]).dot(inward).high() < 0.0)
         })
     }
 
@@ -192,7 +197,7 @@ impl Triangles {
     /// 1. The last three conditions also separate parallel edges, for which `c` and `w · c` vanish.
     fn may_cross(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
         let g = self.b.edges[edges.1];
-        let w = from_point(self.b.corners[edges.1], p);
+        let w = point_minus(self.b.corners[edges.1], p);
         let e = now.rotation * self.a.edges[edges.0];
         let c = e.cross_point(g);
         if w.dot(c).excludes_zero() {
@@ -231,7 +236,7 @@ impl Enclosure {
 
 /// Returns the difference of a point and an interval vector.
 #[inline]
-fn from_point(point: DVec3, from: IntervalVec) -> IntervalVec {
+fn point_minus(point: DVec3, from: IntervalVec) -> IntervalVec {
     IntervalVec {
         middle: point - from.middle,
         radius: from.radius,
@@ -245,5 +250,5 @@ fn have_same_sign(values: [Interval; 3]) -> bool {
 
 /// Returns true if `part` cannot contain a vector of `whole` scaled by a factor from 0 to 1.
 fn excludes_multiples(part: IntervalVec, whole: IntervalVec) -> bool {
-    (part.smallest() - whole.largest()).max_element() > 0.0
+    (part.mignitude() - whole.magnitude()).max_element() > 0.0
 }

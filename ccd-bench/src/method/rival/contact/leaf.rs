@@ -1,13 +1,13 @@
 //! Finds the first contact of two triangles in an interval of time.
 
-use super::clock::{Clock, HalvedInterval, MAX_LEVEL};
-use super::elementary::{OpenTests, Test, Triangles};
+use super::clock::{HalvedInterval, MAX_LEVEL, MotionEncloser};
+use super::elementary::{ElementaryTest, OpenTests, TrianglePair};
 use super::relative::Span;
 use ccd_core::order::{greater, lesser};
 
 /// When two triangles first touch in an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Touch {
+pub(super) enum FirstTouch {
     /// The triangles first touch at this time.
     At(f64),
     /// The triangles do not touch in the interval.
@@ -20,29 +20,29 @@ pub(super) enum Touch {
 /// first, until every test is excluded, or its contact function is monotone so that signs find its root, or the
 /// interval is as short as the resolution \[CONTACT02\].
 pub(super) fn first_touch(
-    triangles: &Triangles,
+    triangles: &TrianglePair,
     interval: HalvedInterval,
-    clock: &mut Clock,
-) -> Touch {
-    let mut first = Touch::Never;
+    clock: &mut MotionEncloser,
+) -> FirstTouch {
+    let mut first = FirstTouch::Never;
     // The stack holds at most one second half of every level, and both halves of the last.
     let mut stack = [(interval, OpenTests::ALL); MAX_LEVEL + 2];
     let mut height = 1;
     while let Some(below) = usize::checked_sub(height, 1) {
         height = below;
         let (mut interval, open) = stack[height];
-        if let Touch::At(time) = first {
+        if let FirstTouch::At(time) = first {
             interval.span.end = lesser(interval.span.end, time);
         }
-        if !(interval.span.width() > 0.0 || first == Touch::Never) {
+        if !(interval.span.width() > 0.0 || first == FirstTouch::Never) {
             continue;
         }
         let open = triangles.open_tests(open, clock.placements(interval));
         if open.is_empty() {
             continue;
         }
-        if clock.is_shortest(interval) {
-            first = Touch::At(interval.span.start);
+        if clock.is_at_resolution(interval) {
+            first = FirstTouch::At(interval.span.start);
             continue;
         }
         let open = open.filter(|test| match root(triangles, test, interval, clock) {
@@ -55,7 +55,7 @@ pub(super) fn first_touch(
         });
         if !open.is_empty() {
             if clock.is_at_limit() {
-                return Touch::Unknown;
+                return FirstTouch::Unknown;
             }
             clock.halvings += 1;
             let [early, late] = interval.halves();
@@ -67,10 +67,10 @@ pub(super) fn first_touch(
     first
 }
 
-fn earlier(first: Touch, time: f64) -> Touch {
+fn earlier(first: FirstTouch, time: f64) -> FirstTouch {
     match first {
-        Touch::At(known) => Touch::At(lesser(known, time)),
-        Touch::Never | Touch::Unknown => Touch::At(time),
+        FirstTouch::At(known) => FirstTouch::At(lesser(known, time)),
+        FirstTouch::Never | FirstTouch::Unknown => FirstTouch::At(time),
     }
 }
 
@@ -83,7 +83,12 @@ enum Root {
 }
 
 /// Returns the root of a contact function over the interval, if the function is known to be monotone.
-fn root(triangles: &Triangles, test: Test, interval: HalvedInterval, clock: &mut Clock) -> Root {
+fn root(
+    triangles: &TrianglePair,
+    test: ElementaryTest,
+    interval: HalvedInterval,
+    clock: &mut MotionEncloser,
+) -> Root {
     let rates = *clock.rates(interval);
     let rate = triangles.contact_function_rate(test, clock.placements(interval), &rates);
     if !rate.excludes_zero() {
@@ -100,7 +105,7 @@ fn root(triangles: &Triangles, test: Test, interval: HalvedInterval, clock: &mut
     };
     let only = OpenTests::ALL.filter(|other| other == test);
     if triangles
-        .open_tests(only, &clock.relative().over(around))
+        .open_tests(only, &clock.relative().enclosure_over(around))
         .is_empty()
     {
         Root::None
@@ -115,7 +120,12 @@ const MAX_NARROWINGS: usize = 110;
 
 /// Returns the root of a monotone function between two times, to within the resolution. Uses false
 /// position, and bisection after a step that leaves more than half.
-fn bracket(triangles: &Triangles, test: Test, span: Span, clock: &Clock) -> Option<Span> {
+fn bracket(
+    triangles: &TrianglePair,
+    test: ElementaryTest,
+    span: Span,
+    clock: &MotionEncloser,
+) -> Option<Span> {
     let value = |time: f64| triangles.contact_function(test, &clock.relative().at(time));
     let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);
     if ends[0] * ends[1] > 0.0 {

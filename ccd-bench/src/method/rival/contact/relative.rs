@@ -1,6 +1,6 @@
 //! The relative motion of two bodies: at a time, and enclosed over an interval of time.
 
-use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
+use crate::method::rival::interval::{Interval, IntervalMat, IntervalVec, SineCosineRange};
 use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 
@@ -22,7 +22,7 @@ struct BodyMotion {
     cos: DMat3,
     sin: DMat3,
     rate: f64,
-    from: DVec3,
+    start_centre: DVec3,
     velocity: DVec3,
     /// The offset of the reference point from the centre, in the body's frame.
     lever: DVec3,
@@ -64,9 +64,9 @@ impl Relative {
             second: BodyMotion::new(second.0, second.1, axes),
         };
         // Only the difference of the linear parts matters; separate parts would be enclosed separately.
-        relative.first.from -= relative.second.from;
+        relative.first.start_centre -= relative.second.start_centre;
         relative.first.velocity -= relative.second.velocity;
-        relative.second.from = DVec3::ZERO;
+        relative.second.start_centre = DVec3::ZERO;
         relative.second.velocity = DVec3::ZERO;
         relative
     }
@@ -83,7 +83,7 @@ impl Relative {
     }
 
     /// Returns an enclosure of all placements between two times.
-    pub(super) fn over(&self, span: Span) -> Enclosure {
+    pub(super) fn enclosure_over(&self, span: Span) -> Enclosure {
         let (first, position_first) = self.first.over(span);
         if self.second.rate == 0.0 {
             let offset = position_first.minus_point(self.second.still_position());
@@ -134,14 +134,14 @@ impl BodyMotion {
                 axis * axis.dot(column)
             }
         };
-        let fixed = columns(orientation, along);
+        let fixed = map_columns(orientation, along);
         let cos = orientation - fixed;
         BodyMotion {
             fixed,
             cos,
-            sin: columns(cos, |column| axis.cross(column)),
+            sin: map_columns(cos, |column| axis.cross(column)),
             rate: course.rate,
-            from: axes * course.from,
+            start_centre: axes * course.from,
             velocity: axes * course.velocity,
             lever: reference - course.centre,
         }
@@ -149,26 +149,26 @@ impl BodyMotion {
 
     /// Returns the position of the reference point of a body that does not rotate, without its linear motion.
     fn still_position(&self) -> DVec3 {
-        self.from + self.fixed * self.lever
+        self.start_centre + self.fixed * self.lever
     }
 
     fn at(&self, time: f64) -> (DMat3, DVec3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         let rotation = self.fixed + self.cos * cos + self.sin * sin;
-        let position = self.from + self.velocity * time + rotation * self.lever;
+        let position = self.start_centre + self.velocity * time + rotation * self.lever;
         (rotation, position)
     }
 
     fn over(&self, span: Span) -> (IntervalMat, IntervalVec) {
         let half = 0.5 * span.width();
         let (cos, sin) = self.coefficients_at(span.middle());
-        let arc = Arc::new(self.rate * half);
+        let arc = SineCosineRange::new(self.rate * half);
         let turning = rotation_over(cos, sin, arc);
         let rotation = IntervalMat {
             middle: self.fixed + turning.middle,
             radius: turning.radius,
         };
-        let straight = self.from + self.velocity * span.middle() + self.fixed * self.lever;
+        let straight = self.start_centre + self.velocity * span.middle() + self.fixed * self.lever;
         let round = vector_rotation_over(cos * self.lever, sin * self.lever, arc);
         let position = IntervalVec {
             middle: straight + round.middle,
@@ -179,7 +179,7 @@ impl BodyMotion {
 
     fn rates_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
         let (cos, sin) = self.coefficients_at(span.middle());
-        let arc = Arc::new(self.rate * 0.5 * span.width());
+        let arc = SineCosineRange::new(self.rate * 0.5 * span.width());
         let (cos, sin) = (sin * self.rate, cos * -self.rate);
         let round = vector_rotation_over(cos * self.lever, sin * self.lever, arc);
         let velocity = IntervalVec {
@@ -199,12 +199,12 @@ impl BodyMotion {
     }
 }
 
-fn columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
+fn map_columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
     DMat3::from_cols(map(matrix.x_axis), map(matrix.y_axis), map(matrix.z_axis))
 }
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc.
-fn rotation_over(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
+fn rotation_over(cos: DMat3, sin: DMat3, arc: SineCosineRange) -> IntervalMat {
     let Interval { middle, radius } = arc.cos;
     IntervalMat {
         middle: cos * middle,
@@ -213,7 +213,7 @@ fn rotation_over(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
 }
 
 /// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc, for vectors.
-fn vector_rotation_over(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
+fn vector_rotation_over(cos: DVec3, sin: DVec3, arc: SineCosineRange) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {
         middle: cos * middle,

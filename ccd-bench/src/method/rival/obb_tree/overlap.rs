@@ -45,7 +45,7 @@ pub(in crate::method::rival) fn crosses(
                 }
             }
             (Content::Nodes([left, right]), other)
-                if other_is_smaller(other, &node_a.bounds, &node_b.bounds) =>
+                if should_split_self(other, &node_a.bounds, &node_b.bounds) =>
             {
                 stack.extend([(right, j), (left, j)]);
             }
@@ -59,8 +59,9 @@ pub(in crate::method::rival) fn crosses(
 }
 
 /// Returns true if A's node is to be opened next, because B's is a leaf or smaller.
-fn other_is_smaller(other: Content, a: &Obb, b: &Obb) -> bool {
-    matches!(other, Content::Triangle(_)) || a.half.max_element() > b.half.max_element()
+fn should_split_self(other: Content, a: &Obb, b: &Obb) -> bool {
+    matches!(other, Content::Triangle(_))
+        || a.half_extents.max_element() > b.half_extents.max_element()
 }
 
 impl Obb {
@@ -74,7 +75,7 @@ impl Obb {
         abs.x_axis += COSINE_SLACK;
         abs.y_axis += COSINE_SLACK;
         abs.z_axis += COSINE_SLACK;
-        let (ha, hb) = (self.half, other.half);
+        let (ha, hb) = (self.half_extents, other.half_extents);
         if (t.abs() - hb - abs * ha).max_element() > 0.0 {
             return true;
         }

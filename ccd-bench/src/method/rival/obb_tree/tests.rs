@@ -27,7 +27,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
                 .bounds
                 .axes
                 .transpose_mul_vec3(*corner - node.bounds.centre);
-            assert!((along.abs() - node.bounds.half).max_element() < 1e-12);
+            assert!((along.abs() - node.bounds.half_extents).max_element() < 1e-12);
             assert!(corner.length() <= tree.radius);
         }
     }
@@ -40,10 +40,10 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
 #[test]
 fn boxes_are_fitted() {
     let tree = ObbTree::new(&crate::method::rival::tests::samples::cuboid(3.0, 2.0, 1.0));
-    assert!((tree.node(0).bounds.half - DVec3::new(3.0, 2.0, 1.0)).length() < 1.0);
+    assert!((tree.node(0).bounds.half_extents - DVec3::new(3.0, 2.0, 1.0)).length() < 1.0);
     for index in 0..tree.nodes.len() as u32 {
         if let Content::Triangle(_) = tree.node(index).content {
-            assert!(tree.node(index).bounds.half.min_element() < 1e-12);
+            assert!(tree.node(index).bounds.half_extents.min_element() < 1e-12);
         }
     }
 }

@@ -1,4 +1,4 @@
-use super::between;
+use super::shortest_vector;
 use crate::method::rival::Placement;
 use crate::method::rival::triangles_apart::nearest;
 use ccd_core::glam::{DMat3, DQuat, DVec2, DVec3};
@@ -95,7 +95,7 @@ fn the_vector_is_the_shortest() {
     let (mut apart, mut meeting) = (0, 0);
     for _ in 0..6_000 {
         let (a, b, placement) = random_pair(&mut rng);
-        let vector = between(a, b, &placement);
+        let vector = shortest_vector(a, b, &placement);
         let distance = vector.length();
         let twin = by_triangles(a, b, &placement);
         assert!(
@@ -145,7 +145,7 @@ fn a_crossing_inside_both_is_a_meeting() {
         rotation: DMat3::from_rotation_x(FRAC_PI_2),
         translation: DVec3::new(0.4, 0.5, -0.3),
     };
-    let cross = between(DVec2::ONE, DVec2::new(0.2, 1.0), &placement);
+    let cross = shortest_vector(DVec2::ONE, DVec2::new(0.2, 1.0), &placement);
     assert_eq!(cross, DVec3::ZERO);
 }
 
@@ -155,5 +155,8 @@ fn invalid_numbers_give_no_distance() {
         rotation: DMat3::IDENTITY,
         translation: DVec3::splat(f64::NAN),
     };
-    assert_eq!(between(DVec2::ONE, DVec2::ONE, &placement), DVec3::ZERO);
+    assert_eq!(
+        shortest_vector(DVec2::ONE, DVec2::ONE, &placement),
+        DVec3::ZERO
+    );
 }

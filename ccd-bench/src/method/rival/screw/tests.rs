@@ -1,5 +1,5 @@
 use super::*;
-use crate::method::rival::tests::samples::{RandomSource, query, still};
+use crate::method::rival::tests::samples::{RandomSource, query, resting_motion};
 use ccd_core::Pose;
 use ccd_core::order::lesser;
 
@@ -64,12 +64,12 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
     let whole = std::f64::consts::TAU * DVec3::Z;
     for spin in [whole, 2.0 * whole, 1e-16 * DVec3::Z, whole * (1.0 + 1e-5)] {
         let motion = Motion::new(Pose::IDENTITY, DVec3::X, spin).unwrap();
-        let given = query(motion, still(DVec3::ZERO));
+        let given = query(motion, resting_motion(DVec3::ZERO));
         assert_eq!(screw(&given).unwrap(), given);
     }
     // With a slightly larger rotation there is an axis, far away.
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
-    let screw = screw(&query(motion, still(DVec3::ZERO))).unwrap();
+    let screw = screw(&query(motion, resting_motion(DVec3::ZERO))).unwrap();
     assert!((screw.a.centre().length() - 1e3).abs() < 1.0);
     assert!(difference(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
 }
@@ -77,7 +77,7 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
 #[test]
 fn overflow_is_an_error() {
     let motion = Motion::new(Pose::IDENTITY, 1e308 * DVec3::X, 1e-3 * DVec3::Z).unwrap();
-    let result = screw(&query(motion, still(DVec3::ZERO)));
+    let result = screw(&query(motion, resting_motion(DVec3::ZERO)));
     assert!(matches!(result, Err(InputError::NotFinite { .. })));
 }
 
@@ -89,5 +89,8 @@ fn screws_are_distinguished_from_other_motions() {
         assert!(!is_screw(&given));
         assert!(is_screw(&screw(&given).unwrap()));
     }
-    assert!(is_screw(&query(still(DVec3::X), still(DVec3::ZERO))));
+    assert!(is_screw(&query(
+        resting_motion(DVec3::X),
+        resting_motion(DVec3::ZERO)
+    )));
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::method::rival::tests::samples::{cuboid, moving, query, still};
+use crate::method::rival::tests::samples::{cuboid, moving, query, resting_motion};
 use ccd_core::glam::{DQuat, DVec3};
 
 /// Returns a query in which a cube of side 1 falls from height 3 at speed 4 onto a slab whose top is at height 0.
@@ -10,7 +10,7 @@ fn fall() -> Motions {
         -4.0 * DVec3::Z,
         DVec3::ZERO,
     );
-    query(a, still(-0.5 * DVec3::Z))
+    query(a, resting_motion(-0.5 * DVec3::Z))
 }
 
 fn stepping() -> Stepping {
@@ -48,9 +48,9 @@ fn a_contact_between_samples_is_missed() {
 
 #[test]
 fn bodies_at_rest_are_tested() {
-    let apart = query(still(1.1 * DVec3::Z), still(DVec3::ZERO));
+    let apart = query(resting_motion(1.1 * DVec3::Z), resting_motion(DVec3::ZERO));
     assert_eq!(stepping().answer(&apart, 1e-3).claim, Claim::Free);
-    let across = query(still(0.9 * DVec3::Z), still(DVec3::ZERO));
+    let across = query(resting_motion(0.9 * DVec3::Z), resting_motion(DVec3::ZERO));
     let contact = Claim::Contact { time: 0.0 };
     assert_eq!(stepping().answer(&across, 1e-3).claim, contact);
 }

@@ -1,6 +1,6 @@
 //! Builds a tree of swept spheres: fits them to triangles, and splits sets of triangles.
 
-use super::{Node, SphereTree, principal_axes};
+use super::{Node, RssTree, principal_axes};
 use crate::method::rival::Placement;
 use crate::method::rival::tree::{Content, build};
 use crate::method::rival::triangles_apart::Triangle;
@@ -8,27 +8,35 @@ use ccd_core::glam::{DMat3, DVec2, DVec3};
 use ccd_core::order::greater;
 
 /// The relative increase of radii, which covers the rounding here and in computations with the tree.
-const ROUNDING: f64 = 1e-14;
+const RADIUS_INFLATION: f64 = 1e-14;
 
 /// Builds the tree over triangles, and sorts these into the order of the leaves.
-pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> SphereTree {
+pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
     let nodes = build(
         &mut triangles,
         |triangles, parent: Option<&(Placement, Node)>| {
             let (frame, lengths, radius) = fit(triangles);
             let node = Node {
-                placement: frame.seen_from(parent.map_or(&WORLD, |(frame, _)| frame)),
+                placement: frame.relative_to(parent.map_or(&WORLD, |(frame, _)| frame)),
                 lengths,
                 radius,
-                below: Content::Triangle(0),
+                content: Content::Triangle(0),
             };
             (frame, node)
         },
         |triangles, (frame, _)| partition(triangles, frame.rotation.x_axis),
     );
-    let node = |((frame, node), below)| (Node { below, ..node }, frame);
+    let node = |((frame, node), below)| {
+        (
+            Node {
+                content: below,
+                ..node
+            },
+            frame,
+        )
+    };
     let (nodes, frames) = nodes.into_iter().map(node).unzip();
-    SphereTree {
+    RssTree {
         nodes,
         frames,
         triangles,
@@ -43,14 +51,14 @@ const WORLD: Placement = Placement {
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
 fn partition(part: &mut [Triangle], axis: DVec3) -> usize {
     /// The smallest share of the triangles that a side may get.
-    const LEAST_SHARE: f64 = 1.0 / 16.0;
+    const MIN_FRACTION: f64 = 1.0 / 16.0;
 
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);
     let count = part.len();
     let mean = part.iter().map(along).sum::<f64>() / count as f64;
     part.sort_unstable_by(|s, t| along(s).total_cmp(&along(t)));
     let below = part.partition_point(|t| along(t) < mean);
-    let few = greater(1.0, LEAST_SHARE * count as f64) as usize;
+    let few = greater(1.0, MIN_FRACTION * count as f64) as usize;
     if (few..=count - few).contains(&below) {
         below
     } else {
@@ -87,7 +95,11 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
         rotation: axes,
         translation: axes * shape.low.extend(middle),
     };
-    (frame, shape.high - shape.low, farthest + ROUNDING * extent)
+    (
+        frame,
+        shape.high - shape.low,
+        farthest + RADIUS_INFLATION * extent,
+    )
 }
 
 /// A rectangle in the plane z = `middle` that grows until all points are within the radius of it.

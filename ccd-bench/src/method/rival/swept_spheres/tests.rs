@@ -1,4 +1,4 @@
-use super::{Content, Pair, PairChildren, SphereTree, Trees};
+use super::{Content, Pair, PairChildren, RssTree, Trees};
 use crate::method::rival::Placement;
 use crate::scene::model::Model;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -20,8 +20,8 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
 }
 
 /// Returns the indices of the triangles below a node.
-fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
-    match tree.nodes[node as usize].below {
+fn triangles(tree: &RssTree, node: u32) -> Vec<u32> {
+    match tree.nodes[node as usize].content {
         Content::Triangle(k) => vec![k],
         Content::Nodes(below) => below.map(|node| triangles(tree, node)).concat(),
     }
@@ -34,7 +34,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
         Model::Board.generate().unwrap(),
         Model::Bunny26k.generate().unwrap(),
     ] {
-        let tree = SphereTree::new(&mesh);
+        let tree = RssTree::new(&mesh);
         let mut all = triangles(&tree, 0);
         all.sort_unstable();
         assert_eq!(all, (0..mesh.faces().len() as u32).collect::<Vec<_>>());
@@ -68,9 +68,9 @@ fn no_split_is_lopsided() {
     let corners = |k| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| 1e-3 * p + at(k) * DVec3::X);
     let faces: Vec<_> = (0..400).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let mesh = TriangleMesh::new((0..400).flat_map(corners).collect(), &faces).unwrap();
-    let tree = SphereTree::new(&mesh);
+    let tree = RssTree::new(&mesh);
     for (k, node) in tree.nodes.iter().enumerate() {
-        let Content::Nodes([left, right]) = node.below else {
+        let Content::Nodes([left, right]) = node.content else {
             continue;
         };
         let all = triangles(&tree, k as u32).len();
@@ -83,8 +83,8 @@ fn no_split_is_lopsided() {
 #[test]
 fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
     let trees = Trees {
-        a: SphereTree::new(&knot()),
-        b: SphereTree::new(&knot()),
+        a: RssTree::new(&knot()),
+        b: RssTree::new(&knot()),
     };
     let mut rng = Pcg64::seed_from_u64(4);
     let (mut checked, mut apart) = (0, 0);
@@ -100,7 +100,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             let mut true_distance = f64::INFINITY;
             for &i in &a {
                 for &j in &b {
-                    let nearest = trees.nearest(super::Leaves { a: i, b: j }, &placement);
+                    let nearest = trees.nearest(super::TrianglePair { a: i, b: j }, &placement);
                     true_distance = lesser(true_distance, nearest.between().length());
                 }
             }
@@ -132,7 +132,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
 
 #[test]
 fn levers_reach_all_points() {
-    let tree = SphereTree::new(&knot());
+    let tree = RssTree::new(&knot());
     let (centre, axis) = (
         DVec3::new(0.3, -0.2, 0.5),
         DVec3::new(1.0, 2.0, 3.0).normalize(),

@@ -17,13 +17,13 @@ impl RandomSource {
         RandomSource(Pcg64::seed_from_u64(seed))
     }
 
-    pub(in crate::method::rival) fn number(&mut self, low: f64, high: f64) -> f64 {
+    pub(in crate::method::rival) fn uniform(&mut self, low: f64, high: f64) -> f64 {
         self.0.random_range(low..high)
     }
 
     /// Returns a random vector in a cube about the origin, of half side `half`.
     pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
-        DVec3::from_array([(); 3].map(|()| self.number(-half, half)))
+        DVec3::from_array([(); 3].map(|()| self.uniform(-half, half)))
     }
 
     pub(in crate::method::rival) fn rotation(&mut self) -> DQuat {
@@ -65,7 +65,7 @@ pub(in crate::method::rival) fn moving(
     Motion::new(Pose::new(position, rotation).unwrap(), velocity, spin).unwrap()
 }
 
-pub(in crate::method::rival) fn still(position: DVec3) -> Motion {
+pub(in crate::method::rival) fn resting_motion(position: DVec3) -> Motion {
     moving(position, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
 }
 

@@ -1,6 +1,6 @@
 //! Tests that all rivals share: scenes with exact answers, and shots checked by brute force.
 
-use crate::method::rival::patience::Patience;
+use crate::method::rival::patience::WorkLimit;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
 use crate::method::rival::{Placement, RivalMotion};
 use crate::method::solver::{Claim, Solver};
@@ -28,11 +28,11 @@ pub(in crate::method::rival) fn knot_216() -> TriangleMesh {
     Model::Knot216.generate().unwrap()
 }
 
-fn boxed(half: DVec3) -> TriangleMesh {
-    turned_box(half, DMat3::IDENTITY)
+fn box_mesh(half: DVec3) -> TriangleMesh {
+    rotated_box_mesh(half, DMat3::IDENTITY)
 }
 
-fn turned_box(half: DVec3, turn: DMat3) -> TriangleMesh {
+fn rotated_box_mesh(half: DVec3, turn: DMat3) -> TriangleMesh {
     let corner = |k: u32| {
         let side = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         turn * (half * DVec3::new(side(0), side(1), side(2)))
@@ -73,10 +73,10 @@ fn query(a: Motion, b: Motion) -> Motions {
 
 /// The half extents of a slab onto which bodies fall. Its near face is at the origin's height if it is lowered by its
 /// third half extent.
-const SLAB: DVec3 = DVec3::new(10.0, 10.0, 1.0);
+const SLAB_HALF_EXTENTS: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 
 /// The position of the slab, with its top at 0.
-const SUNK: DVec3 = DVec3::new(0.0, 0.0, -1.0);
+const SLAB_POSITION: DVec3 = DVec3::new(0.0, 0.0, -1.0);
 
 fn falling_boxes() -> Vec<ExactCase> {
     let fall = |name, a, b, at_b, time| ExactCase {
@@ -93,19 +93,25 @@ fn falling_boxes() -> Vec<ExactCase> {
     let cube = DVec3::splat(0.5);
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
     vec![
-        fall("cube on slab", boxed(cube), boxed(SLAB), SUNK, 0.625),
+        fall(
+            "cube on slab",
+            box_mesh(cube),
+            box_mesh(SLAB_HALF_EXTENTS),
+            SLAB_POSITION,
+            0.625,
+        ),
         fall(
             "edge on edge",
-            turned_box(cube, DMat3::from_rotation_x(FRAC_PI_4)),
-            turned_box(cube, DMat3::from_rotation_y(FRAC_PI_4)),
+            rotated_box_mesh(cube, DMat3::from_rotation_x(FRAC_PI_4)),
+            rotated_box_mesh(cube, DMat3::from_rotation_y(FRAC_PI_4)),
             DVec3::ZERO,
             (3.0 - SQRT_2) / 4.0,
         ),
         fall(
             "corner on slab",
-            turned_box(cube, DMat3::from_quat(upright)),
-            boxed(SLAB),
-            SUNK,
+            rotated_box_mesh(cube, DMat3::from_quat(upright)),
+            box_mesh(SLAB_HALF_EXTENTS),
+            SLAB_POSITION,
             (3.0 - 0.75_f64.sqrt()) / 4.0,
         ),
     ]
@@ -120,11 +126,11 @@ fn turning_rods() -> Vec<ExactCase> {
     let rise = |height: f64| (radius * radius - height * height).sqrt();
     let mut scenes = vec![ExactCase {
         name: "rod on slab",
-        a: boxed(DVec3::new(length, 0.3, width)),
-        b: boxed(SLAB),
+        a: box_mesh(DVec3::new(length, 0.3, width)),
+        b: box_mesh(SLAB_HALF_EXTENTS),
         query: query(
             moving(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
-            still(SUNK),
+            still(SLAB_POSITION),
         ),
         time: angle(height) / PI,
         closing_speed: PI * rise(height),
@@ -132,8 +138,8 @@ fn turning_rods() -> Vec<ExactCase> {
     for turns in [1.0, 1.9] {
         scenes.push(ExactCase {
             name: "rod on wall",
-            a: boxed(DVec3::new(width, 0.3, length)),
-            b: boxed(DVec3::new(1.0, 10.0, 10.0)),
+            a: box_mesh(DVec3::new(width, 0.3, length)),
+            b: box_mesh(DVec3::new(1.0, 10.0, 10.0)),
             query: query(
                 moving(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
                 still((height + 1.0) * DVec3::X),
@@ -143,7 +149,7 @@ fn turning_rods() -> Vec<ExactCase> {
         });
     }
     let (apart, speed) = (3.0, 2.0);
-    let rod = || boxed(DVec3::new(width, 0.3, length));
+    let rod = || box_mesh(DVec3::new(width, 0.3, length));
     scenes.push(ExactCase {
         name: "rod on rod",
         a: rod(),
@@ -168,8 +174,8 @@ fn rod_on_post() -> ExactCase {
     let facing = DVec3::new(-at.sin(), at.cos(), 0.0);
     ExactCase {
         name: "rod on post",
-        a: boxed(DVec3::new(length, width, 0.1)),
-        b: turned_box(DVec3::new(0.1, 0.1, 0.5), outward),
+        a: box_mesh(DVec3::new(length, width, 0.1)),
+        b: rotated_box_mesh(DVec3::new(0.1, 0.1, 0.5), outward),
         query: query(
             moving(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
             still(distance * near + 0.1 * SQRT_2 * facing),
@@ -210,12 +216,12 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
 }
 
 /// Two torus knots whose distance is computed over all pairs of triangles.
-struct BruteForce {
+struct BruteForceDistance {
     triangles: Vec<Triangle>,
     balls: Vec<(DVec3, f64)>,
 }
 
-impl BruteForce {
+impl BruteForceDistance {
     fn new(mesh: &TriangleMesh) -> Self {
         let corner = |v: u32| mesh.vertices()[v as usize];
         let triangles: Vec<Triangle> = mesh.faces().iter().map(|face| face.map(corner)).collect();
@@ -226,7 +232,7 @@ impl BruteForce {
                 t.map(|p| p.distance(centre)).into_iter().fold(0.0, greater),
             )
         };
-        BruteForce {
+        BruteForceDistance {
             balls: triangles.iter().map(ball).collect(),
             triangles,
         }
@@ -259,23 +265,23 @@ impl BruteForce {
 /// bodies are within the tolerance at that time.
 pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl Solver) {
     /// The least spacing of samples, as a fraction of the duration; otherwise it is the time to close the distance.
-    const SAMPLE: f64 = 5e-4;
+    const MIN_SAMPLE_SPACING: f64 = 5e-4;
 
     let shots = Shots {
         count: 60,
-        translations: 20,
+        translation_count: 20,
         distance: 3.0..3.8,
-        aside: 2.3,
+        max_offset: 2.3,
         seed: 5,
     };
-    let brute_force = BruteForce::new(&knot_216());
+    let brute_force = BruteForceDistance::new(&knot_216());
     // Knots turn about their origin.
     let corners = brute_force.triangles.iter().flatten();
     let reach = corners.map(|p| p.length()).fold(0.0, greater);
     let (mut hits, mut free) = (0, 0);
     for query in shots.queries().unwrap() {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        let apart = |time: f64| brute_force.distance(&b.at(time).seen_from(&a.at(time)));
+        let apart = |time: f64| brute_force.distance(&b.at(time).relative_to(&a.at(time)));
         let until = match rival.answer(&query, tolerance).claim {
             Claim::Contact { time } => {
                 let distance = apart(time);
@@ -302,7 +308,7 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
                 "{}: touching at {time} before {until}",
                 query.id
             );
-            time += greater(distance / speed, SAMPLE * query.duration);
+            time += greater(distance / speed, MIN_SAMPLE_SPACING * query.duration);
         }
     }
     assert!(hits >= 20 && free >= 10, "{hits} hits, {free} free");
@@ -311,19 +317,19 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
 /// Asserts that a rival with a small work limit ends with a time, for either kind of limit.
 pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
-    give: impl Fn(&mut C, Patience),
+    give: impl Fn(&mut C, WorkLimit),
 ) {
     let (a, b, query) = boxes_rotating_past();
     let mut rival = rival(&a, &b);
     assert_eq!(rival.answer(&query, 1e-6).claim, Claim::Free);
     let short = [
-        Patience {
+        WorkLimit {
             steps: 20,
-            ..Patience::default()
+            ..WorkLimit::default()
         },
-        Patience {
+        WorkLimit {
             pairs: 1_000,
-            ..Patience::default()
+            ..WorkLimit::default()
         },
     ];
     for patience in short {
@@ -339,10 +345,10 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
 /// Returns two boxes that rotate past each other without contact, so close that the decision takes many steps.
 pub(in crate::method::rival) fn boxes_rotating_past() -> (TriangleMesh, TriangleMesh, Motions) {
     // Its upright edges are at a distance of 1 from its axis.
-    let turning = boxed(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
+    let turning = box_mesh(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(
         moving(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
         still(1.51 * DVec3::X),
     );
-    (turning, boxed(DVec3::splat(0.5)), query)
+    (turning, box_mesh(DVec3::splat(0.5)), query)
 }

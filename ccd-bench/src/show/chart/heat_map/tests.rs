@@ -1,6 +1,6 @@
 use super::*;
 
-fn map(kind: &'static HeatKind, cells: Vec<Option<HeatCell>>) -> String {
+fn map(kind: &'static HeatMapKind, cells: Vec<Option<HeatCell>>) -> String {
     let map = HeatMap {
         kind,
         methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
@@ -21,7 +21,10 @@ fn count(svg: &str, colour: &str) -> usize {
 fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
     let cell = |worst, share, limit: &str| Some(HeatCell::reach(worst, share, limit.to_owned()));
     let right = cell(Verdict::Right, 1.0, "");
-    let svg = map(REACH, vec![right, cell(Verdict::Missed, 0.25, "1e5"), None]);
+    let svg = map(
+        SOLVED_RANGE,
+        vec![right, cell(Verdict::Missed, 0.25, "1e5"), None],
+    );
     for text in [
         "bullet and paper",
         "way against thickness",

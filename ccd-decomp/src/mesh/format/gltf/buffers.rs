@@ -131,8 +131,8 @@ fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
     const LENIENT: GeneralPurposeConfig = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);
-    const ENGINE: GeneralPurpose = GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT);
-    let decoded = ENGINE.decode(data);
+    const BASE64_ENGINE: GeneralPurpose = GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT);
+    let decoded = BASE64_ENGINE.decode(data);
     decoded.map_err(|error| MeshFault::malformed(format!("its base64 is not valid: {error}")))
 }
 

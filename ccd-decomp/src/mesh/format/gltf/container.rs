@@ -57,7 +57,7 @@ impl<'a> Container<'a> {
 fn read_chunk<'a>(rest: &mut &'a [u8]) -> Result<([u8; 4], &'a [u8]), MeshFault> {
     let length = read_u32(rest)? as usize;
     let kind = read_four_bytes(rest)?;
-    let (content, after) = rest.split_at_checked(length).ok_or_else(truncated)?;
+    let (content, after) = rest.split_at_checked(length).ok_or_else(truncated_fault)?;
     *rest = after;
     Ok((kind, content))
 }
@@ -67,11 +67,11 @@ fn read_u32(rest: &mut &[u8]) -> Result<u32, MeshFault> {
 }
 
 fn read_four_bytes(rest: &mut &[u8]) -> Result<[u8; 4], MeshFault> {
-    let (bytes, after) = rest.split_first_chunk().ok_or_else(truncated)?;
+    let (bytes, after) = rest.split_first_chunk().ok_or_else(truncated_fault)?;
     *rest = after;
     Ok(*bytes)
 }
 
-fn truncated() -> MeshFault {
+fn truncated_fault() -> MeshFault {
     MeshFault::truncated("a chunk")
 }

@@ -4,7 +4,7 @@ use super::schema::Root;
 use crate::mesh::error::{MeshFault, Quote};
 
 /// The name prefixes of extensions about appearance, lights, audio and metadata, which do not change shapes.
-const HARMLESS: [&str; 14] = [
+const HARMLESS_PREFIXES: [&str; 14] = [
     "KHR_materials_",
     "KHR_texture_",
     "EXT_texture_",
@@ -28,8 +28,12 @@ const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// Refuses a file that requires an unsupported extension, as the specification demands.
 pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
-    let known =
-        |name: &str| name == QUANTIZATION || HARMLESS.iter().any(|prefix| name.starts_with(prefix));
+    let known = |name: &str| {
+        name == QUANTIZATION
+            || HARMLESS_PREFIXES
+                .iter()
+                .any(|prefix| name.starts_with(prefix))
+    };
     let mut required = root.extensions_required.iter();
     match required.find(|name| !known(name)).map(String::as_str) {
         None => Ok(()),

@@ -20,7 +20,7 @@ pub(super) struct Scene {
 /// Reads the default scene of the file, or else the first one. A file without scenes gives all nodes; one without
 /// nodes, all meshes.
 pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
-    let mut walk = Walk {
+    let mut walk = SceneTraversal {
         root,
         accessors,
         object_of_mesh: HashMap::new(),
@@ -41,7 +41,7 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
 }
 
 /// The state of a traversal of the nodes. Each mesh is read at its first use.
-struct Walk<'a> {
+struct SceneTraversal<'a> {
     root: &'a Root,
     accessors: Accessors<'a>,
     /// The object number of each mesh that has been read, by mesh index.
@@ -50,7 +50,7 @@ struct Walk<'a> {
     scene: Scene,
 }
 
-impl Walk<'_> {
+impl SceneTraversal<'_> {
     /// Visits the nodes `tops` and all their descendants, parents first.
     fn visit_descendants(&mut self, tops: &[usize]) -> Result<(), MeshFault> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
@@ -65,7 +65,7 @@ impl Walk<'_> {
                 );
             }
             let own = transform::node_transform(node).map_err(|fault| fault.at(place()))?;
-            let map = above.after(&own);
+            let map = above.compose_after(&own);
             if own.collapses_to_point() {
                 continue;
             }

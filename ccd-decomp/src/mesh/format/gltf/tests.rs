@@ -34,7 +34,7 @@ fn corner(gltf: &Gltf) -> DVec3 {
 /// Returns a glTF of a square: two triangles over four vertices.
 fn square() -> Gltf {
     let mut gltf = Gltf::new();
-    gltf.floats(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
+    gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
     gltf
 }
 
@@ -56,7 +56,7 @@ fn text_and_binary_are_the_same() {
 #[test]
 fn metres_are_converted() {
     let mut gltf = Gltf::new();
-    gltf.floats(&[[0., 0., 0.], [0.1, 0., 0.], [0., 1., 0.]]);
+    gltf.add_vec3_accessor(&[[0., 0., 0.], [0.1, 0., 0.], [0., 1., 0.]]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}}));
     assert_eq!(file(&gltf).unit(), Some(Unit::Metre));
     assert_eq!(corner(&gltf).x, f64::from(0.1_f32));

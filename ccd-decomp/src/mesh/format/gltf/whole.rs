@@ -29,16 +29,16 @@ struct Whole<T>(T);
 
 impl<'de, T: TryFrom<u64>> Deserialize<'de> for Whole<T> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(Number(PhantomData))
+        from.deserialize_any(WholeNumberVisitor(PhantomData))
     }
 }
 
-struct Number<T>(PhantomData<T>);
+struct WholeNumberVisitor<T>(PhantomData<T>);
 
 /// The number 2⁵³, from which on f64 does not represent every whole number.
 const FIRST_INEXACT: f64 = (1_u64 << 53) as f64;
 
-impl<T: TryFrom<u64>> Visitor<'_> for Number<T> {
+impl<T: TryFrom<u64>> Visitor<'_> for WholeNumberVisitor<T> {
     type Value = Whole<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,11 +1,11 @@
 //! Tests that any bytes give an error or a valid mesh, never a panic.
 
-use super::{Format, binary_ply, binary_stl, read, valid};
+use super::{Format, binary_ply, binary_stl, read, valid_files};
 use proptest::prelude::*;
 
 #[test]
 fn a_file_cut_anywhere_gives_an_error_or_a_valid_mesh() {
-    for (format, bytes) in valid() {
+    for (format, bytes) in valid_files() {
         for end in 0..bytes.len() {
             check(format, &bytes[..end]);
         }
@@ -61,7 +61,7 @@ proptest! {
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in any::<prop::sample::Index>(),
     ) {
-        let mut valid = valid();
+        let mut valid = valid_files();
         let (format, mut bytes) = valid.swap_remove(file.index(valid.len()));
         for (at, byte) in changes {
             let at = at.index(bytes.len());

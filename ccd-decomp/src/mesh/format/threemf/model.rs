@@ -147,7 +147,7 @@ impl Model {
 
     fn start_model(&mut self, element: &Element<'_>) -> Result<(), MeshFault> {
         let [unit, required] = element.attribute_values(["unit", "requiredextensions"])?;
-        self.unit = unit.map(|unit| named_unit(&unit)).transpose()?;
+        self.unit = unit.map(|unit| parse_unit(&unit)).transpose()?;
         let mut namespaces = BTreeMap::new();
         element.for_each_attribute(|prefix, name, value| {
             if prefix == Some("xmlns") {
@@ -281,7 +281,7 @@ impl ObjectRef {
     }
 }
 
-fn named_unit(name: &str) -> Result<Unit, MeshFault> {
+fn parse_unit(name: &str) -> Result<Unit, MeshFault> {
     let mut units = Unit::ALL.into_iter();
     units
         .find(|unit| unit.name_in_3mf() == name)

@@ -27,7 +27,7 @@ struct Entry {
 
 /// The path in the archive of the file that names the root model.
 const RELATIONSHIPS: &str = "_rels/.rels";
-const USUAL_MODEL: &str = "3D/3dmodel.model";
+const DEFAULT_MODEL_PATH: &str = "3D/3dmodel.model";
 
 /// The suffix of the relationship type that marks the root model.
 const MODEL_TYPE: &str = "/3dmodel";
@@ -65,8 +65,11 @@ impl<'a> Package<'a> {
     /// Returns the path of the root model in the archive.
     pub(super) fn root_model_path(&mut self) -> Result<String, MeshFault> {
         if !self.entries.contains_key(RELATIONSHIPS) {
-            return if self.entries.contains_key(&normalized_path(USUAL_MODEL)) {
-                Ok(USUAL_MODEL.into())
+            return if self
+                .entries
+                .contains_key(&normalized_path(DEFAULT_MODEL_PATH))
+            {
+                Ok(DEFAULT_MODEL_PATH.into())
             } else {
                 let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
                 Err(MeshFault::malformed(problem))

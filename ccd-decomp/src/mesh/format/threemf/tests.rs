@@ -15,7 +15,7 @@ fn tetrahedron(attributes: &str) -> String {
     object(attributes, &POINTS, &FACES)
 }
 
-fn one(model: &str) -> Vec<u8> {
+fn package_of_model(model: &str) -> Vec<u8> {
     package(&[("3D/3dmodel.model", model)])
 }
 
@@ -43,7 +43,7 @@ fn points() -> Vec<DVec3> {
 #[test]
 fn a_model_is_read() {
     let model = model("", &tetrahedron(r#"id="1""#), r#"<item objectid="1"/>"#);
-    let mesh = read(&one(&model));
+    let mesh = read(&package_of_model(&model));
     assert_eq!(mesh.vertices(), points());
     assert_eq!(mesh.faces(), FACES);
     assert!(mesh.repairs().is_empty());
@@ -58,7 +58,7 @@ fn a_model_is_read() {
 #[case("unit=\"foot\"", Unit::Foot, 304.8)]
 #[case("unit=\"meter\"", Unit::Metre, 1000.0)]
 fn the_unit_is_stated(#[case] attribute: &str, #[case] unit: Unit, #[case] millimetres: f64) {
-    let bytes = one(&model(
+    let bytes = package_of_model(&model(
         attribute,
         &tetrahedron(r#"id="1""#),
         r#"<item objectid="1"/>"#,
@@ -73,7 +73,7 @@ fn the_unit_is_stated(#[case] attribute: &str, #[case] unit: Unit, #[case] milli
 #[test]
 fn translations_are_in_the_unit() {
     let item = r#"<item objectid="1" transform="1 0 0 0 1 0 0 0 1 3 0 0"/>"#;
-    let bytes = one(&model("unit=\"meter\"", &tetrahedron(r#"id="1""#), item));
+    let bytes = package_of_model(&model("unit=\"meter\"", &tetrahedron(r#"id="1""#), item));
     let mesh = file(&bytes).in_unit(Unit::Centimetre).into_mesh().unwrap();
     assert_eq!(mesh.vertices()[1], dvec3(400.0, 0.0, 0.0));
 }
@@ -87,7 +87,7 @@ fn items_and_components_are_placed() {
             <component objectid="1" transform="0 2 0 -1 0 0 0 0 1 5 0 0"/>
         </components></object>"#;
     let items = r#"<item objectid="2" transform="1 0 0 0 1 0 0 0 1 0 0 7"/><item objectid="1" partnumber="A7"/>"#;
-    let bytes = one(&model("", &objects, items));
+    let bytes = package_of_model(&model("", &objects, items));
     let mesh = read(&bytes);
     assert_eq!(mesh.vertices().len(), 12);
     assert_eq!(mesh.vertices()[..2], [dvec3(0., 0., 7.), dvec3(1., 0., 7.)]);
@@ -114,10 +114,17 @@ fn items_and_components_are_placed() {
 fn mirrored_components_turn_the_faces_round() {
     let objects = tetrahedron(r#"id="1""#)
         + r#"<object id="2"><components><component objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/></components></object>"#;
-    let once = read(&one(&model("", &objects, r#"<item objectid="2"/>"#)));
+    let once = read(&package_of_model(&model(
+        "",
+        &objects,
+        r#"<item objectid="2"/>"#,
+    )));
     assert_eq!(once.faces()[0], [0, 1, 2]);
     let twice = r#"<item objectid="2" transform="1 0 0 0 -2 0 0 0 1 0 0 0"/>"#;
-    assert_eq!(read(&one(&model("", &objects, twice))).faces()[0], FACES[0]);
+    assert_eq!(
+        read(&package_of_model(&model("", &objects, twice))).faces()[0],
+        FACES[0]
+    );
 }
 
 #[test]
@@ -126,7 +133,7 @@ fn parts_have_the_names_of_objects_or_their_part_numbers() {
         + &tetrahedron(r#"id="2" partnumber="8""#)
         + &tetrahedron(r#"id="3" name="""#);
     let items = r#"<item objectid="1" partnumber="X"/><item objectid="2" partnumber="Y"/><item objectid="3" partnumber="Z"/><item objectid="3"/>"#;
-    let file = file(&one(&model("", &objects, items)));
+    let file = file(&package_of_model(&model("", &objects, items)));
     let names: Vec<_> = file.part_names().collect();
     assert_eq!(names, [Some("a < b"), Some("8"), Some("Z"), None]);
 }
@@ -136,7 +143,11 @@ fn parts_have_the_names_of_objects_or_their_part_numbers() {
 fn only_the_build_is_read() {
     let beams = r#"<object id="3"><mesh><vertices/><triangles/><b:beamlattice/></mesh></object>"#;
     let objects = tetrahedron(r#"id="1""#) + &tetrahedron(r#"id="2" type="other""#) + beams;
-    let mesh = read(&one(&model("", &objects, r#"<item objectid="1"/>"#)));
+    let mesh = read(&package_of_model(&model(
+        "",
+        &objects,
+        r#"<item objectid="1"/>"#,
+    )));
     assert_eq!(mesh.faces().len(), 4);
 }
 
@@ -181,7 +192,7 @@ fn the_order_and_other_elements_do_not_matter() {
         </mesh></object>"#,
         r#"<item objectid=" 1 " transform=" 1 0 0  0 1 0 0 0 1 0 0 0 " printable="1"><metadatagroup/></item>"#,
     );
-    let mesh = read(&one(&model));
+    let mesh = read(&package_of_model(&model));
     assert_eq!(
         mesh.vertices(),
         [DVec3::ZERO, dvec3(1., 1., 0.), dvec3(0., 2., 0.)]
@@ -199,7 +210,7 @@ fn elements_of_other_namespaces_are_passed_over() {
         <triangles><q:triangle v1="7" v2="8" v3="9"/><triangle v1="0" v2="1" v3="2"/></triangles></mesh><q:mesh/></object>"#,
         r#"<q:item objectid="77"/><item objectid="1"/>"#,
     );
-    let mesh = read(&one(&model));
+    let mesh = read(&package_of_model(&model));
     assert_eq!(mesh.vertices(), [DVec3::ZERO, DVec3::X, DVec3::Y]);
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
 }
@@ -225,7 +236,7 @@ fn what_is_not_read_is_remarked_upon() {
     let objects = tetrahedron(r#"id="1""#) + &tetrahedron(r#"id="2""#);
     let objects = objects.replacen("<triangles>", "<quads/><triangles>", 1);
     let model = model("", &objects, r#"<item objectid="1"/>"#);
-    let mesh = read(&one(&model));
+    let mesh = read(&package_of_model(&model));
     assert_eq!(mesh.faces(), FACES);
     assert_eq!(
         mesh.repairs().remarks.to_string(),

@@ -14,7 +14,7 @@ pub(super) struct Xml<R> {
     buffer: Vec<u8>,
     depth: usize,
     /// The namespace of the outermost element, once it has been read.
-    own: Option<Namespace>,
+    own_namespace: Option<Namespace>,
 }
 
 /// The URI of a namespace; `None` for names without a namespace.
@@ -50,7 +50,7 @@ impl<R: BufRead> Xml<R> {
             reader,
             buffer: Vec::new(),
             depth: 0,
-            own: None,
+            own_namespace: None,
         }
     }
 
@@ -69,7 +69,9 @@ impl<R: BufRead> Xml<R> {
                 self.depth += 1;
                 let (found, _) = self.reader.resolver().resolve_element(start.name());
                 let found = namespace(&found);
-                let own = self.own.get_or_insert_with(|| found.map(str::to_owned));
+                let own = self
+                    .own_namespace
+                    .get_or_insert_with(|| found.map(str::to_owned));
                 let is_extension = own.as_deref() != found;
                 Ok(XmlEvent::Start(Element {
                     start,

@@ -46,7 +46,7 @@ fn check(nodes: &[Node]) -> Vec<u32> {
 }
 
 /// Returns the total area of all boxes after a move.
-fn total_after(nodes: &[Node], from: u32, to: u32) -> f64 {
+fn total_area_after_move(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
     Tree::new(&mut copy).apply(from, to);
     check(&copy);
@@ -79,7 +79,7 @@ proptest! {
             let beside = super::sibling(from);
             let targets = (1..all.len() as u32)
                 .filter(|&to| to != beside && !is_above(from, to) && !is_above(to, from));
-            let gains = targets.map(|to| before - total_after(&all, from, to));
+            let gains = targets.map(|to| before - total_area_after_move(&all, from, to));
             let best = gains.fold(0.0, ccd_core::order::greater);
             let found = tree.best_move(from, &mut Vec::new()).map_or(0.0, |best| f64::from(best.gain));
             prop_assert!((found - best).abs() <= 1e-4, "{from}: {found} instead of {best}");

@@ -1,9 +1,9 @@
 //! Compares enclosures, boxes and triangles with samples of the motion.
 
-use crate::method::rival::contact::boxes::{Boxes, boxes};
-use crate::method::rival::contact::clock::{Clock, HalvedInterval};
-use crate::method::rival::contact::elementary::{Facet, Triangles};
-use crate::method::rival::contact::leaf::{Touch, first_touch};
+use crate::method::rival::contact::boxes::{BoxRelation, relate_boxes};
+use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
+use crate::method::rival::contact::elementary::{Facet, TrianglePair};
+use crate::method::rival::contact::leaf::{FirstTouch, first_touch};
 use crate::method::rival::contact::relative::{Enclosure, Relative, Span};
 use crate::method::rival::obb_tree::Obb;
 use crate::method::rival::tests::samples::{RandomSource, distance};
@@ -29,8 +29,8 @@ fn distance_outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f6
 }
 
 fn span(samples: &mut RandomSource) -> Span {
-    let start = samples.number(0.0, 1.0);
-    let width = samples.number(0.0, 1.0).powi(3);
+    let start = samples.uniform(0.0, 1.0);
+    let width = samples.uniform(0.0, 1.0).powi(3);
     Span {
         start,
         end: start + width,
@@ -49,7 +49,7 @@ fn placements_are_those_of_the_motions() {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let (from_a, from_b) = (samples.vector(1.0), samples.vector(1.0));
         let relative = Relative::new((&a, from_a), (&b, from_b));
-        let (point, time) = (samples.vector(2.0), samples.number(0.0, 1.0));
+        let (point, time) = (samples.vector(2.0), samples.uniform(0.0, 1.0));
         let world = query.a.pose(time).transform_point(point);
         let seen = relative.at(time).apply(point - from_a) + from_b;
         let back = query.b.pose(time).transform_point(seen);
@@ -70,7 +70,7 @@ fn enclosures_contain_all_placements_and_rates_between() {
             relative = Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
         let span = span(&mut samples);
-        let (placements, rates) = (relative.over(span), relative.rates_over(span));
+        let (placements, rates) = (relative.enclosure_over(span), relative.rates_over(span));
         for time in times(span, 20) {
             let at = relative.at(time);
             assert!(distance_outside(&placements, at.rotation, at.translation) < 1e-12);
@@ -88,9 +88,9 @@ fn enclosures_shrink_with_the_interval() {
     let mut samples = RandomSource::new(3);
     for _ in 0..100 {
         let relative = relative(&mut samples, 3.0, 3.0);
-        let start = samples.number(0.0, 1.0);
+        let start = samples.uniform(0.0, 1.0);
         let width = |width: f64| {
-            let over = relative.over(Span {
+            let over = relative.enclosure_over(Span {
                 start,
                 end: start + width,
             });
@@ -107,7 +107,7 @@ fn random_box(samples: &mut RandomSource) -> Obb {
     Obb {
         axes: DMat3::from_quat(samples.rotation()),
         centre: samples.vector(1.0),
-        half: samples.vector(0.5).abs(),
+        half_extents: samples.vector(0.5).abs(),
     }
 }
 
@@ -120,11 +120,11 @@ fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
             let lines = STEPS.iter().map(move |&y| (x, y));
             lines.flat_map(|(x, y)| STEPS.iter().map(move |&z| DVec3::new(x, y, z)))
         });
-        points.map(move |p| o.centre + o.axes * (p * o.half))
+        points.map(move |p| o.centre + o.axes * (p * o.half_extents))
     };
     let holds = |o: &Obb, p: DVec3| {
         let along = o.axes.transpose_mul_vec3(p - o.centre).abs();
-        (along - o.half).max_element() <= 0.0
+        (along - o.half_extents).max_element() <= 0.0
     };
     let back = at.rotation.transpose();
     grid(a).any(|p| holds(b, at.apply(p))) || grid(b).any(|p| holds(a, back * (p - at.translation)))
@@ -137,19 +137,19 @@ fn separated_boxes_never_meet() {
     for _ in 0..6000 {
         let relative = relative(&mut samples, 2.0, 3.0);
         let (a, b) = (random_box(&mut samples), random_box(&mut samples));
-        let start = samples.number(0.0, 1.0);
+        let start = samples.uniform(0.0, 1.0);
         let span = Span {
             start,
-            end: start + samples.number(0.0, 0.2),
+            end: start + samples.uniform(0.0, 0.2),
         };
         let meet = times(span, 8).any(|time| boxes_meet(&a, &b, &relative.at(time)));
         met += usize::from(meet);
-        match boxes(&a, &b, &relative.over(span)) {
-            Boxes::Apart => {
+        match relate_boxes(&a, &b, &relative.enclosure_over(span)) {
+            BoxRelation::Apart => {
                 assert!(!meet);
                 apart += 1;
             }
-            Boxes::Near { spread } => {
+            BoxRelation::NotSeparated { spread } => {
                 assert!(spread >= 0.0);
                 near += 1;
             }
@@ -170,11 +170,11 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
         translation: DVec3::ZERO,
     };
     let enclosure = |offset: DVec3| {
-        let still = crate::method::rival::tests::samples::still(DVec3::ZERO);
+        let still = crate::method::rival::tests::samples::resting_motion(DVec3::ZERO);
         let course = RivalMotion::new(&still);
         let relative = Relative::new((&course, -offset), (&course, DVec3::ZERO));
         assert_eq!(relative.at(0.3).rotation, at.rotation);
-        relative.over(Span {
+        relative.enclosure_over(Span {
             start: 0.0,
             end: 1.0,
         })
@@ -182,14 +182,14 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     let cube = Obb {
         axes: DMat3::IDENTITY,
         centre: DVec3::ZERO,
-        half: DVec3::splat(0.5),
+        half_extents: DVec3::splat(0.5),
     };
     let spread = 0.0;
     for axis in DVec3::AXES {
-        let ask = |offset: f64| boxes(&cube, &cube, &enclosure(offset * axis));
-        assert_eq!(ask(1.0 + 1e-9), Boxes::Apart);
-        assert_eq!(ask(-1.0 - 1e-9), Boxes::Apart);
-        assert_eq!(ask(1.0 - 1e-9), Boxes::Near { spread });
+        let ask = |offset: f64| relate_boxes(&cube, &cube, &enclosure(offset * axis));
+        assert_eq!(ask(1.0 + 1e-9), BoxRelation::Apart);
+        assert_eq!(ask(-1.0 - 1e-9), BoxRelation::Apart);
+        assert_eq!(ask(1.0 - 1e-9), BoxRelation::NotSeparated { spread });
     }
 }
 
@@ -217,11 +217,11 @@ fn triangles_touch_when_samples_first_cross() {
             continue;
         }
         let tolerance = [1e-2, 1e-4, 1e-8][k % 3];
-        let triangles = Triangles {
+        let triangles = TrianglePair {
             a: Facet::new(&a),
             b: Facet::new(&b),
         };
-        let mut clock = Clock::new(relative, tolerance / MAX_SPEED, 1 << 20);
+        let mut clock = MotionEncloser::new(relative, tolerance / MAX_SPEED, 1 << 20);
         let touch = first_touch(&triangles, HalvedInterval::whole(1.0), &mut clock);
         let span = Span {
             start: 0.0,
@@ -229,17 +229,17 @@ fn triangles_touch_when_samples_first_cross() {
         };
         let crossing = times(span, 500).find(|&time| triangles_cross(&at(time), &b));
         match touch {
-            Touch::At(time) => {
+            FirstTouch::At(time) => {
                 assert!(crossing.is_none_or(|crossing| time <= crossing));
                 let gap = distance(&at(time), &b);
                 assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");
                 hits += 1;
             }
-            Touch::Never => {
+            FirstTouch::Never => {
                 assert_eq!(crossing, None);
                 free += 1;
             }
-            Touch::Unknown => panic!("the work ran out"),
+            FirstTouch::Unknown => panic!("the work ran out"),
         }
     }
     assert!(hits > 200 && free > 200, "{hits} hits, {free} free");

@@ -15,7 +15,7 @@ const SAMPLES: u32 = 1000;
 
 fn placement(query: &Motions, time: f64) -> Placement {
     let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).at(time));
-    a.seen_from(&b)
+    a.relative_to(&b)
 }
 
 /// Returns the first sample at which the meshes cross.
@@ -66,9 +66,9 @@ fn judge(queries: &[Motions], tolerance: f64) -> usize {
 fn shots(count: usize) -> Vec<Motions> {
     let shots = Shots {
         count,
-        translations: count / 3,
+        translation_count: count / 3,
         distance: 3.0..3.8,
-        aside: 2.3,
+        max_offset: 2.3,
         seed: 7,
     };
     shots.queries().unwrap()
@@ -92,8 +92,8 @@ fn both_bodies_may_move_and_turn_far() {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
             Motions {
                 // A displacement along the axis makes the screw another motion.
-                a: another_motion(&query.a, query.a.velocity() + 0.1 * spin, spin),
-                b: another_motion(&query.b, DVec3::ZERO, far),
+                a: with_velocities(&query.a, query.a.velocity() + 0.1 * spin, spin),
+                b: with_velocities(&query.b, DVec3::ZERO, far),
                 ..query
             }
         })
@@ -103,6 +103,6 @@ fn both_bodies_may_move_and_turn_far() {
 }
 
 /// Returns another motion from the same start pose.
-fn another_motion(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
+fn with_velocities(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(motion.start(), velocity, spin).unwrap()
 }

@@ -1,14 +1,14 @@
 //! Scenes with exact answers, whose motions are screws.
 
 use super::super::*;
-use crate::method::rival::tests::samples::{cuboid, moving, query, still};
+use crate::method::rival::tests::samples::{cuboid, moving, query, resting_motion};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// The half length of the rod, and below it the half width.
-const LENGTH: f64 = 2.0;
-const WIDTH: f64 = 0.05;
+const ROD_HALF_LENGTH: f64 = 2.0;
+const ROD_HALF_WIDTH: f64 = 0.05;
 
 fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Motions) -> Claim {
     Contact::new(a, b).answer(query, tolerance).claim
@@ -43,7 +43,7 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed
 fn falling_flat() -> Motions {
     let down = -4.0 * DVec3::Z;
     let a = moving(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
-    query(a, still(-0.5 * DVec3::Z))
+    query(a, resting_motion(-0.5 * DVec3::Z))
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn a_corner_falls_on_a_slab() {
     // The diagonal of the cube points down.
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let a = moving(3.0 * DVec3::Z, upright, -4.0 * DVec3::Z, DVec3::ZERO);
-    let query = query(a, still(-0.5 * DVec3::Z));
+    let query = query(a, resting_motion(-0.5 * DVec3::Z));
     let meshes = [&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5)];
     assert_contact(meshes, &query, (3.0 - 0.75f64.sqrt()) / 4.0, 4.0);
 }
@@ -80,15 +80,15 @@ fn two_edges_meet_across() {
 
 #[test]
 fn a_rod_turns_into_a_wall() {
-    let radius = LENGTH.hypot(WIDTH);
-    let rod = cuboid(WIDTH, 0.3, LENGTH);
+    let radius = ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH);
+    let rod = cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH);
     let wall = cuboid(0.5, 3.0, 3.0);
     for (turns, height) in [(1.0, 1.2), (1.9, 1.2), (2.0, 1.9), (7.0, 0.5)] {
         let spin = turns * PI;
         let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin * DVec3::Y);
-        let query = query(a, still((height + 0.5) * DVec3::X));
+        let query = query(a, resting_motion((height + 0.5) * DVec3::X));
         let angle = (height / radius).asin();
-        let exact = (angle - WIDTH.atan2(LENGTH)) / spin;
+        let exact = (angle - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / spin;
         // The corner moves along its circle, with this part of its speed towards the wall.
         let speed = spin * radius * angle.cos();
         assert_contact(
@@ -102,12 +102,15 @@ fn a_rod_turns_into_a_wall() {
 
 #[test]
 fn a_rod_turns_past_a_wall() {
-    let radius = LENGTH.hypot(WIDTH);
-    let (rod, wall) = (cuboid(WIDTH, 0.3, LENGTH), cuboid(0.5, 3.0, 3.0));
+    let radius = ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH);
+    let (rod, wall) = (
+        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH),
+        cuboid(0.5, 3.0, 3.0),
+    );
     for (share, hits) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-3, false)] {
         let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
-        let query = query(a, still((radius * share + 0.5) * DVec3::X));
-        let exact = (lesser(1.0, share).asin() - WIDTH.atan2(LENGTH)) / PI;
+        let query = query(a, resting_motion((radius * share + 0.5) * DVec3::X));
+        let exact = (lesser(1.0, share).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / PI;
         match ask(&rod, &wall, 1e-7, &query) {
             Claim::Contact { time } => {
                 assert!(
@@ -123,7 +126,7 @@ fn a_rod_turns_past_a_wall() {
 #[test]
 fn parallel_edges_meet() {
     let (reach, polar) = (1.3, 1.0f64);
-    let exact = (polar - f64::asin(WIDTH / reach)) / 1.5;
+    let exact = (polar - f64::asin(ROD_HALF_WIDTH / reach)) / 1.5;
     let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, 1.5 * DVec3::Z);
     let (sin, cos) = polar.sin_cos();
     let edge = reach * DVec3::new(cos, sin, 0.0);
@@ -136,20 +139,23 @@ fn parallel_edges_meet() {
         DVec3::ZERO,
         DVec3::ZERO,
     );
-    let meshes = [&cuboid(LENGTH, WIDTH, 0.1), &cuboid(half, half, 1.0)];
-    let speed = 1.5 * reach * (reach / (LENGTH + WIDTH + 0.1));
+    let meshes = [
+        &cuboid(ROD_HALF_LENGTH, ROD_HALF_WIDTH, 0.1),
+        &cuboid(half, half, 1.0),
+    ];
+    let speed = 1.5 * reach * (reach / (ROD_HALF_LENGTH + ROD_HALF_WIDTH + 0.1));
     assert_contact(meshes, &query(a, post), exact, speed);
 }
 
 #[test]
 fn both_bodies_turn() {
-    let radius = LENGTH.hypot(WIDTH);
-    let rod = cuboid(WIDTH, 0.3, LENGTH);
+    let radius = ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH);
+    let rod = cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH);
     let spin = 2.0 * DVec3::Y;
     let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin);
     let b = moving(3.0 * DVec3::X, DQuat::IDENTITY, DVec3::ZERO, -spin);
     let angle = (1.5 / radius).asin();
-    let exact = (angle - WIDTH.atan2(LENGTH)) / 2.0;
+    let exact = (angle - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / 2.0;
     assert_contact(
         [&rod, &rod],
         &query(a, b),
@@ -162,14 +168,17 @@ fn both_bodies_turn() {
 fn surfaces_that_cross_at_the_start_touch_there() {
     let cube = cuboid(0.5, 0.5, 0.5);
     let a = moving(0.9 * DVec3::Z, DQuat::IDENTITY, DVec3::Z, DVec3::Y);
-    let claim = ask(&cube, &cube, 1e-3, &query(a, still(DVec3::ZERO)));
+    let claim = ask(&cube, &cube, 1e-3, &query(a, resting_motion(DVec3::ZERO)));
     assert_eq!(claim, Claim::Contact { time: 0.0 });
 }
 
 #[test]
 fn bodies_at_rest_are_free() {
     let cube = cuboid(0.5, 0.5, 0.5);
-    let apart = query(still(1.001 * DVec3::Z), still(DVec3::ZERO));
+    let apart = query(
+        resting_motion(1.001 * DVec3::Z),
+        resting_motion(DVec3::ZERO),
+    );
     assert_eq!(ask(&cube, &cube, 1e-3, &apart), Claim::Free);
 }
 
@@ -182,16 +191,16 @@ fn work_is_limited() {
     // The body slides over the slab at a distance of a millionth.
     let position = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
     let slide = moving(position, tilt, tilt * DVec3::X, DVec3::ZERO);
-    let slide = query(slide, still(DVec3::ZERO));
+    let slide = query(slide, resting_motion(DVec3::ZERO));
     let fall = moving(
         3.0 * DVec3::Z,
         DQuat::IDENTITY,
         -4.0 * DVec3::Z,
         DVec3::ZERO,
     );
-    let fall = query(fall, still(-0.5 * DVec3::Z));
+    let fall = query(fall, resting_motion(-0.5 * DVec3::Z));
     let halvings = Limits {
-        halvings: 1000,
+        max_halvings: 1000,
         ..LIMITS
     };
     let pairs = Limits { pairs: 5, ..LIMITS };

@@ -7,7 +7,7 @@ use rstest::rstest;
 use serde_json::{Value, json};
 
 /// Returns a valid triangle as glTF, with the JSON value at `path` replaced.
-fn with(path: &str, value: Value) -> Gltf {
+fn triangle_with(path: &str, value: Value) -> Gltf {
     let mut gltf = Gltf::triangle();
     gltf.json["buffers"] = json!([{"byteLength": 36}]);
     let (parent, key) = path.rsplit_once('/').expect("a path");
@@ -59,13 +59,13 @@ fn with(path: &str, value: Value) -> Gltf {
 #[case::unknown("/extensionsRequired", json!(["ACME_fractal"]), "what the extension \"ACME_fractal\" says, which is not supported")]
 #[case::instances("/nodes/0/extensions", json!({"EXT_mesh_gpu_instancing": {}}), "node 0: holds instances in a buffer")]
 fn bad_input_is_named(#[case] path: &str, #[case] value: Value, #[case] expected: &str) {
-    let message = error(&with(path, value)).to_string();
+    let message = error(&triangle_with(path, value)).to_string();
     assert!(message.contains(expected), "{message}");
 }
 
 #[test]
 fn compressed_data_alone_is_refused() {
-    let mut gltf = with(
+    let mut gltf = triangle_with(
         "/accessors/0",
         json!({"componentType": 5126, "count": 3, "type": "VEC3"}),
     );
@@ -76,7 +76,7 @@ fn compressed_data_alone_is_refused() {
         draco.contains("primitive 0: holds meshes compressed by Draco"),
         "{draco}"
     );
-    let mut gltf = with("/buffers", json!([{"byteLength": 36}, {"byteLength": 36}]));
+    let mut gltf = triangle_with("/buffers", json!([{"byteLength": 36}, {"byteLength": 36}]));
     gltf.json["bufferViews"][0] =
         json!({"buffer": 1, "byteLength": 36, "extensions": {"EXT_meshopt_compression": {}}});
     let meshopt = error(&gltf).to_string();
@@ -91,7 +91,7 @@ fn compressed_data_alone_is_refused() {
 
 #[test]
 fn names_of_nodes_and_meshes_are_in_messages() {
-    let mut gltf = with("/accessors/0/type", json!("VEC4"));
+    let mut gltf = triangle_with("/accessors/0/type", json!("VEC4"));
     gltf.json["nodes"][0]["name"] = json!("lid\n");
     gltf.json["meshes"][0]["name"] = json!("x".repeat(1000));
     let message = error(&gltf).to_string();
@@ -111,7 +111,7 @@ fn corners_must_be_vertices() {
         "node 0: mesh 0: primitive 0: face 1 names vertex 4, but there are 4, numbered from 0";
     assert_eq!(error(&gltf).to_string(), expected);
     // A primitive must not reach the vertices of another one.
-    let other = gltf.floats(&[[0.0; 3]; 4]);
+    let other = gltf.add_vec3_accessor(&[[0.0; 3]; 4]);
     gltf.json["meshes"][0]["primitives"] = json!([
         {"attributes": {"POSITION": 0}, "mode": 5},
         {"attributes": {"POSITION": other}, "indices": indices},
@@ -146,7 +146,7 @@ fn triangles_have_three_corners() {
 #[test]
 fn coordinates_must_be_finite() {
     let mut gltf = Gltf::new();
-    gltf.floats(&[[0., 0., 0.], [1., f32::NAN, 0.], [0., 1., 0.]]);
+    gltf.add_vec3_accessor(&[[0., 0., 0.], [1., f32::NAN, 0.], [0., 1., 0.]]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}}));
     let message = error(&gltf).to_string();
     assert!(
@@ -268,7 +268,7 @@ fn zeros_are_limited() {
 fn instances_are_limited() {
     const MANY: usize = 10_000;
     let mut gltf = Gltf::new();
-    gltf.floats(&vec![[1.0; 3]; 9999]);
+    gltf.add_vec3_accessor(&vec![[1.0; 3]; 9999]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}}));
     let nodes = vec![json!({"mesh": 0}); MANY];
     let tops: Vec<usize> = (0..MANY).collect();
@@ -284,7 +284,7 @@ fn instances_are_limited() {
     assert!(matches!(parts, Err(MeshFault::Repeats { .. })));
     // Meshes that read the same bytes repeatedly are refused, too.
     let mut gltf = Gltf::new();
-    gltf.floats(&vec![[1.0; 3]; 9999]);
+    gltf.add_vec3_accessor(&vec![[1.0; 3]; 9999]);
     let meshes = vec![json!({"primitives": [{"attributes": {"POSITION": 0}}]}); MANY];
     gltf.json.as_object_mut().unwrap().remove("nodes");
     gltf.json.as_object_mut().unwrap().remove("scenes");

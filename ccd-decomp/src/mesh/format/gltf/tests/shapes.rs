@@ -35,7 +35,7 @@ fn corners_may_go_without_indices() {
     ] {
         let mut gltf = if mode == 4 { Gltf::new() } else { square() };
         if mode == 4 {
-            gltf.floats(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
+            gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
         }
         gltf.primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
         assert_eq!(read(&gltf).faces(), expected, "mode {mode}");
@@ -67,7 +67,7 @@ fn primitives_share_the_vertices_of_an_accessor() {
         let indices = gltf.indices(&corners);
         gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     }
-    let other = gltf.floats(&[[5., 0., 0.], [6., 0., 0.], [5., 1., 0.]]);
+    let other = gltf.add_vec3_accessor(&[[5., 0., 0.], [6., 0., 0.], [5., 1., 0.]]);
     gltf.primitive(json!({"attributes": {"POSITION": other}}));
     let mesh = read(&gltf);
     assert_eq!(mesh.vertices().len(), 7);
@@ -144,7 +144,7 @@ fn quantized_positions_are_read(
 fn sparse_accessors_replace_elements() {
     for with_base in [true, false] {
         let mut gltf = Gltf::new();
-        let base = gltf.floats(&[[7., 7., 7.], [0., 0., 0.], [0., 1., 0.]]);
+        let base = gltf.add_vec3_accessor(&[[7., 7., 7.], [0., 0., 0.], [0., 1., 0.]]);
         let places = gltf.view(&[0, 1]);
         let bytes: Vec<u8> = [0., 0., 3., 1., 0., 0.]
             .iter()

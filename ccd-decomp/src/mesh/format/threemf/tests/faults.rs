@@ -1,6 +1,6 @@
 //! Tests the error message for every kind of invalid 3MF.
 
-use super::{error, file, one, tetrahedron};
+use super::{error, file, package_of_model, tetrahedron};
 use crate::MeshFault;
 use crate::test_files::{Entry, model, object, package, zip};
 use rawzip::CompressionMethod;
@@ -8,7 +8,7 @@ use rstest::rstest;
 
 const ITEM: &str = r#"<item objectid="1"/>"#;
 
-fn good() -> String {
+fn valid_model() -> String {
     model("", &tetrahedron(r#"id="1""#), ITEM)
 }
 
@@ -116,9 +116,9 @@ fn good() -> String {
     "what the extension \"zz\" says"
 )]
 fn bad_input_is_named(#[case] good_part: &str, #[case] bad_part: &str, #[case] expected: &str) {
-    let text = good();
+    let text = valid_model();
     assert!(text.contains(good_part));
-    let bytes = one(&text.replace(good_part, bad_part));
+    let bytes = package_of_model(&text.replace(good_part, bad_part));
     match expected {
         // Case does not matter.
         "" => assert!(file(&bytes).into_mesh().is_ok()),
@@ -137,14 +137,14 @@ fn messages_name_model_and_object() {
         ITEM,
     );
     let expected = "\"/3D/3dmodel.model\": object 3 \"lid\": face 0 names vertex 9, but there are 1, numbered from 0";
-    let message = error(&one(&text)).to_string();
+    let message = error(&package_of_model(&text)).to_string();
     assert!(message.ends_with(expected), "{message}");
 }
 
 #[test]
 fn objects_are_told_apart() {
     let two = tetrahedron(r#"id="1""#) + &tetrahedron(r#"id="1""#);
-    let message = error(&one(&model("", &two, ITEM))).to_string();
+    let message = error(&package_of_model(&model("", &two, ITEM))).to_string();
     assert!(message.contains("has two objects 1"), "{message}");
 }
 
@@ -159,20 +159,20 @@ fn components(id: u32, members: &[u32]) -> String {
 #[test]
 fn components_name_objects() {
     let text = model("", &components(1, &[1]), ITEM);
-    let message = error(&one(&text)).to_string();
+    let message = error(&package_of_model(&text)).to_string();
     assert!(
         message.contains("object 1: is a component of itself"),
         "{message}"
     );
     let circle = components(1, &[2]) + &components(2, &[3]) + &components(3, &[2]);
-    let message = error(&one(&model("", &circle, ITEM))).to_string();
+    let message = error(&package_of_model(&model("", &circle, ITEM))).to_string();
     assert!(message.contains(": is a component of itself"), "{message}");
-    let message = error(&one(&model("", &components(1, &[7]), ITEM))).to_string();
+    let message = error(&package_of_model(&model("", &components(1, &[7]), ITEM))).to_string();
     assert!(
         message.contains("object 1, component 0: names object 7, which there is not"),
         "{message}"
     );
-    let message = error(&one(&model("", &components(1, &[]), ITEM))).to_string();
+    let message = error(&package_of_model(&model("", &components(1, &[]), ITEM))).to_string();
     assert!(message.starts_with("has no "), "{message}");
 }
 
@@ -183,7 +183,11 @@ fn components_that_multiply_are_refused() {
     for id in 2..1000 {
         objects.push_str(&components(id, &[id - 1; 10]));
     }
-    let error = error(&one(&model("", &objects, r#"<item objectid="999"/>"#)));
+    let error = error(&package_of_model(&model(
+        "",
+        &objects,
+        r#"<item objectid="999"/>"#,
+    )));
     assert!(matches!(error.fault, MeshFault::Repeats { .. }), "{error}");
 }
 
@@ -194,7 +198,7 @@ fn components_may_be_deep() {
     for id in 2..100_000 {
         objects.push_str(&components(id, &[id - 1]));
     }
-    let bytes = one(&model("", &objects, r#"<item objectid="99999"/>"#));
+    let bytes = package_of_model(&model("", &objects, r#"<item objectid="99999"/>"#));
     assert_eq!(file(&bytes).into_mesh().unwrap().faces().len(), 4);
 }
 
@@ -202,7 +206,7 @@ fn components_may_be_deep() {
 fn elements_may_be_deep() {
     let nested = |depth| {
         let deep = format!("{}{}", "<a>".repeat(depth), "</a>".repeat(depth));
-        one(&good().replace("<resources>", &format!("{deep}<resources>")))
+        package_of_model(&valid_model().replace("<resources>", &format!("{deep}<resources>")))
     };
     assert_eq!(file(&nested(60_000)).into_mesh().unwrap().faces().len(), 4);
     // quick-xml follows namespaces to this depth.
@@ -217,7 +221,7 @@ fn elements_may_be_deep() {
 fn models_of_the_package_must_be_there_and_agree() {
     let far = r#"<object id="1"><components><component p:path="/3D/b.model" objectid="1"/></components></object>"#;
     let root = model(r#"requiredextensions="p""#, far, ITEM);
-    let message = error(&one(&root)).to_string();
+    let message = error(&package_of_model(&root)).to_string();
     assert!(
         message.contains("\"/3D/b.model\": is not in the package"),
         "{message}"
@@ -241,7 +245,7 @@ fn models_of_the_package_must_be_there_and_agree() {
 
 #[test]
 fn a_zip_is_whole() {
-    let whole = one(&good());
+    let whole = package_of_model(&valid_model());
     for end in 0..whole.len() {
         assert!(!error(&whole[..end]).to_string().is_empty());
     }
@@ -258,7 +262,7 @@ fn a_zip_is_whole() {
             .contains("so that it is no 3MF")
     );
     // A changed byte of a stored model does not pass its checksum.
-    let text = good();
+    let text = valid_model();
     let stored = Entry {
         path: "3D/3dmodel.model",
         content: text.as_bytes(),
@@ -277,7 +281,7 @@ fn other_compressions_are_refused() {
         (CompressionMethod::ZSTD, "compressed by method 93"),
         (CompressionMethod::LZMA, "compressed by method 14"),
     ] {
-        let text = good();
+        let text = valid_model();
         let entry = Entry {
             path: "3D/3dmodel.model",
             content: text.as_bytes(),
@@ -291,11 +295,11 @@ fn other_compressions_are_refused() {
 /// Tests that a hundred million spaces, packed into a hundred thousand bytes, are refused.
 #[test]
 fn a_bomb_is_refused() {
-    let text = good().replace(
+    let text = valid_model().replace(
         "<resources>",
         &format!("{}<resources>", " ".repeat(100_000_000)),
     );
-    let bytes = one(&text);
+    let bytes = package_of_model(&text);
     assert!(bytes.len() < 200_000);
     let error = error(&bytes);
     assert!(
