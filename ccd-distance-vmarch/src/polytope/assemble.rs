@@ -40,7 +40,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
         edges: Vec::new(),
         faces: Vec::with_capacity(loops.len()),
         sides: Vec::with_capacity(loops.iter().map(Vec::len).sum()),
-        directions: None,
+        support: None,
     };
     for outline in &loops {
         let named: Vec<u32> = outline.iter().map(|&v| numbers[v as usize]).collect();
