@@ -48,8 +48,7 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// Returns an upper bound of the gap along a direction, from two corners that are found by hill climbing if there are
-/// many.
+/// Returns an upper bound of the gap along a direction, from two corners that are extremal up to rounding.
 fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
@@ -72,7 +71,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
 /// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
     let (distance, offset) = (witness.distance(), witness.offset());
-    let mut best = Axis::along(placed, witness.axis);
+    let mut best = Axis::along(placed, witness.claim.axis);
     if best.certifies(distance, placed) {
         return best;
     }

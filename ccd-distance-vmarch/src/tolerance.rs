@@ -60,10 +60,6 @@ pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
 /// The largest number of pairs of a cycle that are examined for the nearest one. Cycles are two to six pairs long.
 pub(crate) const MAX_CYCLE_PAIRS: usize = 64;
 
-/// The largest number of moves to nearer features around a tie before the march resumes. Each move gets nearer by more
-/// than rounding; one or two were enough in a million pairs.
-pub(crate) const MAX_TIE_MOVES: usize = 8;
-
 /// The largest number of restarts of a march after a cycle or a similar end, before the oracle gives up. A restart
 /// begins at the corners that are extremal along the best axis.
 pub(crate) const MAX_RESTARTS: u32 = 2;
@@ -76,9 +72,5 @@ pub(crate) const MAX_AXIS_EDGES: usize = 12;
 /// millisecond's work.
 pub(crate) const MAX_PIERCED_PAIRS: usize = 1 << 17;
 
-/// The largest number of pairs of edges that are compared around a tie: those around a corner of 30 edges.
-pub(crate) const MAX_TIE_EDGE_PAIRS: usize = 1 << 13;
-
-/// The number of corners above which a polytope has a table of directions; fewer are scanned. Scanning takes one or two
-/// nanoseconds per vertex, a climb from the table about thirty.
-pub(crate) const MAX_SCANNED_CORNERS: usize = 32;
+/// The number of corners above which a polytope has a [search tree](ccd_core::SupportTree); fewer are scanned.
+pub(crate) const MAX_SCANNED_CORNERS: usize = ccd_core::tuning::CLIMBED_POINTS;
