@@ -49,10 +49,6 @@ pub(crate) const COPLANAR_DISTANCE: f64 = 16.0 * UNIT_ROUNDOFF;
 /// accept facets that enclose nothing.
 pub(crate) const CONVEX_HEIGHT: f64 = 64.0 * UNIT_ROUNDOFF;
 
-/// The largest number of rays that are tried to check that the faces of a polytope wind once about a point inside. A
-/// ray must meet no edge; the first one hardly ever does.
-pub(crate) const MAX_RAYS: usize = 8;
-
 /// The largest number of steps of a march, per feature of both polytopes. In exact arithmetic a march visits every pair
 /// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
 pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
