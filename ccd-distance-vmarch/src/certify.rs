@@ -2,13 +2,13 @@
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
-use crate::feature::{Certainty, Next, Pair, Which};
-use crate::march::{march, step};
+use crate::feature::{Certainty, Pair, Which};
+use crate::march::march;
 use crate::penetration;
 use crate::placed::PlacedPair;
 use crate::start::extremal;
 use crate::termination::End;
-use crate::tolerance::{CERTAIN_DISTANCE, MAX_CYCLE_PAIRS, MAX_RESTARTS};
+use crate::tolerance::{CERTAIN_DISTANCE, MAX_RESTARTS};
 use crate::touching;
 use crate::witness::Witness;
 use ccd_core::glam::DVec3;
@@ -70,9 +70,9 @@ fn check(
         }
         End::Unclear(pair) => match search_common_point(placed, pair, counters) {
             Some(answer) => Ok(answer),
-            None => check_cycle(placed, pair),
+            None => certify_tie(placed, pair),
         },
-        End::Cycle(pair) | End::Cap(pair) => check_cycle(placed, pair),
+        End::Cycle(pair) | End::Cap(pair) => certify_tie(placed, pair),
     }
 }
 
@@ -88,26 +88,6 @@ fn check_stop(
         return Ok(Certified { pair, claim });
     }
     certify_tie(placed, pair)
-}
-
-/// Certifies the nearest pair of a cycle.
-fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> Result<Certified, Doubtful> {
-    let (mut pair, mut nearest) = (start, start);
-    let mut least = Witness::new(placed, start).distance();
-    for _ in 0..MAX_CYCLE_PAIRS {
-        match step(placed, pair) {
-            Next::To(a, b) => pair = Pair { a, b },
-            _ => break,
-        }
-        let distance = Witness::new(placed, pair).distance();
-        if distance < least {
-            (nearest, least) = (pair, distance);
-        }
-        if pair == start {
-            break;
-        }
-    }
-    certify_tie(placed, nearest)
 }
 
 /// Certifies a pair by the best axis of the features around.

@@ -92,7 +92,7 @@
 //!   the possible gain of a step along both edges.
 //! - A stop within rounding of a plane is certified by a support gap, with the best axis of the
 //!   features around. If that fails, the march restarts at the corners that are extremal along it.
-//! - A cycle is noticed, and its best pair certified likewise.
+//! - A cycle is noticed, and the pair where it is noticed is certified likewise.
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,

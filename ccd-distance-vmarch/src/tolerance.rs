@@ -53,9 +53,6 @@ pub(crate) const CONVEX_HEIGHT: f64 = 64.0 * UNIT_ROUNDOFF;
 /// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
 pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
 
-/// The largest number of pairs of a cycle that are examined for the nearest one. Cycles are two to six pairs long.
-pub(crate) const MAX_CYCLE_PAIRS: usize = 64;
-
 /// The largest number of restarts of a march after a cycle or a similar end, before the oracle gives up. A restart
 /// begins at the corners that are extremal along the best axis.
 pub(crate) const MAX_RESTARTS: u32 = 2;
