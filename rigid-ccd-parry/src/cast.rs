@@ -14,10 +14,9 @@ use ccd_core::{InputError, Motion, Settings, StartPolicy, Stray, Stretch, Trajec
 use rigid_ccd::Solver;
 use std::sync::Arc;
 
-/// A cast of two shapes.
+/// A cast, without its shapes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cast<'a> {
-    pub(crate) shapes: [&'a PreparedShape; 2],
+pub(crate) struct Cast {
     pub(crate) motions: [Motion; 2],
     pub(crate) interval: Interval,
     /// The distance at which the two shapes are in contact, in the scene's unit of length.
@@ -55,19 +54,24 @@ struct ShiftedMotion {
     stray: Stray,
 }
 
-impl Cast<'_> {
+impl Cast {
     /// Finds the first contact in the interval of the cast.
-    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
-        self.with_scene(|scene| self.hit(scene, solver))
+    pub(crate) fn answer(
+        &self,
+        shapes: [&PreparedShape; 2],
+        solver: &mut Solver,
+    ) -> Result<Option<CastHit>, CastError> {
+        self.with_scene(shapes, |scene| self.hit(scene, solver))
     }
 
     /// Builds the engine's scene for a cast, and calls a function with it.
     pub(crate) fn with_scene<T>(
         &self,
+        shapes: [&PreparedShape; 2],
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
         let shifted = self.motions_from_start()?;
-        match self.shapes {
+        match shapes {
             [PreparedShape::Body(a), PreparedShape::Body(b)] => {
                 then(&self.scene_of_bodies([a, b], shifted)?)
             }
@@ -179,7 +183,7 @@ impl Cast<'_> {
                 let which = k as u8 + 1;
                 CastError::Motion { which, error }
             };
-            ShiftedMotion::new(&self.motions[k], self.interval.start(), along).map_err(named)
+            ShiftedMotion::new(&self.motions[k], self.interval.start, along).map_err(named)
         };
         Ok([shifted(0)?, shifted(1)?])
     }
@@ -195,7 +199,7 @@ impl Cast<'_> {
 
     /// Returns the distance at which bodies without a margin are in contact.
     fn tolerance(&self, bodies: &[&Prepared]) -> f64 {
-        let sizes = bodies.iter().map(|body| body.ball().1);
+        let sizes = bodies.iter().map(|body| body.ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
         let by_default = sizes.fold(self.contact, |least, size| {
             lesser(least, SHARE_OF_SIZE * size)
@@ -244,7 +248,7 @@ impl ShiftedMotion {
 
     /// Returns the motion together with the extent of its body.
     fn motion_with_extent(&self, body: &Prepared) -> MotionWithExtent {
-        let (middle, radius) = body.ball();
+        let (middle, radius) = body.ball;
         let about = if self.motion.spin() == DVec3::ZERO {
             middle
         } else {
@@ -274,7 +278,7 @@ impl ShiftedMotion {
 
     /// Returns the motion with the angular velocity removed if the body is a ball that rotates about its centre.
     fn without_spin_of(self, body: &Prepared) -> Self {
-        if body.point() != Some(self.motion.centre()) {
+        if body.point != Some(self.motion.centre()) {
             return self;
         }
         let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];

@@ -62,7 +62,7 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
-            form.push_hull(vec![DVec3::ZERO], size("radius", ball.radius)?, &[]);
+            form.push_points([DVec3::ZERO], size("radius", ball.radius)?, 0);
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
@@ -74,15 +74,15 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
         }
         TypedShape::Capsule(capsule) => {
             let ends = [capsule.segment.a, capsule.segment.b].map(point);
-            form.push_hull(ends.to_vec(), size("radius", capsule.radius)?, &[]);
+            form.push_points(ends, size("radius", capsule.radius)?, 0);
         }
         TypedShape::Segment(segment) => {
-            form.push_hull([segment.a, segment.b].map(point).to_vec(), 0.0, &[]);
+            form.push_points([segment.a, segment.b].map(point), 0.0, 0);
         }
-        TypedShape::Triangle(t) => form.push_triangle([t.a, t.b, t.c].map(point), 0),
+        TypedShape::Triangle(t) => form.push_triangles([t.a, t.b, t.c].map(point), &ONE, 0..),
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);
-            form.push_hull(corners.to_vec(), border_radius(round.border_radius)?, &[]);
+            form.push_points(corners, border_radius(round.border_radius)?, 0);
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
         TypedShape::RoundConvexPolyhedron(round) => {
@@ -94,7 +94,7 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
         }
         TypedShape::TriMesh(mesh) => {
             let vertices = mesh.vertices().iter().copied().map(point);
-            form.push_mesh(vertices, mesh.indices());
+            form.push_triangles(vertices, mesh.indices(), 0..);
         }
         TypedShape::Polyline(line) => push_polyline(&mut form, line),
         TypedShape::HeightField(field) => push_heights(&mut form, field),
@@ -150,7 +150,7 @@ fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) 
     let loops: Option<Vec<Vec<u32>>> = facets.collect();
     let points = polyhedron.points().iter().copied().map(point).collect();
     // Incomplete facets are useless.
-    form.push_hull(points, radius, &loops.unwrap_or_default());
+    form.push_hull(points, radius, loops.unwrap_or_default(), 0);
 }
 
 /// Adds the segments of a polyline to a form.
@@ -158,9 +158,12 @@ fn push_polyline(form: &mut Form, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
     for (number, ends) in (0..).zip(line.indices()) {
-        form.push_segment(ends.map(vertex), number);
+        form.push_points(ends.map(vertex), 0.0, number);
     }
 }
+
+/// The face of a mesh of one triangle.
+const ONE: [[u32; 3]; 1] = [[0, 1, 2]];
 
 /// Adds the triangles of a height field to a form, with parry's numbers and corners.
 fn push_heights(form: &mut Form, field: &HeightField) {
@@ -171,7 +174,7 @@ fn push_heights(form: &mut Form, field: &HeightField) {
             let number = j * rows + i;
             for (triangle, number) in [(left, number), (right, number + rows * columns)] {
                 if let Some(triangle) = triangle {
-                    form.push_triangle(triangle.vertices().map(point), number as u32);
+                    form.push_triangles(triangle.vertices().map(point), &ONE, number as u32..);
                 }
             }
         }
@@ -202,7 +205,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
         reach = greater(reach, greater(length(low), length(high)));
         form.push_box(low, high, 0.0);
     }
-    form.add_slack(VOXEL_ROUNDING * reach);
+    form.slack = VOXEL_ROUNDING * reach;
     Ok(())
 }
 
