@@ -87,7 +87,7 @@
 //! parry's signatures get no more than a reference to a shape, so that they keep bodies by their numbers: in each thread the
 //! [64](limits::KEPT_BODIES) asked for last, in at most [256 MiB](limits::KEPT_BYTES). A call compares all numbers of both
 //! shapes with those, which takes 0.3 ms for 80,000 triangles. A `Caster` keeps bodies by the address of a `SharedShape`,
-//! which it holds, and compares nothing. The example `each_frame` measures all of it.
+//! which it holds, and compares nothing. The example `switch` measures all of it.
 //!
 //! # Features
 //! `f32` (default) is for `parry3d`, `f64` for `parry3d-f64`. Both may be on at once. `record` adds `Caster::record`.
