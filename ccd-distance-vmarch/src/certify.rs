@@ -14,12 +14,8 @@ use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUp};
 
-/// A claim, with the pair of features from which the next call starts.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Certified {
-    pub(crate) pair: Pair,
-    pub(crate) claim: Claim,
-}
+/// A claim, after the pair of features from which the next call starts.
+type Certified = (Pair, Claim);
 
 /// Certifies the result of a march that ended in a tie, a cycle or a common point. If that is in vain, the march
 /// restarts at the corners that are extremal along the best axis.
@@ -65,8 +61,7 @@ fn check(
         End::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
         End::Common(pair, which, crossing) => {
             counters.penetrations += 1;
-            let claim = touching::common(placed, which, &crossing);
-            Ok(Certified { pair, claim })
+            Ok((pair, touching::common(placed, which, &crossing)))
         }
         End::Unclear(pair) => match search_common_point(placed, pair, counters) {
             Some(answer) => Ok(answer),
@@ -84,8 +79,7 @@ fn check_stop(
 ) -> Result<Certified, Doubtful> {
     let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= CERTAIN_DISTANCE * placed.scale.size {
-        let claim = witness.claim;
-        return Ok(Certified { pair, claim });
+        return Ok((pair, witness.claim));
     }
     certify_tie(placed, pair)
 }
@@ -100,7 +94,7 @@ fn certify_tie(placed: &PlacedPair<'_>, pair: Pair) -> Result<Certified, Doubtfu
             axis: axis.direction,
             ..witness.claim
         };
-        return Ok(Certified { pair, claim });
+        return Ok((pair, claim));
     }
     Err(Doubtful(axis.direction))
 }
@@ -111,14 +105,13 @@ fn search_common_point(
     pair: Pair,
     counters: &mut Counters,
 ) -> Option<Certified> {
-    let PlacedPair { a, b, scale } = placed;
+    let PlacedPair { a, b, .. } = placed;
     let of = |which| move |crossing| (which, crossing);
-    let found = penetration::search_crossing(a, b, *scale).map(of(Which::X));
-    let found = found.or_else(|| penetration::search_crossing(b, a, *scale).map(of(Which::Y)));
+    let found = penetration::search_crossing(a, b).map(of(Which::X));
+    let found = found.or_else(|| penetration::search_crossing(b, a).map(of(Which::Y)));
     let (which, crossing) = found?;
     counters.penetrations += 1;
-    let claim = touching::common(placed, which, &crossing);
-    Some(Certified { pair, claim })
+    Some((pair, touching::common(placed, which, &crossing)))
 }
 
 #[cfg(test)]

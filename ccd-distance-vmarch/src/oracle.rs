@@ -81,9 +81,9 @@ impl DistanceOracle for Vmarch {
             cache.store(&placed, nearest, claim.axis);
             return Ok(claim);
         }
-        let certified = certify(&placed, end, &mut self.counters)?;
-        cache.store(&placed, certified.pair, certified.claim.axis);
-        Ok(certified.claim)
+        let (pair, claim) = certify(&placed, end, &mut self.counters)?;
+        cache.store(&placed, pair, claim.axis);
+        Ok(claim)
     }
 
     /// Prepares all pieces of a body in advance, on all cores: those of the body, the hulls of its hull tree and the

@@ -62,7 +62,7 @@ pub(crate) const MAX_RESTARTS: u32 = 2;
 pub(crate) const MAX_AXIS_EDGES: usize = 12;
 
 /// The largest number of pairs of an edge and a face that are tested for a common point before a search gives up: a
-/// millisecond's work.
+/// few milliseconds' work.
 pub(crate) const MAX_PIERCED_PAIRS: usize = 1 << 17;
 
 /// The number of corners above which a polytope has a [search tree](ccd_core::SupportTree); fewer are scanned.
