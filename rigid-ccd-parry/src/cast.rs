@@ -7,7 +7,7 @@ use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDED_UP, SHARE_OF_SIZE};
-use crate::{CastError, Options, Prepared, ShapeError};
+use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
 use ccd_core::{InputError, Motion, Settings, StartPolicy, Stray, Stretch, Trajectory};
@@ -32,18 +32,6 @@ pub(crate) struct Cast {
 pub(crate) enum PreparedShape {
     Body(Arc<Prepared>),
     HalfSpace(HalfSpace),
-}
-
-impl PreparedShape {
-    /// Prepares both shapes of a cast; an error says which shape it is about.
-    pub(crate) fn prepare_both<S>(
-        [g1, g2]: [S; 2],
-        mut ready: impl FnMut(S) -> Result<Self, ShapeError>,
-    ) -> Result<[Self; 2], CastError> {
-        let mut named =
-            |which, shape| ready(shape).map_err(|error| CastError::Shape { which, error });
-        Ok([named(1, g1)?, named(2, g2)?])
-    }
 }
 
 /// A motion whose time 0 is the start of the cast's interval.
@@ -178,14 +166,8 @@ impl Cast {
     /// velocity loses no digits.
     fn motions_from_start(&self) -> Result<[ShiftedMotion; 2], CastError> {
         let along = self.motions[1].velocity();
-        let shifted = |k: usize| {
-            let named = |error| {
-                let which = k as u8 + 1;
-                CastError::Motion { which, error }
-            };
-            ShiftedMotion::new(&self.motions[k], self.interval.start, along).map_err(named)
-        };
-        Ok([shifted(0)?, shifted(1)?])
+        let shifted = |motion: &Motion| ShiftedMotion::new(motion, self.interval.start, along);
+        CastError::of_motions(self.motions.each_ref().map(shifted))
     }
 
     /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.

@@ -193,14 +193,11 @@ impl Form {
 
     /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
-        let corners = |part: &Part| {
-            part.polytope
-                .facets
-                .iter()
-                .map(|facet: &Facet| 32 + 4 * facet.corners.len())
-                .sum::<usize>()
+        let of_facet = |facet: &Facet| 32 + 4 * facet.corners.len();
+        let of_part = |Part { polytope, .. }: &Part| {
+            let facets: usize = polytope.facets.iter().map(of_facet).sum();
+            24 * polytope.points.len() + facets + 128
         };
-        let of_part = |part: &Part| 24 * part.polytope.points.len() + corners(part) + 128;
         let parts: usize = self.parts.iter().map(of_part).sum();
         24 * self.vertices.len() + 16 * self.triangles.len() + parts
     }

@@ -28,13 +28,8 @@ impl HalfSpace {
             what: "normal",
             value: length(normal),
         };
-        if normal.is_finite() {
-            Ok(HalfSpace {
-                normal: unit(normal).ok_or(size)?,
-            })
-        } else {
-            Err(size)
-        }
+        let unit = unit(normal).filter(|_| normal.is_finite());
+        unit.map(|normal| HalfSpace { normal }).ok_or(size)
     }
 
     /// Returns the duration that decides the cast of a body with contact distance `within`, for the time `wanted`.

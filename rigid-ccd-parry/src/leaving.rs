@@ -66,12 +66,8 @@ fn first_contact_of_pieces(
     pieces: &[Vec<u32>; 2],
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
-    let some = |k: usize| {
-        let which = k as u8 + 1;
-        let named = |error| CastError::Shape { which, error };
-        body_of_pieces(scene.bodies[k], &pieces[k]).map_err(named)
-    };
-    let (a, b) = (some(0)?, some(1)?);
+    let bodies = [0, 1].map(|k| body_of_pieces(scene.bodies[k], &pieces[k]));
+    let [a, b] = CastError::of_shapes(bodies)?;
     let part = Scene {
         bodies: [&a, &b],
         ..scene.clone()

@@ -8,7 +8,7 @@ use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions
 use crate::cast::{Cast, PreparedShape};
 use crate::interval::Interval;
 use crate::{CastError, Options};
-use ccd_core::{InputError, Motion, StartPolicy};
+use ccd_core::{Motion, StartPolicy};
 use rigid_ccd::Solver;
 
 /// Returns the cast with the arguments of `cast_shapes_nonlinear`; `None` if its interval contains no time.
@@ -18,7 +18,7 @@ pub(super) fn nonlinear_cast(
     stop_at_penetration: bool,
     options: &Options,
 ) -> Result<Option<Cast>, CastError> {
-    let motions = named(motions.map(motion))?;
+    let motions = CastError::of_motions(motions.map(motion))?;
     let interval = times.map(f64::from);
     cast(motions, interval, 0.0, stop_at_penetration, options)
 }
@@ -31,7 +31,7 @@ pub(super) fn linear_cast(
 ) -> Result<Option<Cast>, CastError> {
     let slides =
         |(at, velocity): (&Pose, Vector)| Motion::new(pose(at)?, point(velocity), [0.0; 3]);
-    let motions = named(bodies.map(slides))?;
+    let motions = CastError::of_motions(bodies.map(slides))?;
     let interval = [0.0, f64::from(asked.max_time_of_impact)];
     let target = f64::from(asked.target_distance);
     cast(
@@ -74,9 +74,4 @@ fn cast(
         options: *options,
         contact: CONTACT,
     }))
-}
-
-fn named([a, b]: [Result<Motion, InputError>; 2]) -> Result<[Motion; 2], CastError> {
-    let named = |which| move |error| CastError::Motion { which, error };
-    Ok([a.map_err(named(1))?, b.map_err(named(2))?])
 }

@@ -135,7 +135,7 @@ impl Caster {
     ) -> Result<Recording, CastError> {
         let (motions, times) = ([motion1, motion2], [start_time, end_time]);
         let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
-        let [a, b] = PreparedShape::prepare_both([g1, g2], |shape| self.prepared_shape(shape))?;
+        let [a, b] = CastError::of_shapes([g1, g2].map(|shape| self.prepared_shape(shape)))?;
         let cast = cast.ok_or(CastError::NoTime)?;
         cast.with_scene([&a, &b], |scene| Ok(Recording::new(scene)))
     }
@@ -184,7 +184,7 @@ impl Caster {
         cast: Option<Cast>,
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = PreparedShape::prepare_both(shapes, |shape| self.prepared_shape(shape))?;
+        let [a, b] = CastError::of_shapes(shapes.map(|shape| self.prepared_shape(shape)))?;
         ask::answer(cast, [&a, &b], &mut self.solver)
     }
 }

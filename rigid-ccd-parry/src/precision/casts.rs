@@ -146,7 +146,7 @@ impl ThreadMemory {
         cast: Option<Cast>,
         shapes: [&dyn Shape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = PreparedShape::prepare_both(shapes, |shape| self.prepared_shape(shape))?;
+        let [a, b] = CastError::of_shapes(shapes.map(|shape| self.prepared_shape(shape)))?;
         ask::answer(cast, [&a, &b], &mut self.solver)
     }
 

@@ -3,8 +3,8 @@
 use super::convert::{point, pose};
 use super::library::math::{IVector, Real};
 use super::library::shape::{
-    Compound, ConvexPolyhedron, Cuboid, HalfSpace as ParryHalfSpace, HeightField, Polyline, Shape,
-    TriMeshFlags, TypedShape, Voxels,
+    Compound, Cone, ConvexPolyhedron, Cuboid, Cylinder, HalfSpace as ParryHalfSpace, HeightField,
+    Polyline, Shape, TriMeshFlags, TypedShape, Voxels,
 };
 use crate::form::Form;
 use crate::half_space::HalfSpace;
@@ -66,11 +66,8 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
-            push_cuboid(
-                &mut form,
-                &round.inner_shape,
-                border_radius(round.border_radius)?,
-            )?;
+            let radius = border_radius(round.border_radius)?;
+            push_cuboid(&mut form, &round.inner_shape, radius)?;
         }
         TypedShape::Capsule(capsule) => {
             let ends = [capsule.segment.a, capsule.segment.b].map(point);
@@ -86,11 +83,8 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
         TypedShape::RoundConvexPolyhedron(round) => {
-            push_polyhedron(
-                &mut form,
-                &round.inner_shape,
-                border_radius(round.border_radius)?,
-            );
+            let radius = border_radius(round.border_radius)?;
+            push_polyhedron(&mut form, &round.inner_shape, radius);
         }
         TypedShape::TriMesh(mesh) => {
             let vertices = mesh.vertices().iter().copied().map(point);
@@ -109,25 +103,25 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
 fn round_form(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
-    type MakeRound = fn(f64, f64) -> Result<Round, InputError>;
-    let (made, half_height, radius, grown): (MakeRound, _, _, _) = match shape {
-        TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),
-        TypedShape::Cone(s) => (Round::cone, s.half_height, s.radius, 0.0),
-        TypedShape::RoundCylinder(s) => {
-            let inner = &s.inner_shape;
-            let (height, radius) = (inner.half_height, inner.radius);
-            (Round::cylinder, height, radius, s.border_radius)
-        }
-        TypedShape::RoundCone(s) => {
-            let inner = &s.inner_shape;
-            let (height, radius) = (inner.half_height, inner.radius);
-            (Round::cone, height, radius, s.border_radius)
-        }
+    let cylinder = |s: &Cylinder| round(Round::cylinder, s.half_height, s.radius);
+    let cone = |s: &Cone| round(Round::cone, s.half_height, s.radius);
+    let (made, grown) = match shape {
+        TypedShape::Cylinder(s) => (cylinder(s), 0.0),
+        TypedShape::Cone(s) => (cone(s), 0.0),
+        TypedShape::RoundCylinder(s) => (cylinder(&s.inner_shape), s.border_radius),
+        TypedShape::RoundCone(s) => (cone(&s.inner_shape), s.border_radius),
         _ => return Err(ShapeError::Custom),
     };
+    Ok(Form::of_round(made?, border_radius(grown)?, options.excess))
+}
+
+fn round(
+    make: fn(f64, f64) -> Result<Round, InputError>,
+    half_height: Real,
+    radius: Real,
+) -> Result<Round, ShapeError> {
     let half_height = size("half height", half_height)?;
-    let round = made(size("radius", radius)?, half_height).map_err(ShapeError::Body)?;
-    Ok(Form::of_round(round, border_radius(grown)?, options.excess))
+    make(size("radius", radius)?, half_height).map_err(ShapeError::Body)
 }
 
 fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
