@@ -93,11 +93,11 @@ impl DistanceOracle for ClosedForm {
 #[inline(never)]
 fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
     let w = near.difference(p, q);
-    let best = vectorize!(level, level => Candidates::new(level, p, q, w).best());
-    if best.gap >= INTERSECTION_SHARE * w.length() && best.gap > 0.0 {
-        return (best.direction, near);
+    let (axis, gap) = vectorize!(level, level => Candidates::new(level, p, q, w).best());
+    if gap >= INTERSECTION_SHARE * w.length() && gap > 0.0 {
+        return (axis, near);
     }
-    (best.direction, pierce::common_point(p, q, near))
+    (axis, pierce::common_point(p, q, near))
 }
 
 /// Transforms both pieces to A's axes with A's first point as origin, so that the rounding of later operations depends

@@ -62,16 +62,6 @@ impl<L: Simd> Lanes3<L> {
         }
     }
 
-    /// Returns the differences `self − t · direction`.
-    #[inline(always)]
-    pub(crate) fn subtract_scaled(self, t: f64x4<L>, direction: Self) -> Self {
-        Lanes3 {
-            x: self.x - t * direction.x,
-            y: self.y - t * direction.y,
-            z: self.z - t * direction.z,
-        }
-    }
-
     /// Returns the scalar products.
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> f64x4<L> {
@@ -92,7 +82,7 @@ impl<L: Simd> Lanes3<L> {
     #[inline(always)]
     pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
         let t = self.dot(direction) * reciprocal(direction.dot(direction));
-        self.subtract_scaled(t, direction)
+        self.add_scaled(-t, direction)
     }
 }
 

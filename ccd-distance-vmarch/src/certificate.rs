@@ -48,8 +48,7 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// Returns an upper bound of the gap along a direction, from two corners that are found by hill climbing if there are
-/// many.
+/// Returns an upper bound of the gap along a direction, from two corners that are extremal up to rounding.
 fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
@@ -72,7 +71,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
 /// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
     let (distance, offset) = (witness.distance(), witness.offset());
-    let mut best = Axis::along(placed, witness.axis);
+    let mut best = Axis::along(placed, witness.claim.axis);
     if best.certifies(distance, placed) {
         return best;
     }
@@ -91,12 +90,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     let around_a = FeatureDirections::new(&placed.a, pair.a, offset);
     let around_b = FeatureDirections::new(&placed.b, pair.b, offset);
     for around in [&around_a, &around_b] {
-        around.normals.iter().copied().for_each(&mut offer);
-        around
-            .in_face_directions
-            .iter()
-            .copied()
-            .for_each(&mut offer);
+        around.across.iter().copied().for_each(&mut offer);
         for &edge in &around.edges {
             offer(perpendicular_part(offset, edge));
             offer(edge);
@@ -116,9 +110,8 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
 /// The directions of the edges and faces at a feature, in A's frame.
 struct FeatureDirections {
     edges: Vec<DVec3>,
-    normals: Vec<DVec3>,
-    /// The directions perpendicular to an edge, in the plane of each face.
-    in_face_directions: Vec<DVec3>,
+    /// The normals of the faces, then the directions perpendicular to an edge, in the plane of each face.
+    across: Vec<DVec3>,
 }
 
 impl FeatureDirections {
@@ -129,17 +122,13 @@ impl FeatureDirections {
         edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
         edges.truncate(MAX_AXIS_EDGES);
         let faces = shape.faces_at(feature, &edges);
+        let normals = faces.iter().map(|&f| shape.face(f).normal);
         let within = edges.iter().flat_map(|&e| shape.edge(e).inward);
+        let along = edges.iter().map(|&e| shape.edge(e).along);
+        let turned = |local| polytope.vector(local);
         FeatureDirections {
-            in_face_directions: within.map(|inward| polytope.vector(inward)).collect(),
-            normals: faces
-                .iter()
-                .map(|&f| polytope.vector(shape.face(f).normal))
-                .collect(),
-            edges: edges
-                .iter()
-                .map(|&e| polytope.vector(shape.edge(e).along))
-                .collect(),
+            across: normals.chain(within).map(turned).collect(),
+            edges: along.map(turned).collect(),
         }
     }
 }

@@ -3,13 +3,6 @@
 use crate::placed::{Line, Placed, clamp};
 use ccd_core::glam::DVec3;
 
-/// The part of an edge within the prism above and below a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Clipped {
-    pub(crate) from: Cut,
-    pub(crate) to: Cut,
-}
-
 /// One end of a clipped edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
@@ -18,19 +11,15 @@ pub(crate) struct Cut {
     pub(crate) by: Option<u32>,
 }
 
-/// Clips an edge by the face-edge planes of a face; `None` if nothing is left.
+/// Clips an edge by the face-edge planes of a face, and returns both ends of the part within the prism above and below
+/// the face; `None` if nothing is left.
 #[inline]
-pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> Option<Clipped> {
-    let mut out = Clipped {
-        from: Cut {
-            parameter: 0.0,
-            by: None,
-        },
-        to: Cut {
-            parameter: line.length,
-            by: None,
-        },
+pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> Option<[Cut; 2]> {
+    let uncut = |parameter| Cut {
+        parameter,
+        by: None,
     };
+    let (mut from, mut to) = (uncut(0.0), uncut(line.length));
     for side in y.shape().sides_of(face) {
         let (start, inward) = (y.point(side.start), y.vector(side.inward));
         let at_start = (line.start - start).dot(inward);
@@ -46,14 +35,14 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
             parameter,
             by: Some(side.edge),
         };
-        if at_start < 0.0 && parameter > out.from.parameter {
-            out.from = cut;
-        } else if at_end < 0.0 && parameter < out.to.parameter {
-            out.to = cut;
+        if at_start < 0.0 && parameter > from.parameter {
+            from = cut;
+        } else if at_end < 0.0 && parameter < to.parameter {
+            to = cut;
         }
     }
     // Written so that no part is left with NaN.
-    (out.from.parameter <= out.to.parameter).then_some(out)
+    (from.parameter <= to.parameter).then_some([from, to])
 }
 
 /// Returns the middle of the overlap of two parallel segments, or the end of `one` that is nearest to `other`, as a

@@ -1,8 +1,9 @@
 //! The transition of the march from an edge against an edge `[VCLIP98 §3.2]`.
 
 use crate::clip;
+use crate::escape::escape;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Behind, Feature, Next, Which};
+use crate::feature::{Feature, Next};
 use crate::placed::{Line, Placed, Scale, clamp};
 use crate::polytope::Edge;
 use crate::tolerance::{PARALLEL_SINE, PRODUCT_ERROR};
@@ -36,12 +37,12 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
     if let Some(side) = facing.face_side(x, edge_x, slope_x) {
-        return side.next_pair(Feature::Edge(f), points[1]);
+        return side.next_pair(x, y, f, points[1], scale);
     }
     let facing = facing.reversed();
     let slope_y = y.inward(edge_y, facing.axis);
     if let Some(side) = facing.face_side(y, edge_y, slope_y) {
-        return side.next_pair(Feature::Edge(e), points[0]).swapped();
+        return side.next_pair(y, x, e, points[0], scale).swapped();
     }
     let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
     Next::Stop(if clear { Sure } else { Tied })
@@ -168,18 +169,19 @@ enum Side {
 }
 
 impl Side {
-    /// Returns the next pair: the face of X, and the feature of Y that contains the point.
-    fn next_pair(&self, feature: Feature, point: DVec3) -> Next {
+    /// Continues with the face of X, and the edge of Y that contains the point.
+    #[inline(always)]
+    fn next_pair<X: Placed, Y: Placed>(
+        &self,
+        x: &X,
+        y: &Y,
+        f: u32,
+        point: DVec3,
+        scale: Scale,
+    ) -> Next {
         match *self {
-            Side::Before(face) => Next::To(Feature::Face(face), feature),
-            Side::Behind(face) => Next::Behind(
-                Which::Y,
-                Behind {
-                    feature,
-                    point,
-                    face,
-                },
-            ),
+            Side::Before(face) => Next::To(Feature::Face(face), Feature::Edge(f)),
+            Side::Behind(face) => escape(y, Feature::Edge(f), point, x, face, scale).swapped(),
         }
     }
 }

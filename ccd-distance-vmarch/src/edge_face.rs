@@ -1,8 +1,9 @@
 //! The transition of the march from an edge against a face, which is never an end `[VCLIP98 §3.2]`.
 
-use crate::clip::{self, Clipped};
+use crate::clip;
 use crate::edge_edge;
-use crate::feature::{Behind, Feature, Next, Which};
+use crate::escape::escape;
+use crate::feature::{Feature, Next, Which};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
@@ -16,7 +17,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let line = x.line(e);
     let ends = x.shape().edge(e).ends;
     let end = x.vertex(ends[1]);
-    let Some(Clipped { from, to }) = clip::to_prism(&line, end, y, f) else {
+    let Some([from, to]) = clip::to_prism(&line, end, y, f) else {
         return to_nearest_side(e, &line, y, f);
     };
     let normal = y.vector(y.shape().face(f).normal);
@@ -31,18 +32,11 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let (low, high) = if falls { (to, from) } else { (from, to) };
     let height = |parameter: f64| base + slope * parameter;
     if height(high.parameter) < -rounding {
-        return Next::Behind(
-            Which::X,
-            Behind {
-                feature: Feature::Edge(e),
-                point: line.at(high.parameter),
-                face: f,
-            },
-        );
+        return escape(x, Feature::Edge(e), line.at(high.parameter), y, f, scale);
     }
     if height(low.parameter) < rounding {
         if let Some(crossing) = penetration::pierced(x, e, y, f) {
-            return Next::Pierced(Which::X, crossing);
+            return Next::Common(Which::X, crossing);
         }
         if height(low.parameter) < -rounding {
             return to_nearest_side(e, &line, y, f);

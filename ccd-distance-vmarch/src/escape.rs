@@ -1,30 +1,29 @@
 //! Escapes from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
 
-use crate::feature::{Behind, Crossing, Feature};
+use crate::feature::{Feature, Next, Which};
 use crate::penetration;
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// How the march continues from a local minimum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Escape {
-    /// The feature is in front of this face, and farther in front of it than of any other face.
-    Face(Feature, u32),
-    /// The feature is behind all faces, and contains a point of the other polytope.
-    Inside(Crossing),
-    /// The feature is behind all faces up to rounding, and exact signs prove no common point.
-    Unclear,
-}
-
-/// Finds the face of Y that a feature of X is farthest in front of.
-pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: Scale) -> Escape {
-    if let Some((face, height)) = farthest(behind.point, y)
+/// Continues from a feature of X that is behind a face of Y: to the face that `point`, its point least deep behind that
+/// face, is farthest in front of. Without one, the feature is inside of Y.
+#[cold]
+#[inline(never)]
+pub(crate) fn escape<X: Placed, Y: Placed>(
+    x: &X,
+    feature: Feature,
+    point: DVec3,
+    y: &Y,
+    behind: u32,
+    scale: Scale,
+) -> Next {
+    if let Some((face, height)) = farthest(point, y)
         && height > scale.rounding()
-        && face != behind.face
+        && face != behind
     {
-        return Escape::Face(behind.feature, face);
+        return Next::To(feature, Feature::Face(face));
     }
-    let inside = match behind.feature {
+    let inside = match feature {
         Feature::Vertex(v) => penetration::corner_inside(x, v, y),
         Feature::Edge(e) => {
             let mut faces = 0..y.shape().faces.len() as u32;
@@ -34,7 +33,7 @@ pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: 
         }
         Feature::Face(_) => None,
     };
-    inside.map_or(Escape::Unclear, Escape::Inside)
+    inside.map_or(Next::Unclear, |crossing| Next::Common(Which::X, crossing))
 }
 
 /// Returns the face with the largest height of a point above it, and that height.

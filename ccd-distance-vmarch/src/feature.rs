@@ -1,7 +1,5 @@
 //! Vertices, edges and faces of polytopes, by number, and pairs of them.
 
-use ccd_core::glam::DVec3;
-
 /// A vertex, edge or face of a polytope, by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Feature {
@@ -24,11 +22,10 @@ pub(crate) enum Next {
     To(Feature, Feature),
     /// The march stops: each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
     Stop(Certainty),
-    /// The march is in a local minimum, and needs an [escape](crate::escape): a feature of one polytope is behind a
-    /// face of the other.
-    Behind(Which, Behind),
-    /// An edge of one polytope goes through a face of the other.
-    Pierced(Which, Crossing),
+    /// A feature of one polytope has a common point with the other.
+    Common(Which, Crossing),
+    /// A feature is behind all faces of the other polytope up to rounding, and exact signs prove no common point.
+    Unclear,
 }
 
 /// One of the two polytopes X and Y.
@@ -44,9 +41,8 @@ impl Next {
     pub(crate) fn swapped(self) -> Next {
         match self {
             Next::To(x, y) => Next::To(y, x),
-            Next::Stop(certainty) => Next::Stop(certainty),
-            Next::Behind(which, behind) => Next::Behind(which.other(), behind),
-            Next::Pierced(which, crossing) => Next::Pierced(which.other(), crossing),
+            Next::Common(which, crossing) => Next::Common(which.other(), crossing),
+            Next::Stop(_) | Next::Unclear => self,
         }
     }
 }
@@ -69,17 +65,6 @@ pub(crate) enum Certainty {
     /// The point is on some Voronoi plane up to rounding, or the features touch: the stop needs a
     /// certificate.
     Tied,
-}
-
-/// A corner or edge behind a face of the other polytope, in the part within that face's prism.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Behind {
-    /// The corner or edge that is behind the face.
-    pub(crate) feature: Feature,
-    /// The point of the feature that is least deep behind the face.
-    pub(crate) point: DVec3,
-    /// The index of the face.
-    pub(crate) face: u32,
 }
 
 /// A common point of two polytopes, on an edge or a corner of one of them, proven by exact signs.

@@ -1,8 +1,7 @@
 //! The march from pair to nearer pair of features, until none is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
-use crate::escape::{self, Escape};
-use crate::feature::{Behind, Feature, Next, Pair, Which};
+use crate::feature::{Feature, Next, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::{Brent, End};
 use crate::tolerance::MAX_STEPS_PER_FEATURE;
@@ -21,15 +20,8 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
         pair = match step(placed, pair) {
             Next::To(a, b) => Pair { a, b },
             Next::Stop(certainty) => return End::Nearest(pair, certainty),
-            Next::Pierced(which, crossing) => return End::Common(pair, which, crossing),
-            Next::Behind(which, behind) => {
-                counters.local_minima += 1;
-                match escape_from(placed, which, behind) {
-                    Escape::Face(feature, face) => in_order(which, feature, Feature::Face(face)),
-                    Escape::Inside(crossing) => return End::Common(pair, which, crossing),
-                    Escape::Unclear => return End::Unclear(pair),
-                }
-            }
+            Next::Common(which, crossing) => return End::Common(pair, which, crossing),
+            Next::Unclear => return End::Unclear(pair),
         };
         if brent.is_repeated(pair) {
             counters.cycles += 1;
@@ -37,15 +29,6 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
         }
     }
     End::Cap(pair)
-}
-
-#[cold]
-fn escape_from(placed: &PlacedPair<'_>, which: Which, behind: Behind) -> Escape {
-    let PlacedPair { a, b, scale } = placed;
-    match which {
-        Which::X => escape::escape(a, behind, b, *scale),
-        Which::Y => escape::escape(b, behind, a, *scale),
-    }
 }
 
 /// Tests one pair of features of A and B, and returns the next one. Two faces are never tested: an edge of one replaces
@@ -66,20 +49,6 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
             let edge = a.shape().sides_of(f).first().map_or(0, |side| side.edge);
             Next::To(Feature::Edge(edge), pair.b)
         }
-    }
-}
-
-/// Returns a pair of features in the order A, B.
-fn in_order(which: Which, of_it: Feature, of_other: Feature) -> Pair {
-    match which {
-        Which::X => Pair {
-            a: of_it,
-            b: of_other,
-        },
-        Which::Y => Pair {
-            a: of_other,
-            b: of_it,
-        },
     }
 }
 

@@ -2,11 +2,10 @@
 
 use crate::double_double::volume;
 use crate::feature::{Corners, Crossing};
-use crate::placed::{Placed, Scale};
+use crate::placed::Placed;
 use crate::tolerance::MAX_PIERCED_PAIRS;
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
-use ccd_core::order::lesser;
 
 /// Returns the point at which an edge passes through a face, or ends on it.
 ///
@@ -78,38 +77,14 @@ pub(crate) fn corner_inside<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Optio
 
 /// Searches for an edge of X that passes through a face of Y, or a corner of X inside Y, unless the polytopes are too
 /// large.
-pub(crate) fn search_crossing<X: Placed, Y: Placed>(
-    x: &X,
-    y: &Y,
-    scale: Scale,
-) -> Option<Crossing> {
+pub(crate) fn search_crossing<X: Placed, Y: Placed>(x: &X, y: &Y) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
     if edges as usize * faces as usize > MAX_PIERCED_PAIRS {
         return None;
     }
-    let through =
-        (0..faces).find_map(|f| (0..edges).find_map(|e| pierced_if_straddling(x, e, y, f, scale)));
+    let through = (0..faces).find_map(|f| (0..edges).find_map(|e| pierced(x, e, y, f)));
     // If no edge goes through the surface, X is either entirely inside or entirely outside.
     through.or_else(|| corner_inside(x, 0, y))
-}
-
-/// Like [`pierced`], but returns `None` early for edges that are clearly on one side of the face's plane.
-fn pierced_if_straddling<X: Placed, Y: Placed>(
-    x: &X,
-    e: u32,
-    y: &Y,
-    f: u32,
-    scale: Scale,
-) -> Option<Crossing> {
-    let base = y.point(y.shape().sides_of(f).first()?.start);
-    let normal = y.vector(y.shape().face(f).normal);
-    let ends = x.shape().edge(e).ends;
-    let [start, end] = ends.map(|v| normal.dot(x.vertex(v) - base));
-    let clear = lesser(start.abs(), end.abs()) > scale.rounding();
-    if clear && (start > 0.0) == (end > 0.0) {
-        return None;
-    }
-    pierced(x, e, y, f)
 }
 
 /// Returns whether a segment and a triangle that are not coplanar have a common point.

@@ -39,28 +39,24 @@ impl Cache {
         let Some(last) = self.0 else {
             return extremal(placed, placed.b.origin());
         };
-        let fingerprints = fingerprints(placed);
-        if fingerprints == last.fingerprints && is_valid_start(placed, last.pair) {
-            return last.pair;
-        }
-        let corners = extremal(placed, last.axis);
         // The last feature of an unchanged polytope is nearer than an extremal vertex.
-        let reused = Pair {
+        let fingerprints = fingerprints(placed);
+        let start = Pair {
             a: if fingerprints[0] == last.fingerprints[0] {
                 last.pair.a
             } else {
-                corners.a
+                extremal_of_a(placed, last.axis)
             },
             b: if fingerprints[1] == last.fingerprints[1] {
                 last.pair.b
             } else {
-                corners.b
+                extremal_of_b(placed, last.axis)
             },
         };
-        if is_valid_start(placed, reused) {
-            reused
+        if is_valid_start(placed, start) {
+            start
         } else {
-            corners
+            extremal(placed, last.axis)
         }
     }
 }
@@ -87,12 +83,18 @@ fn is_valid_start(placed: &PlacedPair<'_>, pair: Pair) -> bool {
 
 /// Returns the vertices that are extremal along an axis from A to B.
 pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
-    let a = placed.a.shape().extremal(axis);
-    let b = placed.b.shape().extremal(-placed.b.own_vector(axis));
     Pair {
-        a: Feature::Vertex(a),
-        b: Feature::Vertex(b),
+        a: extremal_of_a(placed, axis),
+        b: extremal_of_b(placed, axis),
     }
+}
+
+fn extremal_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
+    Feature::Vertex(placed.a.shape().extremal(axis))
+}
+
+fn extremal_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
+    Feature::Vertex(placed.b.shape().extremal(-placed.b.own_vector(axis)))
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! The transition of the march from a corner against a face `[VCLIP98 §3.2]`.
 
+use crate::escape::escape;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Behind, Feature, Next, Which};
+use crate::feature::{Feature, Next};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::PRODUCT_ERROR;
+use crate::vertex_vertex::steepest;
 
 /// Tests the corner against all face-edge planes, and continues with the edge of the most violated one. Above the face,
 /// it continues with the corner's edge that falls towards the face most steeply.
@@ -28,30 +30,17 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
     }
     let rounding = scale.rounding();
     if height < -rounding {
-        return Next::Behind(
-            Which::X,
-            Behind {
-                feature: Feature::Vertex(v),
-                point: corner,
-                face: f,
-            },
-        );
+        return escape(x, Feature::Vertex(v), corner, y, f, scale);
     }
     if height <= rounding {
         return Next::Stop(Tied);
     }
-    let (mut lowest, mut falling) = (-PRODUCT_ERROR, None);
-    for spoke in x.shape().spokes_of(v) {
-        let slope = x.vector(spoke.along).dot(normal);
-        if slope < lowest {
-            (lowest, falling) = (slope, Some(spoke.edge));
-        }
+    let falling = steepest(x, v, -normal);
+    if falling.slope > PRODUCT_ERROR {
+        return Next::To(Feature::Edge(falling.edge), Feature::Face(f));
     }
-    match falling {
-        Some(edge) => Next::To(Feature::Edge(edge), Feature::Face(f)),
-        // The face's normal is accurate up to rounding, however near the corner is.
-        None => Next::Stop(Sure),
-    }
+    // The face's normal is accurate up to rounding, however near the corner is.
+    Next::Stop(Sure)
 }
 
 #[cfg(test)]

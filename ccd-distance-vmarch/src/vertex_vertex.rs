@@ -29,14 +29,15 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Sc
     Next::Stop(if clear { Sure } else { Tied })
 }
 
-struct Steepest {
-    edge: u32,
-    slope: f64,
+/// An edge at a corner, and how far it leads along a vector per unit of its length.
+pub(crate) struct Steepest {
+    pub(crate) edge: u32,
+    pub(crate) slope: f64,
 }
 
 /// Returns the edge at a corner that leads farthest along a vector, per unit of its length.
 #[inline(always)]
-fn steepest<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> Steepest {
+pub(crate) fn steepest<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> Steepest {
     let mut best = Steepest {
         edge: 0,
         slope: f64::NEG_INFINITY,

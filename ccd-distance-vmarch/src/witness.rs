@@ -1,7 +1,7 @@
 //! The nearest points of a pair of features, clamped to the features, and the axis between them.
 
 use crate::edge_edge;
-use crate::feature::{Corners, Crossing, Feature, Pair, Which};
+use crate::feature::{Crossing, Feature, Pair, Which};
 use crate::placed::{Line, Placed, PlacedPair, Scale, clamp};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
@@ -11,10 +11,8 @@ use ccd_core::{Claim, Combination};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// The nearest points as combinations of vertices.
-    combinations: [Corners<3>; 2],
-    /// The direction from A to B along which they are apart, of any length.
-    pub(crate) axis: DVec3,
+    /// The same points as combinations, and the direction from A to B along which they are apart, of any length.
+    pub(crate) claim: Claim,
 }
 
 impl Witness {
@@ -43,21 +41,15 @@ impl Witness {
     }
 
     #[inline]
-    pub(crate) fn claim(&self, placed: &PlacedPair<'_>) -> Claim {
-        Claim {
-            axis: self.axis,
-            a: to_combination(placed.a.shape(), &self.combinations[0]),
-            b: to_combination(placed.b.shape(), &self.combinations[1]),
-        }
-    }
-
-    #[inline]
     fn swapped(self) -> Self {
-        let ([x, y], [on_x, on_y]) = (self.points, self.combinations);
+        let ([x, y], Claim { axis, a, b }) = (self.points, self.claim);
         Witness {
             points: [y, x],
-            combinations: [on_y, on_x],
-            axis: -self.axis,
+            claim: Claim {
+                axis: -axis,
+                a: b,
+                b: a,
+            },
         }
     }
 }
@@ -65,8 +57,8 @@ impl Witness {
 /// Returns the claim about a proven common point, along the normal of the crossed face.
 pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
-    let on_edge = |shape| to_combination(shape, &crossing.on_edge);
-    let on_face = |shape| to_combination(shape, &crossing.on_face);
+    let on_edge = |shape| combination(shape, crossing.on_edge.vertices, crossing.on_edge.weights);
+    let on_face = |shape| combination(shape, crossing.on_face.vertices, crossing.on_face.weights);
     match which {
         Which::X => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
@@ -86,8 +78,11 @@ fn vertex_vertex<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness 
     let points = [x.vertex(v), y.vertex(w)];
     Witness {
         points,
-        combinations: [corner(v), corner(w)],
-        axis: points[1] - points[0],
+        claim: Claim {
+            axis: points[1] - points[0],
+            a: corner(x, v),
+            b: corner(y, w),
+        },
     }
 }
 
@@ -99,8 +94,11 @@ fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
     let offset = foot - point;
     Witness {
         points: [point, foot],
-        combinations: [corner(v), on_edge(y, e, parameter)],
-        axis: perpendicular_part(offset, line.along),
+        claim: Claim {
+            axis: perpendicular_part(offset, line.along),
+            a: corner(x, v),
+            b: on_edge(y, e, parameter),
+        },
     }
 }
 
@@ -112,12 +110,14 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let points = [one.at(s), other.at(t)];
     let offset = points[1] - points[0];
     let axis = near.axis(offset, scale).unwrap_or(offset);
-    // The part along the edges, which would cost their length, is removed.
-    let axis = perpendicular_part(perpendicular_part(axis, one.along), other.along);
     Witness {
         points,
-        combinations: [on_edge(x, e, s), on_edge(y, f, t)],
-        axis,
+        claim: Claim {
+            // The part along the edges, which would cost their length, is removed.
+            axis: perpendicular_part(perpendicular_part(axis, one.along), other.along),
+            a: on_edge(x, e, s),
+            b: on_edge(y, f, t),
+        },
     }
 }
 
@@ -128,8 +128,11 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     let (foot, spot) = on_face(point, y, f, normal);
     Witness {
         points: [point, foot],
-        combinations: [corner(v), spot],
-        axis: -normal,
+        claim: Claim {
+            axis: -normal,
+            a: corner(x, v),
+            b: spot,
+        },
     }
 }
 
@@ -148,38 +151,36 @@ fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
     }
 }
 
-/// Converts vertices to the indices of the piece's points.
+/// Returns a combination of vertices as one of the piece's points.
 #[inline]
-fn to_combination<const N: usize>(shape: &Polytope, corners: &Corners<N>) -> Combination {
+fn combination<const N: usize>(
+    shape: &Polytope,
+    vertices: [u32; N],
+    weights: [f64; N],
+) -> Combination {
     let mut out = Combination::EMPTY;
-    for (&v, &weight) in corners.vertices.iter().zip(&corners.weights) {
+    for (v, weight) in vertices.into_iter().zip(weights) {
         out.push(shape.vertex(v).number, weight);
     }
     out
 }
 
 #[inline]
-fn corner(v: u32) -> Corners<3> {
-    Corners {
-        vertices: [v; 3],
-        weights: [1.0, 0.0, 0.0],
-    }
+fn corner<P: Placed>(polytope: &P, v: u32) -> Combination {
+    Combination::point(polytope.shape().vertex(v).number)
 }
 
 #[inline]
-fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Corners<3> {
-    let edge = polytope.shape().edge(e);
-    let [start, end] = edge.ends;
-    let share = parameter / edge.length;
-    Corners {
-        vertices: [start, end, end],
-        weights: [1.0 - share, share, 0.0],
-    }
+fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Combination {
+    let shape = polytope.shape();
+    let edge = shape.edge(e);
+    let numbers = edge.ends.map(|v| shape.vertex(v).number);
+    Combination::segment(numbers, parameter / edge.length)
 }
 
 /// Projects a point onto a face, clamped to a triangle of the fan about its first corner.
 #[inline]
-fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Corners<3>) {
+fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Combination) {
     let sides = y.shape().sides_of(f);
     let at = |k: usize| y.vertex(sides[k].vertex);
     let first = at(0);
@@ -192,10 +193,7 @@ fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Cor
     let triangle = [first, at(k), at(k + 1)];
     let weights = foot(point, triangle, normal);
     let [_, p, q] = triangle;
-    let spot = Corners {
-        vertices: corners.map(|k| sides[k].vertex),
-        weights,
-    };
+    let spot = combination(y.shape(), corners.map(|k| sides[k].vertex), weights);
     (
         first + weights[1] * (p - first) + weights[2] * (q - first),
         spot,

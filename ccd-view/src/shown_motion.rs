@@ -67,21 +67,6 @@ impl From<&Motion> for ShownMotion {
     }
 }
 
-impl ShownMotion {
-    /// Returns whether the body moves at all.
-    pub(crate) fn is_moving(&self) -> bool {
-        match self {
-            ShownMotion::Steady { velocity, spin, .. } => velocity
-                .iter()
-                .chain(spin)
-                .any(|component| *component != 0.0),
-            ShownMotion::Keys { keys, .. } => keys
-                .windows(2)
-                .any(|two| two[0].place != two[1].place || two[0].turn != [0.0; 3]),
-        }
-    }
-}
-
 fn rows(pose: &Pose) -> [f64; 9] {
     // Columns of the transpose.
     DMat3::from_quat(pose.rotation())

@@ -14,7 +14,7 @@ pub struct Group {
 }
 
 /// What is shown at a time: one query, or one scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct View {
     /// The name of the view in its group's list.
     pub name: String,
@@ -49,7 +49,6 @@ pub struct ShownBody {
     pub color: String,
     /// The motion by which the page moves the body.
     pub motion: ShownMotion,
-    moves: bool,
 }
 
 /// The distance between two bodies over time.
@@ -96,13 +95,7 @@ impl View {
             name: name.to_owned(),
             verdict: verdict.to_owned(),
             duration,
-            start: 0.0,
-            time: 0.0,
-            origin: [0.0; 3],
-            bodies: Vec::new(),
-            ghosts: Vec::new(),
-            gap: None,
-            contacts: Vec::new(),
+            ..View::default()
         }
     }
 }
@@ -110,13 +103,11 @@ impl View {
 impl ShownBody {
     /// Creates a body that is drawn with the mesh of the given number.
     pub fn new(name: &str, mesh: usize, color: &str, motion: impl Into<ShownMotion>) -> Self {
-        let motion = motion.into();
         ShownBody {
             name: name.to_owned(),
             mesh,
             color: color.to_owned(),
-            moves: motion.is_moving(),
-            motion,
+            motion: motion.into(),
         }
     }
 }

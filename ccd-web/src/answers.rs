@@ -34,9 +34,9 @@ pub(crate) fn answers() -> Result<Value, WebError> {
             "part": part,
             "target": target,
             "throw": numbers,
-            "verdict": found.verdict.name(),
+            "verdict": found.verdict,
             "time": found.time,
-            "steps": seen.into_iter().map(u8::from).collect::<Vec<_>>(),
+            "steps": seen,
         }))
     };
     (0..THROWS).map(|_| answer()).collect()

@@ -6,8 +6,8 @@
 //! | throw it at another one | [`Throw`], then [`Throw::first_contact`] |
 //! | look at some instants of the same throw | [`Throw::steps`] |
 //!
-//! In a browser the same functions are `Part`, `first_contact` and `steps` of the module `wasm_bindgen`. The command
-//! `ccd-web` writes a self-contained page.
+//! In a browser the same are the classes `Part` and `Throw` of the module `wasm_bindgen`. The command `ccd-web` writes a
+//! self-contained page.
 //!
 //! # Example
 //! ```
@@ -17,15 +17,13 @@
 //! let found = throw.first_contact(&bullet, &sheet)?;
 //! assert!(found.time > 0.105 && found.time < 0.106);
 //! // Sixty steps a second pass through the sheet.
-//! assert!(!throw.steps(&bullet, &sheet, 60)?.contains(&true));
+//! assert!(!throw.steps(&bullet, &sheet, 60)?.contains(&1));
 //! # Ok::<(), ccd_web::WebError>(())
 //! ```
 
-#[cfg(target_family = "wasm")]
-mod browser;
 mod part;
 mod shapes;
 mod throw;
 
 pub use part::{Part, WebError};
-pub use throw::{Throw, Thrown, Verdict};
+pub use throw::{Throw, Thrown};

@@ -1,12 +1,9 @@
 //! The command `ccd-web`, which writes the page.
 
-#[cfg(not(target_family = "wasm"))]
 mod answers;
-#[cfg(not(target_family = "wasm"))]
 mod page;
 
 /// Write the page on which a visitor throws parts: one file that works from disk.
-#[cfg(not(target_family = "wasm"))]
 #[derive(clap::Parser)]
 struct Args {
     /// The HTML file to write.
@@ -18,11 +15,7 @@ struct Args {
     check: bool,
 }
 
-#[cfg(not(target_family = "wasm"))]
 fn main() -> anyhow::Result<()> {
     let args = <Args as clap::Parser>::parse();
     page::write(&args.out, args.check)
 }
-
-#[cfg(target_family = "wasm")]
-fn main() {}

@@ -1,17 +1,19 @@
 //! Parts to throw: bodies with the triangles that draw them.
 
-use crate::shapes::{self, Surface};
+use crate::shapes;
 use rigid_ccd::mesh::{
     AffineMap, Detail, Format, MeshError, MeshFault, MeshFile, PrepareError, TriangleMesh,
     body_from_mesh,
 };
 use rigid_ccd::{Body, InputError, Pose};
+use wasm_bindgen::prelude::{JsError, JsValue, wasm_bindgen};
 
 /// A body with the triangles that draw it, relative to the same origin.
+#[wasm_bindgen]
 #[derive(Debug)]
 pub struct Part {
     pub(crate) body: Body,
-    surface: Surface,
+    surface: TriangleMesh,
 }
 
 /// An error of creating a part or asking about a throw.
@@ -36,6 +38,15 @@ pub enum WebError {
     /// The throw makes no valid query.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),
+    /// The numbers of a throw are not nine.
+    #[error("a throw is nine numbers, not {0}")]
+    Numbers(usize),
+}
+
+impl From<WebError> for JsValue {
+    fn from(error: WebError) -> Self {
+        JsError::from(error).into()
+    }
 }
 
 impl Part {
@@ -43,7 +54,10 @@ impl Part {
     pub const NAMES: [&str; 8] = [
         "bullet", "coin", "rod", "ball", "knot", "sheet", "slot", "post",
     ];
+}
 
+#[wasm_bindgen]
+impl Part {
     /// Creates a built-in part by its name, with lengths in metres.
     ///
     /// # Errors
@@ -54,9 +68,9 @@ impl Part {
             "coin" => Part::cuboid([0.1, 0.1, 0.006]),
             "rod" => Part::capsule(0.02, 0.3),
             "ball" => Part::capsule(0.12, 0.0),
-            "knot" => Part::mesh(shapes::knot(0.3, 0.05)),
+            "knot" => Part::of_mesh(shapes::knot(0.3, 0.05)?),
             "sheet" => Part::cuboid([0.001, 0.4, 0.4]),
-            "slot" => Part::mesh(shapes::slot([0.02, 0.4, 0.45], [0.06, 0.36])),
+            "slot" => Part::of_mesh(shapes::slot([0.02, 0.4, 0.45], [0.06, 0.36])?),
             "post" => Part::capsule(0.015, 0.45),
             _ => Err(WebError::UnknownPart(name.to_owned())),
         }
@@ -71,24 +85,31 @@ impl Part {
         let [low, high] = mesh.bounding_box();
         let scale = size / (high - low).length();
         let middle = 0.5 * low + 0.5 * high;
-        let mesh = mesh.transformed(AffineMap::scaled(scale, Pose::at(-middle * scale)?))?;
-        Part::of_mesh(&mesh)
+        Part::of_mesh(mesh.transformed(AffineMap::scaled(scale, Pose::at(-middle * scale)?))?)
     }
 
     /// Returns the drawn vertices, three numbers each.
     pub fn vertices(&self) -> Vec<f32> {
-        let vertices = self.surface.vertices.iter();
+        let vertices = self.surface.vertices().iter();
         vertices.flat_map(|v| v.as_vec3().to_array()).collect()
     }
 
     /// Returns the drawn faces, three vertex numbers each.
     pub fn faces(&self) -> Vec<u32> {
-        self.surface.faces.concat()
+        self.surface.faces().concat()
     }
 
+    /// Returns the greatest distance of the drawing from the part's origin, in metres.
+    pub fn reach(&self) -> f64 {
+        let lengths = self.surface.vertices().iter().map(|v| v.length());
+        lengths.max_by(f64::total_cmp).unwrap_or(0.0)
+    }
+}
+
+impl Part {
     fn cuboid(half: [f64; 3]) -> Result<Self, WebError> {
         let body = Body::cuboid(half)?;
-        let surface = shapes::faces(&body);
+        let surface = shapes::faces(&body)?;
         Ok(Part { body, surface })
     }
 
@@ -98,27 +119,13 @@ impl Part {
         } else {
             Body::sphere(radius)?
         };
-        let surface = shapes::capsule(radius, half);
+        let surface = shapes::capsule(radius, half)?;
         Ok(Part { body, surface })
     }
 
-    fn mesh(surface: Surface) -> Result<Self, WebError> {
-        Part::of_mesh(&TriangleMesh::new(surface.vertices, &surface.faces)?)
-    }
-
-    fn of_mesh(mesh: &TriangleMesh) -> Result<Self, WebError> {
-        let surface = Surface {
-            vertices: mesh.vertices().to_vec(),
-            faces: mesh.faces().to_vec(),
-        };
-        let body = body_from_mesh(mesh, Detail::Auto)?.body;
+    fn of_mesh(surface: TriangleMesh) -> Result<Self, WebError> {
+        let body = body_from_mesh(&surface, Detail::Auto)?.body;
         Ok(Part { body, surface })
-    }
-
-    /// Returns the greatest distance of the drawing from the part's origin, in metres.
-    pub fn reach(&self) -> f64 {
-        let lengths = self.surface.vertices.iter().map(|v| v.length());
-        lengths.max_by(f64::total_cmp).unwrap_or(0.0)
     }
 }
 

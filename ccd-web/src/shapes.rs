@@ -1,18 +1,12 @@
-//! Makes the surfaces of simple shapes.
+//! Makes the surfaces of simple shapes: triangles, counterclockwise from outside.
 
 use rigid_ccd::Body;
 use rigid_ccd::glam::{DVec3, dvec3};
+use rigid_ccd::mesh::{MeshError, TriangleMesh};
 use std::f64::consts::{PI, TAU};
 
-/// The triangles of a surface, counterclockwise from outside.
-#[derive(Clone, Debug)]
-pub(crate) struct Surface {
-    pub(crate) vertices: Vec<DVec3>,
-    pub(crate) faces: Vec<[u32; 3]>,
-}
-
 /// Returns the faces of a body without rounded pieces.
-pub(crate) fn faces(body: &Body) -> Surface {
+pub(crate) fn faces(body: &Body) -> Result<TriangleMesh, MeshError> {
     let pieces = body.pieces().iter();
     let corners = pieces.flat_map(|piece| {
         let triangles = piece.mesh_triangles().map(|(_, corners)| corners);
@@ -20,18 +14,16 @@ pub(crate) fn faces(body: &Body) -> Surface {
     });
     let vertices: Vec<DVec3> = corners.flatten().collect();
     let faces = (0..vertices.len() as u32 / 3).map(|face| [0, 1, 2].map(|k| 3 * face + k));
-    Surface {
-        faces: faces.collect(),
-        vertices,
-    }
+    let faces: Vec<[u32; 3]> = faces.collect();
+    TriangleMesh::new(vertices, &faces)
 }
 
 /// Returns the surface of a capsule along z, or a ball if `half` is 0. `half` is from its centre to the centre of
 /// either cap.
-pub(crate) fn capsule(radius: f64, half: f64) -> Surface {
+pub(crate) fn capsule(radius: f64, half: f64) -> Result<TriangleMesh, MeshError> {
     const AROUND: u32 = 32;
     const ALONG: u32 = 17;
-    sheet([AROUND, ALONG], Ends::Open, |[around, along]| {
+    sheet([AROUND, ALONG, ALONG + 1], |[around, along]| {
         let (sine, cosine) = (TAU * around).sin_cos();
         let latitude = PI * (along - 0.5);
         let height = radius * latitude.sin() + if along < 0.5 { -half } else { half };
@@ -41,7 +33,7 @@ pub(crate) fn capsule(radius: f64, half: f64) -> Surface {
 }
 
 /// Returns the surface of a tube along a trefoil knot.
-pub(crate) fn knot(size: f64, radius: f64) -> Surface {
+pub(crate) fn knot(size: f64, radius: f64) -> Result<TriangleMesh, MeshError> {
     let curve = |t: f64| {
         let ring = 2.0 + (3.0 * t).cos();
         size / 3.0
@@ -51,7 +43,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Surface {
                 (3.0 * t).sin(),
             )
     };
-    sheet([16, 180], Ends::Joined, |[around, along]| {
+    sheet([16, 180, 180], |[around, along]| {
         let t = TAU * along;
         let ahead = (curve(t + 1e-4) - curve(t - 1e-4)).normalize();
         let out = ahead.cross(DVec3::Z).normalize();
@@ -61,7 +53,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Surface {
 }
 
 /// Returns a plate across x with a slot, whose half extents are along y and z.
-pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Surface {
+pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMesh, MeshError> {
     let ring =
         |x: f64, y: f64, z: f64| [(-y, -z), (y, -z), (y, z), (-y, z)].map(|(y, z)| dvec3(x, y, z));
     let [depth, wide, tall] = half;
@@ -81,26 +73,16 @@ pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Surface {
             [8 + k, 12 + k, 12 + next, 8 + next],
         ]
     });
-    Surface {
-        vertices: vertices.concat(),
-        faces: faces.flat_map(halves).collect(),
-    }
-}
-
-/// Whether the ends of a tube are joined to each other or left open.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Ends {
-    Joined,
-    Open,
+    let faces: Vec<[u32; 3]> = faces.flat_map(halves).collect();
+    TriangleMesh::new(vertices.concat(), &faces)
 }
 
 /// Returns a tubular grid of quadrilaterals, each split into two triangles. `point` maps the fractions around and along
-/// to a point.
-fn sheet([around, along]: [u32; 2], ends: Ends, point: impl Fn([f64; 2]) -> DVec3) -> Surface {
-    let rows = match ends {
-        Ends::Joined => along,
-        Ends::Open => along + 1,
-    };
+/// to a point. The ends are joined if there are as many rows of points as cells along.
+fn sheet(
+    [around, along, rows]: [u32; 3],
+    point: impl Fn([f64; 2]) -> DVec3,
+) -> Result<TriangleMesh, MeshError> {
     let place = |row, column| {
         point([
             f64::from(column) / f64::from(around),
@@ -117,14 +99,10 @@ fn sheet([around, along]: [u32; 2], ends: Ends, point: impl Fn([f64; 2]) -> DVec
             number(row + 1, column),
         ])
     });
-    Surface {
-        vertices: (0..rows)
-            .flat_map(|row| (0..around).map(move |column| (row, column)))
-            // Sine and cosine may round differently elsewhere: single precision is the same everywhere.
-            .map(|(row, column)| place(row, column).as_vec3().as_dvec3())
-            .collect(),
-        faces: faces.collect(),
-    }
+    let spots = (0..rows).flat_map(|row| (0..around).map(move |column| (row, column)));
+    // Sine and cosine may round differently elsewhere: single precision is the same everywhere.
+    let vertices = spots.map(|(row, column)| place(row, column).as_vec3().as_dvec3());
+    TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
 }
 
 fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {

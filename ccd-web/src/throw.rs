@@ -1,45 +1,36 @@
 //! Throws a part at another one: the certified first contact, and tests at equal steps.
 
 use crate::{Part, WebError};
-use rigid_ccd::answer::HitKind;
-use rigid_ccd::{Hit, Motion, Pose, Settings, Solver};
+use rigid_ccd::{Hit, Motion, Outcome, Pose, Settings, Solver};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 /// A throw of one second: a part's position at the start, its velocity and its angular velocity. The other part rests
 /// at the world's origin.
+#[wasm_bindgen]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Throw {
     /// The position of the part's origin at the start, in metres.
+    #[wasm_bindgen(skip)]
     pub place: [f64; 3],
     /// The velocity of the part, in metres per second.
+    #[wasm_bindgen(skip)]
     pub velocity: [f64; 3],
     /// The angular velocity of the part, in radians per second.
+    #[wasm_bindgen(skip)]
     pub spin: [f64; 3],
 }
 
-/// The certified result of a throw.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The certified result of a throw, as the page shows it.
+#[wasm_bindgen(getter_with_clone)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Thrown {
-    /// The kind of the result.
-    pub verdict: Verdict,
+    /// The kind of the result: contact, free, touching, overlapping or unresolved.
+    pub verdict: String,
     /// The time in seconds before which nothing touches.
     pub time: f64,
-    /// The first contact; `None` without one.
-    pub hit: Option<Hit>,
-}
-
-/// The kind of a throw's result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The parts touch after the start.
-    Contact,
-    /// The parts never touch.
-    Free,
-    /// The parts touch at the start.
-    Touching,
-    /// The parts overlap at the start.
-    Overlapping,
-    /// A limit was reached before there was a result.
-    Unresolved,
+    /// The nearest points of both parts and the normal, nine numbers; six if one part is inside the other, none without
+    /// a contact.
+    pub points: Vec<f64>,
 }
 
 impl Throw {
@@ -47,6 +38,24 @@ impl Throw {
     pub const DURATION: f64 = 1.0;
     /// The distance, in metres, at which parts count as touching.
     pub const TOLERANCE: f64 = 1e-6;
+}
+
+#[wasm_bindgen]
+impl Throw {
+    /// Creates a throw from nine numbers: position, velocity and angular velocity.
+    ///
+    /// # Errors
+    /// [`WebError::Numbers`].
+    pub fn of_numbers(numbers: &[f64]) -> Result<Self, WebError> {
+        let &[px, py, pz, vx, vy, vz, wx, wy, wz] = numbers else {
+            return Err(WebError::Numbers(numbers.len()));
+        };
+        Ok(Throw {
+            place: [px, py, pz],
+            velocity: [vx, vy, vz],
+            spin: [wx, wy, wz],
+        })
+    }
 
     /// Finds the first contact of the thrown part with the target.
     ///
@@ -56,23 +65,40 @@ impl Throw {
     /// # Errors
     /// [`WebError`] for numbers out of range.
     pub fn first_contact(&self, part: &Part, target: &Part) -> Result<Thrown, WebError> {
-        ask(part, self.motion()?, target, Throw::DURATION)
+        let outcome = ask(part, self.motion()?, target, Throw::DURATION)?;
+        let (verdict, time) = match outcome {
+            Outcome::Contact { time, .. } => ("contact", time),
+            Outcome::Touching { .. } => ("touching", 0.0),
+            Outcome::Overlapping { .. } => ("overlapping", 0.0),
+            Outcome::Unresolved(known) => ("unresolved", known.safe_until),
+            // A first contact has no other outcomes.
+            Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::Measured { .. } => {
+                ("free", Throw::DURATION)
+            }
+        };
+        Ok(Thrown {
+            verdict: verdict.to_owned(),
+            time,
+            points: outcome.hit().ok().flatten().map_or(Vec::new(), points),
+        })
     }
 
-    /// Tests whether the parts touch at evenly spaced instants, from the start to the end.
+    /// Tests whether the parts touch at evenly spaced instants, from the start to the end: 1 where they do, else 0.
     ///
     /// # Errors
     /// [`WebError`] for numbers out of range.
-    pub fn steps(&self, part: &Part, target: &Part, count: u32) -> Result<Vec<bool>, WebError> {
+    pub fn steps(&self, part: &Part, target: &Part, count: u32) -> Result<Vec<u8>, WebError> {
         let motion = self.motion()?;
         let touches = (0..=count).map(|step| {
             let time = Throw::DURATION * f64::from(step) / f64::from(count.max(1));
             let found = ask(part, Motion::still(motion.pose(time)), target, 0.0)?;
-            Ok(found.verdict != Verdict::Free)
+            Ok(u8::from(!matches!(found, Outcome::Free { .. })))
         });
         touches.collect()
     }
+}
 
+impl Throw {
     fn motion(&self) -> Result<Motion, WebError> {
         Ok(Motion::new(
             Pose::at(self.place)?,
@@ -82,50 +108,20 @@ impl Throw {
     }
 }
 
-fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Thrown, WebError> {
+fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Outcome, WebError> {
     let mut solver = Solver::new().with_settings(Settings {
         tolerance: Throw::TOLERANCE,
         ..Settings::DEFAULT
     });
-    let answer = solver.first_contact(
-        (&part.body, motion),
-        (&target.body, Motion::STILL),
-        duration,
-    );
-    Ok(match answer?.hit() {
-        Ok(None) => Thrown {
-            verdict: Verdict::Free,
-            time: duration,
-            hit: None,
-        },
-        Ok(Some(hit)) => Thrown {
-            verdict: match hit.kind {
-                HitKind::Contact(_) => Verdict::Contact,
-                HitKind::Touching(_) => Verdict::Touching,
-                HitKind::Overlapping(_) => Verdict::Overlapping,
-            },
-            time: hit.time,
-            hit: Some(hit),
-        },
-        Err(known) => Thrown {
-            verdict: Verdict::Unresolved,
-            time: known.safe_until,
-            hit: None,
-        },
-    })
+    let target = (&target.body, Motion::STILL);
+    let answer = solver.first_contact((&part.body, motion), target, duration)?;
+    Ok(answer.outcome)
 }
 
-impl Verdict {
-    /// Returns the name of the result's kind on the page.
-    pub fn name(self) -> &'static str {
-        match self {
-            Verdict::Contact => "contact",
-            Verdict::Free => "free",
-            Verdict::Touching => "touching",
-            Verdict::Overlapping => "overlapping",
-            Verdict::Unresolved => "unresolved",
-        }
-    }
+fn points(hit: Hit) -> Vec<f64> {
+    let witnesses = [hit.witness_a(), hit.witness_b()].into_iter();
+    let normal = hit.contact().map(|contact| contact.separation.normal);
+    witnesses.chain(normal).flat_map(|v| v.to_array()).collect()
 }
 
 #[cfg(test)]

@@ -7,17 +7,16 @@ use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
 use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDED_UP, SHARE_OF_SIZE};
-use crate::{CastError, Options, Prepared, ShapeError};
+use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
 use ccd_core::{InputError, Motion, Settings, StartPolicy, Stray, Stretch, Trajectory};
 use rigid_ccd::Solver;
 use std::sync::Arc;
 
-/// A cast of two shapes.
+/// A cast, without its shapes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cast<'a> {
-    pub(crate) shapes: [&'a PreparedShape; 2],
+pub(crate) struct Cast {
     pub(crate) motions: [Motion; 2],
     pub(crate) interval: Interval,
     /// The distance at which the two shapes are in contact, in the scene's unit of length.
@@ -35,18 +34,6 @@ pub(crate) enum PreparedShape {
     HalfSpace(HalfSpace),
 }
 
-impl PreparedShape {
-    /// Prepares both shapes of a cast; an error says which shape it is about.
-    pub(crate) fn prepare_both<S>(
-        [g1, g2]: [S; 2],
-        mut ready: impl FnMut(S) -> Result<Self, ShapeError>,
-    ) -> Result<[Self; 2], CastError> {
-        let mut named =
-            |which, shape| ready(shape).map_err(|error| CastError::Shape { which, error });
-        Ok([named(1, g1)?, named(2, g2)?])
-    }
-}
-
 /// A motion whose time 0 is the start of the cast's interval.
 #[derive(Clone, Copy, Debug)]
 struct ShiftedMotion {
@@ -55,19 +42,24 @@ struct ShiftedMotion {
     stray: Stray,
 }
 
-impl Cast<'_> {
+impl Cast {
     /// Finds the first contact in the interval of the cast.
-    pub(crate) fn answer(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
-        self.with_scene(|scene| self.hit(scene, solver))
+    pub(crate) fn answer(
+        &self,
+        shapes: [&PreparedShape; 2],
+        solver: &mut Solver,
+    ) -> Result<Option<CastHit>, CastError> {
+        self.with_scene(shapes, |scene| self.hit(scene, solver))
     }
 
     /// Builds the engine's scene for a cast, and calls a function with it.
     pub(crate) fn with_scene<T>(
         &self,
+        shapes: [&PreparedShape; 2],
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
         let shifted = self.motions_from_start()?;
-        match self.shapes {
+        match shapes {
             [PreparedShape::Body(a), PreparedShape::Body(b)] => {
                 then(&self.scene_of_bodies([a, b], shifted)?)
             }
@@ -174,14 +166,8 @@ impl Cast<'_> {
     /// velocity loses no digits.
     fn motions_from_start(&self) -> Result<[ShiftedMotion; 2], CastError> {
         let along = self.motions[1].velocity();
-        let shifted = |k: usize| {
-            let named = |error| {
-                let which = k as u8 + 1;
-                CastError::Motion { which, error }
-            };
-            ShiftedMotion::new(&self.motions[k], self.interval.start(), along).map_err(named)
-        };
-        Ok([shifted(0)?, shifted(1)?])
+        let shifted = |motion: &Motion| ShiftedMotion::new(motion, self.interval.start, along);
+        CastError::of_motions(self.motions.each_ref().map(shifted))
     }
 
     /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.
@@ -195,7 +181,7 @@ impl Cast<'_> {
 
     /// Returns the distance at which bodies without a margin are in contact.
     fn tolerance(&self, bodies: &[&Prepared]) -> f64 {
-        let sizes = bodies.iter().map(|body| body.ball().1);
+        let sizes = bodies.iter().map(|body| body.ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
         let by_default = sizes.fold(self.contact, |least, size| {
             lesser(least, SHARE_OF_SIZE * size)
@@ -244,7 +230,7 @@ impl ShiftedMotion {
 
     /// Returns the motion together with the extent of its body.
     fn motion_with_extent(&self, body: &Prepared) -> MotionWithExtent {
-        let (middle, radius) = body.ball();
+        let (middle, radius) = body.ball;
         let about = if self.motion.spin() == DVec3::ZERO {
             middle
         } else {
@@ -274,7 +260,7 @@ impl ShiftedMotion {
 
     /// Returns the motion with the angular velocity removed if the body is a ball that rotates about its centre.
     fn without_spin_of(self, body: &Prepared) -> Self {
-        if body.point() != Some(self.motion.centre()) {
+        if body.point != Some(self.motion.centre()) {
             return self;
         }
         let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];

@@ -47,6 +47,22 @@ pub enum CastError {
     Scene(#[from] InputError),
 }
 
+impl CastError {
+    /// Returns what was made of both motions; an error says which motion it is about.
+    pub(crate) fn of_motions<T>(made: [Result<T, InputError>; 2]) -> Result<[T; 2], CastError> {
+        let named = |which| move |error| CastError::Motion { which, error };
+        let [a, b] = made;
+        Ok([a.map_err(named(1))?, b.map_err(named(2))?])
+    }
+
+    /// Returns what was made of both shapes; an error says which shape it is about.
+    pub(crate) fn of_shapes<T>(made: [Result<T, ShapeError>; 2]) -> Result<[T; 2], CastError> {
+        let named = |which| move |error| CastError::Shape { which, error };
+        let [a, b] = made;
+        Ok([a.map_err(named(1))?, b.map_err(named(2))?])
+    }
+}
+
 /// The error of a shape from which no body can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

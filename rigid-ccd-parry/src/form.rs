@@ -6,10 +6,11 @@ use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, Combination, Enclosure, Facet, Feature, InputError, Origin, Piece, Pieces, Polytope,
-    Pose, Round, Volume,
+    Body, Combination, Enclosure, Facet, Feature, InputError, Origin, Pieces, Polytope, Pose,
+    Round, Volume,
 };
 use std::borrow::Cow;
+use std::iter::repeat;
 
 /// The geometry of a shape: triangles and convex parts.
 ///
@@ -25,9 +26,9 @@ pub(crate) struct Form {
     round: Option<(Round, f64, Excess)>,
     volume: Volume,
     /// A bound on the rounding error of points, as a length.
-    slack: f64,
+    pub(crate) slack: f64,
     /// A bound on how far polytopes extend beyond the round shapes that they enclose.
-    excess: f64,
+    pub(crate) excess: f64,
     /// The boundary as triangles, and the triangles' sub-shape indices, if the form is one exact part.
     surface: Option<(Vec<[u32; 3]>, Vec<u32>)>,
 }
@@ -88,21 +89,35 @@ impl Form {
         }))
     }
 
-    /// Adds the hull of some points, grown by a radius, as a part.
-    pub(crate) fn push_hull(&mut self, points: Vec<DVec3>, radius: f64, loops: &[Vec<u32>]) {
-        let facet = |(id, corners): (usize, &Vec<u32>)| Facet {
-            origin: Origin::Face(id as u32),
-            corners: corners.clone(),
+    /// Adds the hull of some points, grown by a radius, as a part with the sub-shape index `number`.
+    pub(crate) fn push_hull<L: AsRef<[u32]>>(
+        &mut self,
+        points: Vec<DVec3>,
+        radius: f64,
+        loops: impl IntoIterator<Item = L>,
+        number: u32,
+    ) {
+        let facet = |(id, corners): (u32, L)| Facet {
+            origin: Origin::Face(id),
+            corners: corners.as_ref().to_vec(),
         };
-        self.parts.push(Part {
-            polytope: Polytope {
-                points,
-                radius,
-                facets: loops.iter().enumerate().map(facet).collect(),
-                ..Polytope::default()
-            },
-            number: 0,
-        });
+        let polytope = Polytope {
+            points,
+            radius,
+            facets: (0..).zip(loops).map(facet).collect(),
+            ..Polytope::default()
+        };
+        self.parts.push(Part { polytope, number });
+    }
+
+    /// Adds the hull of a few points without facets, grown by a radius, like [`Form::push_hull`].
+    pub(crate) fn push_points<const N: usize>(
+        &mut self,
+        points: [DVec3; N],
+        radius: f64,
+        number: u32,
+    ) {
+        self.push_hull(points.to_vec(), radius, [[0; 0]; 0], number);
     }
 
     /// Adds the box between its lowest and its highest corner, grown by a radius.
@@ -115,47 +130,21 @@ impl Form {
     /// Adds a box given by its eight corners: bits 0, 1 and 2 of `k` are set if corner `k` is high along the first,
     /// second and third axis of a right-handed frame.
     pub(crate) fn push_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
-        self.push_hull(corners, radius, &BOX.map(Vec::from));
+        self.push_hull(corners, radius, BOX, 0);
     }
 
-    /// Adds a piece of a body, with the sub-shape index `number`.
-    pub(crate) fn push_piece(&mut self, piece: &Piece<'_>, number: u32) {
-        let loops: Vec<Vec<u32>> = piece.facets.iter().map(<[u32]>::to_vec).collect();
-        self.push_hull(piece.points.to_vec(), piece.radius, &loops);
-        if let Some(part) = self.parts.last_mut() {
-            part.number = number;
-        }
-    }
-
-    /// Adds a segment as a part, with its sub-shape index.
-    pub(crate) fn push_segment(&mut self, ends: [DVec3; 2], number: u32) {
-        let polytope = Polytope {
-            points: ends.to_vec(),
-            ..Polytope::default()
-        };
-        self.parts.push(Part { polytope, number });
-    }
-
-    /// Adds a triangle with its sub-shape index.
-    pub(crate) fn push_triangle(&mut self, corners: [DVec3; 3], number: u32) {
-        let first = self.vertices.len() as u32;
-        self.vertices.extend(corners);
-        self.triangles.push([first, first + 1, first + 2]);
-        self.triangle_numbers.push(number);
-    }
-
-    /// Adds the triangles of a mesh, which are numbered from 0.
-    pub(crate) fn push_mesh(&mut self, vertices: impl Iterator<Item = DVec3>, faces: &[[u32; 3]]) {
+    /// Adds triangles, with their sub-shape indices.
+    pub(crate) fn push_triangles(
+        &mut self,
+        vertices: impl IntoIterator<Item = DVec3>,
+        faces: &[[u32; 3]],
+        numbers: impl IntoIterator<Item = u32>,
+    ) {
         let first = self.vertices.len() as u32;
         self.vertices.extend(vertices);
         let corners = |face: &[u32; 3]| face.map(|corner| first.saturating_add(corner));
         self.triangles.extend(faces.iter().map(corners));
-        self.triangle_numbers.extend(0..faces.len() as u32);
-    }
-
-    /// Adds to the bound on the rounding error of points.
-    pub(crate) fn add_slack(&mut self, slack: f64) {
-        self.slack = greater(self.slack, slack);
+        (self.triangle_numbers).extend(numbers.into_iter().take(faces.len()));
     }
 
     /// Returns the form in which the triangles are the surface of a solid.
@@ -187,11 +176,8 @@ impl Form {
         } else {
             POSE_ROUNDING * (reach + length(pose.translation()))
         };
-        let first = self.vertices.len() as u32;
-        self.vertices.extend(inner.vertices.iter().map(place));
-        let corners = |face: &[u32; 3]| face.map(|corner| first.saturating_add(corner));
-        (self.triangle_numbers).extend(inner.triangles.iter().map(|_| number));
-        self.triangles.extend(inner.triangles.iter().map(corners));
+        let vertices = inner.vertices.iter().map(place);
+        self.push_triangles(vertices, &inner.triangles, repeat(number));
         for Part { polytope, .. } in &inner.parts {
             let points = polytope.points.iter().map(place).collect();
             let polytope = Polytope {
@@ -205,26 +191,13 @@ impl Form {
         Ok(())
     }
 
-    /// Returns the bound on the rounding error of points, as a length.
-    pub(crate) fn slack(&self) -> f64 {
-        self.slack
-    }
-
-    /// Returns the bound on how far polytopes extend beyond the round shapes that they enclose.
-    pub(crate) fn excess(&self) -> f64 {
-        self.excess
-    }
-
     /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
-        let corners = |part: &Part| {
-            part.polytope
-                .facets
-                .iter()
-                .map(|facet: &Facet| 32 + 4 * facet.corners.len())
-                .sum::<usize>()
+        let of_facet = |facet: &Facet| 32 + 4 * facet.corners.len();
+        let of_part = |Part { polytope, .. }: &Part| {
+            let facets: usize = polytope.facets.iter().map(of_facet).sum();
+            24 * polytope.points.len() + facets + 128
         };
-        let of_part = |part: &Part| 24 * part.polytope.points.len() + corners(part) + 128;
         let parts: usize = self.parts.iter().map(of_part).sum();
         24 * self.vertices.len() + 16 * self.triangles.len() + parts
     }

@@ -4,13 +4,12 @@
 //! part of the half-space in that ball, and hardly more, has the same contacts.
 
 use crate::form::Form;
-use crate::horizon::{Horizon, MotionWithExtent};
+use crate::horizon::{Horizon, MotionWithExtent, repetition_time, time_of_turn};
 use crate::order::{greater, length, lesser};
 use crate::tolerance::{END_ROUNDED_UP, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
 use crate::{Prepared, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
-use std::f64::consts::TAU;
 
 /// All points on one side of a plane through the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +28,8 @@ impl HalfSpace {
             what: "normal",
             value: length(normal),
         };
-        if normal.is_finite() {
-            Ok(HalfSpace {
-                normal: unit(normal).ok_or(size)?,
-            })
-        } else {
-            Err(size)
-        }
+        let unit = unit(normal).filter(|_| normal.is_finite());
+        unit.map(|normal| HalfSpace { normal }).ok_or(size)
     }
 
     /// Returns the duration that decides the cast of a body with contact distance `within`, for the time `wanted`.
@@ -70,28 +64,18 @@ impl HalfSpace {
         within: f64,
     ) -> Option<f64> {
         let [p, b] = [plane.motion, body.motion];
-        let (still, spin) = (p.spin() == DVec3::ZERO, b.spin());
         if p.velocity() == b.velocity() {
             // In the plane's frame the body rotates in place, or goes around.
-            return match (still, spin == DVec3::ZERO) {
-                (true, true) => Some(0.0),
-                (true, false) => Some(TAU / length(spin) * END_ROUNDED_UP),
-                (false, true) => Some(TAU / length(p.spin()) * END_ROUNDED_UP),
-                (false, false) => (spin == p.spin()).then(|| TAU / length(spin) * END_ROUNDED_UP),
-            };
+            return repetition_time([plane, body]);
         }
-        if !still {
+        if p.spin() != DVec3::ZERO {
             return None;
         }
         let velocity = b.velocity() - p.velocity();
         let upright = p.start().rotation() == DQuat::IDENTITY;
         if upright && self.normal * velocity == DVec3::ZERO {
             // The body moves exactly along the plane.
-            return Some(if spin == DVec3::ZERO {
-                0.0
-            } else {
-                TAU / length(spin) * END_ROUNDED_UP
-            });
+            return Some(time_of_turn(b.spin()));
         }
         let normal = p.start().rotation() * self.normal;
         let (from, to) = (p.start().translation(), body.start_position());
@@ -145,8 +129,9 @@ impl HalfSpace {
             middle + side(0) * across + side(1) * along + high * normal
         };
         let mut form = Form::EMPTY;
+        form.excess = 2.0 * above;
         form.push_corners((0..8).map(corner).collect(), 0.0);
-        Prepared::new(&form)?.with_excess(2.0 * above)
+        Prepared::new(&form)
     }
 }
 

@@ -79,19 +79,20 @@ pub(crate) fn relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64)
 }
 
 /// Returns a time after which the bodies repeat their relative poses, if they do not move on.
-fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
+pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion);
-    let turn = |spin: DVec3| TAU / length(spin) * END_ROUNDED_UP;
-    if a.velocity() != b.velocity() {
-        return None;
-    }
-    match (a.spin() == DVec3::ZERO, b.spin() == DVec3::ZERO) {
-        (true, true) => Some(0.0),
-        (false, true) => Some(turn(a.spin())),
-        (true, false) => Some(turn(b.spin())),
-        // With two axes and equal rates, everything repeats too.
-        (false, false) if a.spin() == b.spin() => Some(turn(a.spin())),
-        (false, false) => None,
+    let still = a.spin() == DVec3::ZERO || b.spin() == DVec3::ZERO;
+    // Two bodies that both turn repeat their poses if they do so about parallel axes, at one rate.
+    let repeats = a.velocity() == b.velocity() && (still || a.spin() == b.spin());
+    repeats.then(|| greater(time_of_turn(a.spin()), time_of_turn(b.spin())))
+}
+
+/// Returns the time of a whole turn; 0 without one.
+pub(crate) fn time_of_turn(spin: DVec3) -> f64 {
+    if spin == DVec3::ZERO {
+        0.0
+    } else {
+        TAU / length(spin) * END_ROUNDED_UP
     }
 }
 

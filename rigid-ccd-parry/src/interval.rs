@@ -6,7 +6,7 @@ use crate::order::{greater, lesser};
 /// The time interval of a cast, in parry's unit of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Interval {
-    start: f64,
+    pub(crate) start: f64,
     end: f64,
 }
 
@@ -28,11 +28,6 @@ impl Interval {
             return Err(number("the end time", end, "a number"));
         }
         Ok((start <= end).then_some(Interval { start, end }))
-    }
-
-    /// Returns the time at which the interval starts.
-    pub(crate) fn start(self) -> f64 {
-        self.start
     }
 
     /// Returns the length of the interval, rounded up.

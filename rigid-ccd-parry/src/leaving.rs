@@ -19,94 +19,60 @@ use rigid_ccd::Solver;
 /// start.
 const MOST_PAIRS: usize = 256;
 
-/// Two sets of pieces, one of each body, all pairs of which are to be examined.
-struct PiecePairs {
-    pieces: [Vec<u32>; 2],
-}
-
 /// Returns the first contact of all pairs of pieces that do not begin to part; `overlap` is the hit at the start.
 pub(crate) fn first_contact_unless_parting(
     scene: &Scene<'_>,
     overlap: CastHit,
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
-    let mut tasks = vec![PiecePairs {
-        pieces: [0, 1].map(|k| pieces_near_other(scene, k)),
-    }];
-    let (mut first, mut left_out) = (None, 0);
+    // Each task is two sets of pieces, one of each body, all pairs of which are to be examined.
+    let mut tasks = vec![[0, 1].map(|k| pieces_near_other(scene, k))];
+    let (mut first, mut left_out): (Option<CastHit>, _) = (None, 0);
     while let Some(task) = tasks.pop() {
-        if task.pieces.iter().any(Vec::is_empty) {
+        if task.iter().any(Vec::is_empty) {
             continue;
         }
-        match examine(scene, &task, solver)? {
-            PairsOutcome::Overlap([a, b]) => {
+        let Some(found) = first_contact_of_pieces(scene, &task, solver)? else {
+            continue;
+        };
+        match found.ending {
+            Ending::Overlap => {
                 left_out += 1;
+                let [a, b] = found.numbers;
                 if left_out > MOST_PAIRS || !begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
                 }
-                let [of_a, of_b] = task.pieces;
-                let without = |pieces: &[u32], left: u32| -> Vec<u32> {
-                    pieces
-                        .iter()
-                        .copied()
-                        .filter(|piece| *piece != left)
-                        .collect()
-                };
-                tasks.push(PiecePairs {
-                    pieces: [vec![a], without(&of_b, b)],
-                });
-                tasks.push(PiecePairs {
-                    pieces: [without(&of_a, a), of_b],
-                });
+                let [mut of_a, of_b] = task;
+                let others_of_b = of_b.iter().copied().filter(|piece| *piece != b);
+                tasks.push([vec![a], others_of_b.collect()]);
+                of_a.retain(|piece| *piece != a);
+                tasks.push([of_a, of_b]);
             }
-            PairsOutcome::Inside => return Ok(Some(overlap)),
-            PairsOutcome::Hit(None) => {}
-            PairsOutcome::Hit(Some(found)) => {
-                let earlier = first.is_none_or(|first: CastHit| found.time < first.time);
-                first = if earlier { Some(found) } else { first };
+            Ending::Inside => return Ok(Some(overlap)),
+            Ending::Near | Ending::Contact | Ending::Limit => {
+                if first.is_none_or(|first| found.time < first.time) {
+                    let numbers = [0, 1].map(|k| scene.bodies[k].sub_shape(found.numbers[k]));
+                    first = Some(CastHit { numbers, ..found });
+                }
             }
         }
     }
     Ok(first)
 }
 
-/// The result of examining two sets of pieces.
-enum PairsOutcome {
-    /// The two pieces with these indices overlap at the start.
-    Overlap([u32; 2]),
-    /// One body is inside the other at the start.
-    Inside,
-    Hit(Option<CastHit>),
-}
-
-/// Finds the first contact of all pairs of two sets of pieces.
-fn examine(
+/// Finds the first contact of all pairs of two sets of pieces. The sub-shapes of the hit are the pieces.
+fn first_contact_of_pieces(
     scene: &Scene<'_>,
-    task: &PiecePairs,
+    pieces: &[Vec<u32>; 2],
     solver: &mut Solver,
-) -> Result<PairsOutcome, CastError> {
-    let some = |k: usize| {
-        let which = k as u8 + 1;
-        let named = |error| CastError::Shape { which, error };
-        body_of_pieces(scene.bodies[k], &task.pieces[k]).map_err(named)
-    };
-    let (a, b) = (some(0)?, some(1)?);
+) -> Result<Option<CastHit>, CastError> {
+    let bodies = [0, 1].map(|k| body_of_pieces(scene.bodies[k], &pieces[k]));
+    let [a, b] = CastError::of_shapes(bodies)?;
     let part = Scene {
         bodies: [&a, &b],
         ..scene.clone()
     };
-    let Some(found) = part.first_contact(solver)? else {
-        return Ok(PairsOutcome::Hit(None));
-    };
-    let numbers = found.numbers;
-    Ok(match found.ending {
-        Ending::Overlap => PairsOutcome::Overlap(numbers),
-        Ending::Inside => PairsOutcome::Inside,
-        Ending::Near | Ending::Contact | Ending::Limit => PairsOutcome::Hit(Some(CastHit {
-            numbers: [0, 1].map(|k| scene.bodies[k].sub_shape(numbers[k])),
-            ..found
-        })),
-    })
+    part.first_contact(solver)
 }
 
 /// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
@@ -114,7 +80,12 @@ fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::Sh
     let mut form = Form::EMPTY;
     for &number in pieces {
         let piece = body.body().pieces().get(number as usize);
-        form.push_piece(&piece, number);
+        form.push_hull(
+            piece.points.to_vec(),
+            piece.radius,
+            piece.facets.iter(),
+            number,
+        );
     }
     Prepared::new(&form)
 }
@@ -124,7 +95,7 @@ fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
-    let (middle, radius) = other.0.ball();
+    let (middle, radius) = other.0.ball;
     // The position at the start, in the world.
     let from = other.1.start().transform_point(middle);
     let within = scene.settings.margin + scene.settings.tolerance + radius;

@@ -28,30 +28,15 @@
 //! | ask all else that [`rigid_ccd::Solver`] answers | [`body`] and [`motion`] |
 //! | hand a cast to the command `ccd` | [`Caster::record`], with the feature `record` |
 //!
-#![cfg_attr(
-    feature = "f32",
-    doc = "[`cast_shapes`]: crate::f32::cast_shapes
-[`cast_shapes_nonlinear`]: crate::f32::cast_shapes_nonlinear
-[`try_cast_shapes`]: crate::f32::try_cast_shapes
-[`try_cast_shapes_nonlinear`]: crate::f32::try_cast_shapes_nonlinear
-[`Caster`]: crate::f32::Caster
-[`Caster::new`]: crate::f32::Caster::new
-[`body`]: crate::f32::body
-[`motion`]: crate::f32::motion
-[`Caster::record`]: crate::f32::Caster"
-)]
-#![cfg_attr(
-    not(feature = "f32"),
-    doc = "[`cast_shapes`]: crate::f64::cast_shapes
-[`cast_shapes_nonlinear`]: crate::f64::cast_shapes_nonlinear
-[`try_cast_shapes`]: crate::f64::try_cast_shapes
-[`try_cast_shapes_nonlinear`]: crate::f64::try_cast_shapes_nonlinear
-[`Caster`]: crate::f64::Caster
-[`Caster::new`]: crate::f64::Caster::new
-[`body`]: crate::f64::body
-[`motion`]: crate::f64::motion
-[`Caster::record`]: crate::f64::Caster"
-)]
+//! [`cast_shapes`]: crate::f32::cast_shapes
+//! [`cast_shapes_nonlinear`]: crate::f32::cast_shapes_nonlinear
+//! [`try_cast_shapes`]: crate::f32::try_cast_shapes
+//! [`try_cast_shapes_nonlinear`]: crate::f32::try_cast_shapes_nonlinear
+//! [`Caster`]: crate::f32::Caster
+//! [`Caster::new`]: crate::f32::Caster::new
+//! [`body`]: crate::f32::body
+//! [`motion`]: crate::f32::motion
+//! [`Caster::record`]: crate::f32::Caster
 //!
 //! # Guarantee
 //! Nothing touches between the start and the time of a hit. Without a hit nothing touches in the whole interval. Both hold
@@ -102,11 +87,13 @@
 //! parry's signatures get no more than a reference to a shape, so that they keep bodies by their numbers: in each thread the
 //! [64](limits::KEPT_BODIES) asked for last, in at most [256 MiB](limits::KEPT_BYTES). A call compares all numbers of both
 //! shapes with those, which takes 0.3 ms for 80,000 triangles. A `Caster` keeps bodies by the address of a `SharedShape`,
-//! which it holds, and compares nothing. The example `each_frame` measures all of it.
+//! which it holds, and compares nothing. The example `switch` measures all of it.
 //!
 //! # Features
 //! `f32` (default) is for `parry3d`, `f64` for `parry3d-f64`. Both may be on at once. `record` adds `Caster::record`.
 
+// The links are those of single precision.
+#![cfg_attr(not(feature = "f32"), allow(rustdoc::broken_intra_doc_links))]
 // Without a precision nothing is asked.
 #![cfg_attr(not(any(feature = "f32", feature = "f64")), allow(dead_code))]
 
@@ -152,19 +139,9 @@ pub mod f32 {
     pub(crate) use crate::tolerance::CONTACT_F32 as CONTACT;
     pub(crate) use parry3d as library;
 
-    mod ask;
-    mod caster;
-    mod casts;
-    mod convert;
-    mod hits;
-    mod shapes;
-
-    pub use caster::Caster;
-    pub use casts::{
-        cast_shapes, cast_shapes_nonlinear, try_cast_shapes, try_cast_shapes_nonlinear,
-    };
-    pub use convert::motion;
-    pub use shapes::body;
+    #[path = "api.rs"]
+    mod api;
+    pub use api::*;
 }
 
 /// Casts for `parry3d-f64`, in double precision.
@@ -190,19 +167,9 @@ pub mod f64 {
     pub(crate) use crate::tolerance::CONTACT_F64 as CONTACT;
     pub(crate) use parry3d_f64 as library;
 
-    mod ask;
-    mod caster;
-    mod casts;
-    mod convert;
-    mod hits;
-    mod shapes;
-
-    pub use caster::Caster;
-    pub use casts::{
-        cast_shapes, cast_shapes_nonlinear, try_cast_shapes, try_cast_shapes_nonlinear,
-    };
-    pub use convert::motion;
-    pub use shapes::body;
+    #[path = "api.rs"]
+    mod api;
+    pub use api::*;
 }
 
 /// The examples in the README, run as doctests.

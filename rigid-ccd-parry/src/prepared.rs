@@ -16,10 +16,10 @@ use ccd_core::glam::DVec3;
 pub struct Prepared {
     body: Body,
     numbers: Vec<u32>,
-    middle: DVec3,
-    radius: f64,
-    /// The centre in the shape's frame if the body is a ball.
-    point: Option<DVec3>,
+    /// An enclosing ball: its centre, in the shape's frame, and its radius.
+    pub(crate) ball: (DVec3, f64),
+    /// The centre in the shape's frame if the body is a ball; `None` for other shapes.
+    pub(crate) point: Option<DVec3>,
     slack: f64,
     excess: f64,
 }
@@ -29,15 +29,18 @@ impl Prepared {
     pub(crate) fn new(form: &Form) -> Result<Self, ShapeError> {
         let form = form.with_polytope()?;
         let (body, numbers) = form.body()?;
-        let (middle, radius) = form.ball();
+        let together = if form.slack > 0.0 {
+            (form.slack + form.excess).next_up()
+        } else {
+            form.excess
+        };
         Ok(Prepared {
-            body: with_excess(body, form.slack(), form.excess())?,
+            body: body.with_excess(together).map_err(ShapeError::Body)?,
             numbers,
-            middle,
-            radius,
+            ball: form.ball(),
             point: form.point(),
-            slack: form.slack(),
-            excess: form.excess(),
+            slack: form.slack,
+            excess: form.excess,
         })
     }
 
@@ -66,41 +69,8 @@ impl Prepared {
         self.numbers.get(piece as usize).copied().unwrap_or(0)
     }
 
-    /// Returns the body with its excess set to `excess`.
-    ///
-    /// # Errors
-    /// [`ShapeError::Body`] for what is no length.
-    pub(crate) fn with_excess(self, excess: f64) -> Result<Self, ShapeError> {
-        let body = with_excess(self.body, self.slack, excess)?;
-        Ok(Prepared {
-            body,
-            excess,
-            ..self
-        })
-    }
-
     /// Returns the approximate memory use in bytes.
     pub fn bytes(&self) -> usize {
         self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
     }
-
-    /// Returns the centre in the shape's frame if the body is a ball; `None` for other shapes.
-    pub(crate) fn point(&self) -> Option<DVec3> {
-        self.point
-    }
-
-    /// Returns an enclosing ball: its centre, in the shape's frame, and its radius.
-    pub(crate) fn ball(&self) -> (DVec3, f64) {
-        (self.middle, self.radius)
-    }
-}
-
-/// Returns a body whose excess is the sum of `slack` and `excess`.
-fn with_excess(body: Body, slack: f64, excess: f64) -> Result<Body, ShapeError> {
-    let together = if slack > 0.0 {
-        (slack + excess).next_up()
-    } else {
-        excess
-    };
-    body.with_excess(together).map_err(ShapeError::Body)
 }

@@ -90,33 +90,20 @@ impl Recording {
         let (mut names, mut cells) = (String::from("duration"), self.duration.to_string());
         for (body, motion) in ["a", "b"].iter().zip(&self.motions) {
             let start = motion.start();
-            let [qx, qy, qz, qw] = start.rotation().to_array();
-            let [px, py, pz] = start.translation().to_array();
-            let [vx, vy, vz] = motion.velocity().to_array();
-            let [wx, wy, wz] = motion.spin().to_array();
-            let [cx, cy, cz] = motion.centre().to_array();
-            let columns = [
-                ("px", px),
-                ("py", py),
-                ("pz", pz),
-                ("qw", qw),
-                ("qx", qx),
-                ("qy", qy),
-                ("qz", qz),
-                ("vx", vx),
-                ("vy", vy),
-                ("vz", vz),
-                ("wx", wx),
-                ("wy", wy),
-                ("wz", wz),
-                ("cx", cx),
-                ("cy", cy),
-                ("cz", cz),
+            let [x, y, z, w] = start.rotation().to_array();
+            let groups: [(&str, &str, &[f64]); 5] = [
+                ("p", "xyz", &start.translation().to_array()),
+                ("q", "wxyz", &[w, x, y, z]),
+                ("v", "xyz", &motion.velocity().to_array()),
+                ("w", "xyz", &motion.spin().to_array()),
+                ("c", "xyz", &motion.centre().to_array()),
             ];
-            for (column, cell) in columns {
-                // Writing to a string cannot fail.
-                let _ = write!(names, ",{body}_{column}");
-                let _ = write!(cells, ",{cell:e}");
+            for (group, axes, numbers) in groups {
+                for (axis, cell) in axes.chars().zip(numbers) {
+                    // Writing to a string cannot fail.
+                    let _ = write!(names, ",{body}_{group}{axis}");
+                    let _ = write!(cells, ",{cell:e}");
+                }
             }
         }
         format!("{names}\n{cells}\n")

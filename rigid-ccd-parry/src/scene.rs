@@ -127,7 +127,7 @@ impl Scene<'_> {
             .map(|pose| pose.inverse().transform_point(point));
         CastHit {
             witnesses,
-            ..CastHit::without_points(self.interval.start(), Ending::Inside)
+            ..CastHit::without_points(self.interval.start, Ending::Inside)
         }
     }
 

@@ -312,20 +312,19 @@ fn without_contact_at_the_start_both_policies_agree() {
     );
 }
 
-/// Tests two triangles that start in contact, up to rounding, and approach. The accuracy of their distance depends on
-/// the last digits of their positions.
-#[test]
-fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
+/// Creates two triangles that are in contact at the poses of
+/// [`a_contact_that_came_back_is_within_the_tolerance_of_its_answer`].
+fn two_triangles() -> [Body; 2] {
     let triangle = |corners: [DVec3; 3]| {
         let pieces = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
         Body::new(&pieces, Volume::Surface).unwrap()
     };
-    let a = triangle([
+    let a = [
         dvec3(0.029279379471886524, 2.0151645759136314, 2.093708330440966),
         dvec3(0.49437779244315594, 1.685502073259312, 1.0310849589058126),
         dvec3(-0.8373660370339285, 2.710345564957067, 2.398562132033235),
-    ]);
-    let b = triangle([
+    ];
+    let b = [
         dvec3(
             0.10744495311621308,
             0.03256789623258283,
@@ -341,7 +340,15 @@ fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
             0.020679353899182573,
             0.0898320190119848,
         ),
-    ]);
+    ];
+    [triangle(a), triangle(b)]
+}
+
+/// Tests two triangles that start in contact, up to rounding, and approach. The accuracy of their distance depends on
+/// the last digits of their positions.
+#[test]
+fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
+    let [a, b] = two_triangles();
     let quarter = DQuat::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2);
     let velocity = dvec3(
         0.08858249309916147,

@@ -56,43 +56,18 @@ fn random_trajectory(
             let [from, to] = [(); 2].map(|()| rng.random_range(-2.0..2.0));
             Box::new(joint.motion(from, to, 1.0)?)
         }
-        "poses" => {
-            let mut time = rng.random_range(-0.3..0.3);
-            let mut stops = Vec::new();
-            for _ in 0..rng.random_range(1..9) {
-                stops.push((time, pose(rng, reach)?));
-                // Some poses are next to each other.
-                time += [0.01, 0.15, 0.4][rng.random_range(0..3)] * rng.random_range(0.5..1.5);
-            }
-            Box::new(Poses::new(stops)?.about(vector(rng, 0.3 * reach))?)
-        }
+        "poses" => poses(rng, reach)?,
         "thrown" => Box::new(Ballistic::new(
             motion(rng, reach)?,
             vector(rng, 4.0 * reach),
         )?),
-        "Bézier curve, slerp" => {
-            let count = rng.random_range(1..6);
-            let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
-            Box::new(
-                Spline::new(curve, Turns::slerp(&random_orientations(rng))?)
-                    .about(vector(rng, 0.3 * reach))?,
-            )
-        }
+        "Bézier curve, slerp" => bezier_curve(rng, reach)?,
         "B-spline, slerp" => {
             let count = rng.random_range(4..9);
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
             Box::new(Spline::new(curve, Turns::slerp(&random_orientations(rng))?))
         }
-        "link" => {
-            let count = rng.random_range(1..6);
-            let joints: Result<_, InputError> = (0..count).map(|_| joint(rng, reach)).collect();
-            let positions =
-                [(); 2].map(|()| (0..count).map(|_| rng.random_range(-1.0..1.0)).collect());
-            Box::new(LastLink {
-                chain: Chain::new(Pose::IDENTITY, joints?),
-                positions,
-            })
-        }
+        "link" => last_link(rng, reach)?,
         "smooth" => Box::new(Oscillation {
             place: vector(rng, reach),
             along: vector(rng, reach),
@@ -108,6 +83,41 @@ fn random_trajectory(
             tells: rng.random_bool(0.5),
         }),
     })
+}
+
+/// Returns a path through a few poses.
+fn poses(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+    let mut time = rng.random_range(-0.3..0.3);
+    let mut stops = Vec::new();
+    for _ in 0..rng.random_range(1..9) {
+        stops.push((time, pose(rng, reach)?));
+        // Some poses are next to each other.
+        time += [0.01, 0.15, 0.4][rng.random_range(0..3)] * rng.random_range(0.5..1.5);
+    }
+    Ok(Box::new(
+        Poses::new(stops)?.about(vector(rng, 0.3 * reach))?,
+    ))
+}
+
+/// Returns a Bézier curve whose orientations are interpolated by slerp.
+fn bezier_curve(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+    let count = rng.random_range(1..6);
+    let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
+    Ok(Box::new(
+        Spline::new(curve, Turns::slerp(&random_orientations(rng))?)
+            .about(vector(rng, 0.3 * reach))?,
+    ))
+}
+
+/// Returns the last link of a chain whose joints move.
+fn last_link(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
+    let count = rng.random_range(1..6);
+    let joints: Result<_, InputError> = (0..count).map(|_| joint(rng, reach)).collect();
+    let positions = [(); 2].map(|()| (0..count).map(|_| rng.random_range(-1.0..1.0)).collect());
+    Ok(Box::new(LastLink {
+        chain: Chain::new(Pose::IDENTITY, joints?),
+        positions,
+    }))
 }
 
 fn vector(rng: &mut Pcg64, size: f64) -> DVec3 {

@@ -6,21 +6,6 @@ use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// A unit vector and the support gap along it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
-    pub(crate) direction: DVec3,
-    pub(crate) gap: f64,
-}
-
-impl Axis {
-    /// The absence of an axis, which any axis is better than.
-    pub(crate) const NONE: Axis = Axis {
-        direction: DVec3::ZERO,
-        gap: f64::NEG_INFINITY,
-    };
-}
-
 /// Candidates for the separating axis of two triangles, with the gaps along them.
 ///
 /// The difference `w` of the nearest points is rounded, so that it may leave the cone of normals that it belongs to.
@@ -68,22 +53,13 @@ impl<L: Simd> Candidates<L> {
         out
     }
 
-    /// Returns the candidate with the largest gap.
-    pub(crate) fn best(&self) -> Axis {
+    /// Returns the unit vector of the candidate with the largest gap, and that gap. Without a candidate the vector is
+    /// zero, and the gap −∞.
+    pub(crate) fn best(&self) -> (DVec3, f64) {
         let gap = |k: usize| self.gaps[k / 4][k % 4];
         let best = (0..4 * GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
-        self.axis(best)
-    }
-
-    fn axis(&self, k: usize) -> Axis {
-        let direction = self.directions[k / 4].lane(k % 4);
-        let gap = self.gaps[k / 4][k % 4];
-        if gap > f64::NEG_INFINITY {
-            let direction = unit(direction).unwrap_or(DVec3::ZERO);
-            Axis { direction, gap }
-        } else {
-            Axis::NONE
-        }
+        let direction = unit(self.directions[best / 4].lane(best % 4));
+        (direction.unwrap_or(DVec3::ZERO), gap(best))
     }
 }
 

@@ -107,10 +107,10 @@ fn edges_to_edges<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
         let s = clamp_unit(w.cross(f).dot(n) * reciprocal(n.dot(n)));
         // Projects to the other edge, and back: exact where the first or second was clamped, and
         // where the lines are parallel.
-        let t = clamp_unit(e_minus_w(e, s, w).dot(f) * per_f);
+        let t = clamp_unit(-w.add_scaled(-s, e).dot(f) * per_f);
         let reached = w.add_scaled(t, f);
         let s = clamp_unit(reached.dot(e) * per_e);
-        let apart = reached.subtract_scaled(s, e);
+        let apart = reached.add_scaled(-s, e);
         let square = apart.dot(apart);
         let better = square.simd_lt(best.square);
         best.square = better.select(square, best.square);
@@ -119,16 +119,6 @@ fn edges_to_edges<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
         best.t = better.select(t, best.t);
     }
     best
-}
-
-/// Returns the vectors `s e − w`.
-#[inline(always)]
-fn e_minus_w<L: Simd>(e: Lanes3<L>, s: f64x4<L>, w: Lanes3<L>) -> Lanes3<L> {
-    Lanes3 {
-        x: s * e.x - w.x,
-        y: s * e.y - w.y,
-        z: s * e.z - w.z,
-    }
 }
 
 /// For every corner of one triangle, its projection onto the face of the other.
@@ -162,8 +152,8 @@ fn corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> Corn
     let u = w.dot(Lanes3::splat(level, g));
     let v = w.dot(Lanes3::splat(level, h));
     let apart = w
-        .subtract_scaled(u, Lanes3::splat(level, e))
-        .subtract_scaled(v, Lanes3::splat(level, f));
+        .add_scaled(-u, Lanes3::splat(level, e))
+        .add_scaled(-v, Lanes3::splat(level, f));
     let zero = splat(level, 0.0);
     let inside = u.simd_ge(zero) & v.simd_ge(zero) & (splat(level, 1.0) - u - v).simd_gt(zero);
     CornerFace {

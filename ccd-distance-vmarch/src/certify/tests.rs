@@ -29,9 +29,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             for end in ends.into_iter().chain(tie) {
                 let mut counters = Counters::default();
                 let answer = certify(placed, end, &mut counters);
-                let claim = answer
-                    .unwrap_or_else(|why| panic!("{why:?} from {end:?}"))
-                    .claim;
+                let (_, claim) = answer.unwrap_or_else(|why| panic!("{why:?} from {end:?}"));
                 let on_a = claim.a.of(&a.points).expect("a point of A") - placed.a.0.origin;
                 let on_b = place(claim.b.of(&b.points).expect("a point of B"));
                 let distance = on_a.distance(on_b);

@@ -15,7 +15,7 @@ fn of_needle(half: DVec3, at: DVec3) -> Next {
     let back = moved(&needle, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
-        (Next::Behind(..), Next::Behind(..)) | (Next::Pierced(..), Next::Pierced(..)) => {}
+        (Next::Common(..), Next::Common(..)) => {}
         _ => assert_eq!(there, again),
     }
     there
@@ -53,7 +53,7 @@ fn goes_on_to_the_nearest_side_from_outside() {
 // One end on the face, to the bit.
 #[case(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.25, 0.25, 1.5))]
 fn finds_edges_that_go_through(#[case] half: DVec3, #[case] at: DVec3) {
-    let Next::Pierced(which, crossing) = of_needle(half, at) else {
+    let Next::Common(which, crossing) = of_needle(half, at) else {
         panic!("it goes through the top");
     };
     assert_eq!((which, crossing.face), (Which::X, face(&cube(), DVec3::Z)));
@@ -61,10 +61,10 @@ fn finds_edges_that_go_through(#[case] half: DVec3, #[case] at: DVec3) {
 
 #[test]
 fn finds_features_behind() {
-    let Next::Behind(which, behind) = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO) else {
-        panic!("it is below the top");
-    };
-    assert_eq!((which, behind.feature), (Which::X, Feature::Edge(0)));
-    // The end that is higher.
-    assert!(behind.point.distance(DVec3::new(0.5, 0.0, 0.1)) < 1e-15);
+    let inside = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO);
+    assert!(matches!(inside, Next::Common(Which::X, _)), "{inside:?}");
+    // Below the bottom.
+    let bottom = face(&cube(), -DVec3::Z);
+    let beyond = of_needle(DVec3::new(0.5, 0.0, 0.1), -3.0 * DVec3::Z);
+    assert_eq!(beyond, Next::To(Feature::Edge(0), Feature::Face(bottom)));
 }

@@ -1,20 +1,16 @@
 //! Tests corners and needles behind a face of a cube.
 
-use super::{Escape, escape, farthest};
-use crate::feature::{Behind, Feature};
+use super::{escape, farthest};
+use crate::feature::{Feature, Next, Which};
 use crate::placed::Placed;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use ccd_core::glam::DVec3;
 
-fn of_point(at: DVec3) -> Escape {
+fn of_point(at: DVec3) -> Next {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
-    let behind = Behind {
-        feature: Feature::Vertex(0),
-        point: at,
-        face: face(&cube, DVec3::Z),
-    };
-    escape(&placed.b, behind, &placed.a, placed.scale)
+    let (corner, top) = (Feature::Vertex(0), face(&cube, DVec3::Z));
+    escape(&placed.b, corner, at, &placed.a, top, placed.scale)
 }
 
 #[test]
@@ -22,18 +18,21 @@ fn leads_to_the_face_it_is_highest_above() {
     let below = face(&cube(), -DVec3::Z);
     assert_eq!(
         of_point(-3.0 * DVec3::Z),
-        Escape::Face(Feature::Vertex(0), below)
+        Next::To(Feature::Vertex(0), Feature::Face(below))
     );
     let beside = face(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
-    assert_eq!(of_point(at), Escape::Face(Feature::Vertex(0), beside));
+    assert_eq!(
+        of_point(at),
+        Next::To(Feature::Vertex(0), Feature::Face(beside))
+    );
 }
 
 #[test]
 fn proves_features_inside() {
     assert!(matches!(
         of_point(DVec3::new(0.2, 0.3, 0.4)),
-        Escape::Inside(_)
+        Next::Common(Which::X, _)
     ));
 }
 
@@ -41,7 +40,7 @@ fn proves_features_inside() {
 fn is_unclear_without_proof_by_exact_signs() {
     // Beyond a face by less than rounding.
     let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
-    assert_eq!(of_point(at), Escape::Unclear);
+    assert_eq!(of_point(at), Next::Unclear);
 }
 
 #[test]
@@ -49,13 +48,10 @@ fn edges_go_through_or_are_inside() {
     let (cube, short, long) = (cube(), needle(0.5 * DVec3::X), needle(3.0 * DVec3::X));
     for needle in [&short, &long] {
         let placed = moved(&cube, needle, DVec3::ZERO);
-        let behind = Behind {
-            feature: Feature::Edge(0),
-            point: DVec3::ZERO,
-            face: face(&cube, DVec3::Z),
-        };
-        let found = escape(&placed.b, behind, &placed.a, placed.scale);
-        let Escape::Inside(crossing) = found else {
+        let (edge, top) = (Feature::Edge(0), face(&cube, DVec3::Z));
+        let at = DVec3::ZERO;
+        let found = escape(&placed.b, edge, at, &placed.a, top, placed.scale);
+        let Next::Common(Which::X, crossing) = found else {
             panic!("{found:?}");
         };
         let corners = crossing

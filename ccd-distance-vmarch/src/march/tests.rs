@@ -3,16 +3,15 @@
 use super::march;
 use crate::counters::Counters;
 use crate::feature::Pair;
+use crate::polytope::Polytope;
 use crate::termination::End;
 use crate::tests::setting::{cube, features, needle, point, prepared, turned};
 use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// Tests that every start ends at the same distance.
-#[test]
-fn every_start_leads_to_the_nearest_features() {
-    let shapes = [
+fn shapes() -> [Polytope; 9] {
+    [
         cube(),
         prepared(&shape::cuboid(DVec3::new(0.3, 0.8, 1.4)).triangulated()),
         prepared(&shape::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])),
@@ -22,7 +21,13 @@ fn every_start_leads_to_the_nearest_features() {
         prepared(&shape::few(&[DVec3::ZERO, DVec3::X, DVec3::Y])),
         needle(DVec3::new(0.5, 0.3, 0.1)),
         point(),
-    ];
+    ]
+}
+
+/// Tests that every start ends at the same distance.
+#[test]
+fn every_start_leads_to_the_nearest_features() {
+    let shapes = shapes();
     let turns = [
         DQuat::IDENTITY,
         DQuat::from_rotation_x(1e-9),

@@ -128,7 +128,7 @@ fn faces_are_pierced_anywhere() {
 fn the_search_finds_common_points(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
     let placed = moved(&one, &other, at);
-    let found = search_crossing(&placed.a, &placed.b, placed.scale)
-        .or_else(|| search_crossing(&placed.b, &placed.a, placed.scale));
+    let found =
+        search_crossing(&placed.a, &placed.b).or_else(|| search_crossing(&placed.b, &placed.a));
     assert_eq!(found.is_some(), meets);
 }

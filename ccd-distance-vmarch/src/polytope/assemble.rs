@@ -17,10 +17,15 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
     let origin = middle(points, &numbers);
     let local = |number: u32| points[number as usize] - origin;
     let corner = |number: u32| numbers.partition_point(|&other| other < number) as u32;
-    let loops: Vec<Vec<u32>> = loops
+    let faces = loops.iter().map(|outline| Face {
+        normal: Plane::new(points, outline).normal,
+        first_side: 0,
+        end_side: 0,
+    });
+    let outlines = loops
         .iter()
-        .map(|outline| outline.iter().map(|&v| corner(v)).collect())
-        .collect();
+        .map(|outline| outline.iter().map(|&v| corner(v)));
+    let outlines: Vec<Vec<u32>> = outlines.map(Iterator::collect).collect();
     let mut out = Polytope {
         origin,
         reach: numbers
@@ -38,18 +43,10 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
             .collect(),
         spokes: Vec::new(),
         edges: Vec::new(),
-        faces: Vec::with_capacity(loops.len()),
+        faces: faces.collect(),
         sides: Vec::with_capacity(loops.iter().map(Vec::len).sum()),
-        directions: None,
+        support: None,
     };
-    for outline in &loops {
-        let named: Vec<u32> = outline.iter().map(|&v| numbers[v as usize]).collect();
-        out.faces.push(Face {
-            normal: Plane::new(points, &named).normal,
-            first_side: 0,
-            end_side: 0,
-        });
-    }
     let edge = |v: u32, w: u32| Edge {
         start: out.vertices[v as usize].point,
         along: unit(points[numbers[w as usize] as usize] - points[numbers[v as usize] as usize]),
@@ -59,10 +56,10 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
         faces: [NO_FACE; 2],
     };
     out.edges = match numbers.len() {
-        2 if loops.is_empty() => vec![edge(0, 1)],
-        _ => edges_of(&loops).map(|(v, w)| edge(v, w)).collect(),
+        2 if outlines.is_empty() => vec![edge(0, 1)],
+        _ => edges_of(&outlines).map(|(v, w)| edge(v, w)).collect(),
     };
-    add_sides(&mut out, &loops);
+    add_sides(&mut out, &outlines);
     add_spokes(&mut out);
     out
 }

@@ -1,12 +1,11 @@
 //! Prepares pieces for marching.
 
 use super::facets::{Facets, distance_from_line};
-use super::support::DirectionTable;
 use super::{Polytope, assemble, convex, merge};
 use crate::tolerance::{COPLANAR_DISTANCE, MAX_SCANNED_CORNERS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{GiveUp, Piece};
+use ccd_core::{GiveUp, Piece, SupportTree};
 
 impl Polytope {
     /// Prepares a piece for marching.
@@ -49,7 +48,8 @@ impl Polytope {
     fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble(points, ends, loops);
         if polytope.vertices.len() > MAX_SCANNED_CORNERS {
-            polytope.directions = Some(Box::new(DirectionTable::new(&polytope)));
+            let corners: Vec<DVec3> = polytope.vertices.iter().map(|v| v.point).collect();
+            polytope.support = Some(Box::new(SupportTree::new(&corners)));
         }
         polytope
     }

@@ -4,7 +4,7 @@
 use super::shape::Shape;
 use crate::double_double::DoubleDoubleVector;
 use ccd_core::Frame;
-use ccd_core::glam::DVec3;
+use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 
 /// A polytope in A's frame, as plain lists of features.
@@ -154,19 +154,19 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     on_f.distance(foot(on_f, e))
 }
 
+fn turned(shape: &Shape, by: DQuat, to: DVec3) -> Bare {
+    let frame = Frame {
+        rotation: DMat3::from_quat(by),
+        translation: to,
+    };
+    Bare::new(shape, &frame)
+}
+
 /// Tests brute force against closed forms, at distances down to a millionth of the size.
 #[test]
 fn brute_force_is_right() {
     use super::shape::{cuboid, few, polygon};
-    use ccd_core::glam::{DMat3, DQuat};
     let cube = Bare::new(&cuboid(DVec3::ONE), &Frame::IDENTITY);
-    let turned = |shape: &Shape, by: DQuat, to: DVec3| {
-        let frame = Frame {
-            rotation: DMat3::from_quat(by),
-            translation: to,
-        };
-        Bare::new(shape, &frame)
-    };
     for gap in [1e-6, 1e-3, 1.0, 1e3] {
         let close = |a: &Bare, b: &Bare, truth: f64| {
             let found = [distance(a, b), distance(b, a)];

@@ -16,7 +16,7 @@ fn of_point(at: DVec3) -> Next {
     let back = moved(&point, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
-        (Next::Behind(..), Next::Behind(..)) => {}
+        (Next::Common(..), Next::Common(..)) => {}
         _ => assert_eq!(there, again),
     }
     there
@@ -46,18 +46,13 @@ fn goes_on_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) 
     );
 }
 
-#[rstest]
-#[case(DVec3::new(0.0, 0.0, 0.9))]
-#[case(DVec3::new(0.0, 0.0, -7.0))]
-fn finds_features_behind(#[case] at: DVec3) {
-    let Next::Behind(which, behind) = of_point(at) else {
-        panic!("it is below the top");
-    };
-    let top = face(&cube(), DVec3::Z);
-    assert_eq!(
-        (which, behind.feature, behind.face),
-        (Which::X, Feature::Vertex(0), top)
-    );
+#[test]
+fn goes_on_from_behind_unless_inside() {
+    let inside = of_point(DVec3::new(0.0, 0.0, 0.9));
+    assert!(matches!(inside, Next::Common(Which::X, _)), "{inside:?}");
+    let bottom = Feature::Face(face(&cube(), -DVec3::Z));
+    let beyond = of_point(DVec3::new(0.0, 0.0, -7.0));
+    assert_eq!(beyond, Next::To(Feature::Vertex(0), bottom));
 }
 
 /// Tests corners above the face: a corner is nearest unless one of its edges falls by more than rounding.

@@ -16,7 +16,7 @@ fn witness(
     let (one, other) = (prepared(a), prepared(b));
     let placed = moved(&one, &other, at);
     let witness = Witness::new(&placed, of(&one, &other));
-    let claim = witness.claim(&placed);
+    let claim = witness.claim;
     let on_a = claim.a.of(&a.points).expect("a point of A");
     let on_b = claim.b.of(&b.points).expect("a point of B") + at;
     // The witness is relative to the middle of A.
@@ -34,25 +34,28 @@ fn features_have_nearest_points() {
         a: Feature::Vertex(vertex(a, DVec3::ONE)),
         b: Feature::Vertex(0),
     });
-    assert_eq!(corner.axis, at - DVec3::ONE);
+    assert_eq!(corner.claim.axis, at - DVec3::ONE);
     let side = witness(&cuboid, &single, at, |a, _| Pair {
         a: Feature::Edge(edge(a, DVec3::Y + DVec3::Z)),
         b: Feature::Vertex(0),
     });
     assert_eq!(side.offset(), DVec3::new(0.0, 2.0, 3.0));
-    assert_eq!(side.axis, side.offset());
+    assert_eq!(side.claim.axis, side.offset());
     let top = witness(&cuboid, &single, DVec3::new(0.25, -0.5, 4.0), |a, _| Pair {
         a: Feature::Face(face(a, DVec3::Z)),
         b: Feature::Vertex(0),
     });
-    assert_eq!((top.offset(), top.axis), (3.0 * DVec3::Z, DVec3::Z));
+    assert_eq!((top.offset(), top.claim.axis), (3.0 * DVec3::Z, DVec3::Z));
     let back = witness(&single, &cuboid, DVec3::new(0.25, -0.5, -4.0), |_, b| {
         Pair {
             a: Feature::Vertex(0),
             b: Feature::Face(face(b, DVec3::Z)),
         }
     });
-    assert_eq!((back.offset(), back.axis), (-3.0 * DVec3::Z, -DVec3::Z));
+    assert_eq!(
+        (back.offset(), back.claim.axis),
+        (-3.0 * DVec3::Z, -DVec3::Z)
+    );
     let across = shape::few(&[-DVec3::Y, DVec3::Y]);
     let crossed = witness(
         &shape::few(&[-DVec3::X, DVec3::X]),
@@ -64,7 +67,7 @@ fn features_have_nearest_points() {
         },
     );
     assert_eq!(
-        (crossed.offset(), crossed.axis.normalize()),
+        (crossed.offset(), crossed.claim.axis.normalize()),
         (2.0 * DVec3::Z, DVec3::Z)
     );
 }
@@ -86,7 +89,7 @@ fn axes_are_those_of_the_features() {
                 a: Feature::Edge(0),
                 b: Feature::Edge(0),
             };
-            let axis = Witness::new(&placed, pair).axis.normalize();
+            let axis = Witness::new(&placed, pair).claim.axis.normalize();
             assert!(axis.distance(side) < 1e-15, "{gap}: {axis} {side}");
         }
     }
@@ -175,7 +178,7 @@ fn axes_certify_edges_that_cross_at_any_angle() {
             b: Feature::Edge(0),
         };
         let witness = Witness::new(&placed, pair);
-        let gap = crate::certificate::gap(&placed, witness.axis.normalize());
+        let gap = crate::certificate::gap(&placed, witness.claim.axis.normalize());
         let short = witness.distance() - gap;
         assert!(short <= 2e-15, "{short:e} at {angle:e}, {gap:e}");
     }

@@ -41,9 +41,13 @@ const Motion = (() => {
     return { rotation, place: one.place.map((p, k) => p + share * (two.place[k] - p) - back[k]) };
   }
 
+  const moves = ({ keys, velocity, spin }) => (keys
+    ? keys.some(({ place, turn }, k) => k + 1 < keys.length && (Math.hypot(...turn) > 0 || String(place) !== String(keys[k + 1].place)))
+    : Math.hypot(...velocity, ...spin) > 0);
+
   const pose = (motion, t) => (motion.keys ? keyed(motion, t) : steady(motion, t));
 
-  return { pose, apply };
+  return { pose, apply, moves };
 })();
 
 if (typeof module !== "undefined") module.exports = Motion;

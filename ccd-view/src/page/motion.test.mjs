@@ -50,3 +50,13 @@ test("between keys, by their turns", () => {
   const keys = [0, 1, 2].map((time) => ({ time, rotation: rows([1, 0, 0, 0]), place: [time, 0, 0], turn: [0, 0, 0] }));
   for (const [t, x] of [[-1, 0], [0, 0], [1, 1], [1.5, 1.5], [2, 2], [9, 2]]) near(Motion.pose({ centre: [0, 0, 0], keys }, t).place, [x, 0, 0]);
 });
+
+test("what moves", () => {
+  const steady = (velocity, spin) => Motion.moves({ velocity, spin });
+  assert.deepEqual([steady([0, 0, 0], [0, 0, 0]), steady([0, 1e-300, 0], [0, 0, 0]), steady([0, 0, 0], [0, 0, -1])], [false, true, true]);
+  const keyed = (...keys) => Motion.moves({ keys: keys.map(([place, turn]) => ({ place, turn })) });
+  const [here, there, still, turns] = [[1, 2, 3], [1, 2, 4], [0, 0, 0], [0, 0, 1]];
+  assert.deepEqual([keyed([here, still], [here, still]), keyed([here, still], [there, still]), keyed([here, turns], [here, still])], [false, true, true]);
+  // Nothing follows the last key.
+  assert.equal(keyed([here, still], [here, turns]), false);
+});

@@ -47,7 +47,7 @@
     return view.bodies.flatMap((body) => {
       const { min, max } = geometry(body.mesh).boundingBox;
       const box = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1 ? min.x : max.x, k & 2 ? min.y : max.y, k & 4 ? min.z : max.z]);
-      return (body.moves ? times : [0]).flatMap((t) => {
+      return (Motion.moves(body.motion) ? times : [0]).flatMap((t) => {
         const { rotation, place } = placed(view, body, t);
         return box.map((corner) => Motion.apply(rotation, corner).map((c, k) => c + place[k]));
       });
@@ -56,7 +56,7 @@
 
   function ghosts(view) {
     for (const t of element("ghosts").checked ? view.ghosts : []) {
-      for (const body of view.bodies.filter(({ moves }) => moves)) {
+      for (const body of view.bodies.filter(({ motion }) => Motion.moves(motion))) {
         stage.place(stage.addMesh(ghost(body.mesh), body.color, GHOST), placed(view, body, t));
       }
     }

@@ -13,11 +13,12 @@
   for (const [row, answer] of answers.entries()) {
     const [part, target] = [named(answer.part), named(answer.target)];
     const numbers = new Float64Array(answer.throw);
-    const found = wasm_bindgen.first_contact(part, target, numbers);
-    const seen = wasm_bindgen.steps(part, target, numbers, answer.steps.length - 1);
+    const thrown = wasm_bindgen.Throw.of_numbers(numbers);
+    const found = thrown.first_contact(part, target);
+    const seen = thrown.steps(part, target, answer.steps.length - 1);
     const same = found.verdict === answer.verdict && Math.abs(found.time - answer.time) <= ROUNDING && String(seen) === String(answer.steps);
     if (!same) wrong.push(`${row}, ${answer.part} onto ${answer.target}: ${found.verdict} at ${found.time}, elsewhere ${answer.verdict} at ${answer.time}`);
-    for (const object of [part, target, found]) object.free();
+    for (const object of [part, target, thrown, found]) object.free();
   }
   const kinds = new Set(answers.map(({ verdict }) => verdict));
   if (wrong.length > 0) console.error(`${wrong.length} of ${answers.length} answers differ: ${wrong.slice(0, 5).join("; ")}`);

@@ -53,12 +53,13 @@ const Workshop = (() => {
 
   // Asks both sides about the throw.
   function ask() {
-    const numbers = new Float64Array([...state.place, ...state.velocity, ...spin()]);
+    const query = wasm_bindgen.Throw.of_numbers(new Float64Array([...state.place, ...state.velocity, ...spin()]));
     const [part, target] = [state.part.part, state.target.part];
-    const { found, micros } = timed(() => wasm_bindgen.first_contact(part, target, numbers));
-    state.found = { verdict: found.verdict, time: found.time, points: found.points() };
+    const { found, micros } = timed(() => query.first_contact(part, target));
+    state.found = { verdict: found.verdict, time: found.time, points: found.points };
     found.free();
-    const touches = wasm_bindgen.steps(part, target, numbers, rate());
+    const touches = query.steps(part, target, rate());
+    query.free();
     const first = touches.indexOf(1);
     state.seen = { first, time: first < 0 ? DURATION : (first * DURATION) / rate() };
     proven(micros);

@@ -22,5 +22,3 @@ const Throw = (() => {
 
   return { velocity };
 })();
-
-if (typeof module !== "undefined") module.exports = Throw;

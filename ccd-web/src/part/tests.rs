@@ -4,13 +4,13 @@ use super::*;
 fn every_part_bounds_a_solid_that_is_drawn_where_it_is() {
     for name in Part::NAMES {
         let part = Part::named(name).unwrap();
-        let drawn = TriangleMesh::new(part.surface.vertices.clone(), &part.surface.faces).unwrap();
+        let drawn = &part.surface;
         let volume: f64 = (drawn.faces().iter())
             .map(|face| face.map(|k| drawn.vertices()[k as usize]))
             .map(|[a, b, c]| a.dot(b.cross(c)) / 6.0)
             .sum();
         assert!(volume > 0.0, "{name} is inside out");
-        let prepared = body_from_mesh(&drawn, Detail::Auto).unwrap();
+        let prepared = body_from_mesh(drawn, Detail::Auto).unwrap();
         // The poles of a capsule are drawn as many equal points.
         let is_mesh = matches!(name, "knot" | "slot");
         assert!(
@@ -19,6 +19,7 @@ fn every_part_bounds_a_solid_that_is_drawn_where_it_is() {
             prepared.report
         );
         assert_eq!(part.vertices().len(), 3 * drawn.vertices().len());
+        assert_eq!(part.faces().len(), 3 * drawn.faces().len());
         assert!(part.reach() > 0.0 && part.reach() < 1.0, "{name}");
     }
 }

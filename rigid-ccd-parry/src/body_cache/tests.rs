@@ -3,7 +3,7 @@ use ccd_core::glam::DVec3;
 
 fn ball(radius: f64) -> Form {
     let mut form = Form::EMPTY;
-    form.push_hull(vec![DVec3::ZERO], radius, &[]);
+    form.push_points([DVec3::ZERO], radius, 0);
     form
 }
 
@@ -12,10 +12,8 @@ fn strip(triangles: usize, last: f64) -> Form {
     for k in 0..triangles {
         let x = k as f64;
         let y = if k + 1 == triangles { last } else { 1.0 };
-        form.push_triangle(
-            [DVec3::X * x, DVec3::X * (x + 1.0), DVec3::new(x, y, 0.0)],
-            k as u32,
-        );
+        let corners = [DVec3::X * x, DVec3::X * (x + 1.0), DVec3::new(x, y, 0.0)];
+        form.push_triangles(corners, &[[0, 1, 2]], [k as u32]);
     }
     form
 }

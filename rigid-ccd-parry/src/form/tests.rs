@@ -23,21 +23,15 @@ fn pieces_keep_their_numbers_in_any_order() {
     let mut mesh = Form::EMPTY;
     for k in 0..50 {
         let x = f64::from(k * 7 % 50);
-        mesh.push_triangle(
-            [
-                DVec3::X * x,
-                DVec3::X * x + DVec3::Y,
-                DVec3::X * x + DVec3::Z,
-            ],
-            k,
-        );
+        let corners = [DVec3::ZERO, DVec3::Y, DVec3::Z].map(|v| DVec3::X * x + v);
+        mesh.push_triangles(corners, &[[0, 1, 2]], [k]);
     }
     assert_eq!(numbers_at(&mesh).len(), 50);
     for (number, first) in numbers_at(&mesh) {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
     // Triangles combined with other parts.
-    mesh.push_segment([DVec3::X * 100.0, DVec3::Y], 50);
+    mesh.push_points([DVec3::X * 100.0, DVec3::Y], 0.0, 50);
     let at = numbers_at(&mesh);
     assert_eq!((at.len(), at[50]), (51, (50, DVec3::X * 100.0)));
     assert!(
@@ -50,10 +44,8 @@ fn pieces_keep_their_numbers_in_any_order() {
 #[test]
 fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
     let mut form = Form::EMPTY;
-    form.push_mesh(
-        [DVec3::ZERO, DVec3::X, DVec3::Y].into_iter(),
-        &[[0, 1, 2], [0, 1, 3]],
-    );
+    let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    form.push_triangles(corners, &[[0, 1, 2], [0, 1, 3]], 0..);
     let error = form.body().expect_err("refused");
     assert!(
         matches!(error, ShapeError::Piece { number: 1, .. }),
@@ -63,7 +55,7 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
     beside
         .push_placed(&Pose::IDENTITY, &form, 7)
         .expect("not looked at yet");
-    beside.push_hull(vec![DVec3::ZERO], 1.0, &[]);
+    beside.push_points([DVec3::ZERO], 1.0, 0);
     let error = beside.body().expect_err("refused");
     assert!(
         matches!(error, ShapeError::Piece { number: 7, .. }),
@@ -78,7 +70,7 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     let far = 1e6 * DVec3::new(1.0, -3.0, 2.0);
     let pose = Pose::new(far, [axis.x, axis.y, axis.z, 0.0]).expect("a pose");
     let mut inner = Form::EMPTY;
-    inner.push_segment([axis, 5.0 * DVec3::X], 0);
+    inner.push_points([axis, 5.0 * DVec3::X], 0.0, 0);
     let mut form = Form::EMPTY;
     form.push_placed(&pose, &inner, 0).expect("a part");
     let (body, _) = form.body().expect("a body");
@@ -87,20 +79,20 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     let exact = [far + axis, far + (share * axis - 5.0 * DVec3::X)];
     for (point, exact) in body.pieces().points().iter().zip(exact) {
         let off = length(*point - exact);
-        assert!(off <= form.slack(), "{off:e} of {:e}", form.slack());
+        assert!(off <= form.slack, "{off:e} of {:e}", form.slack);
     }
-    assert!(form.slack() < 1e-7 && form.slack() > 0.0);
+    assert!(form.slack < 1e-7 && form.slack > 0.0);
     let mut here = Form::EMPTY;
     here.push_placed(&Pose::IDENTITY, &inner, 0)
         .expect("a part");
-    assert_eq!(here.slack(), 0.0);
+    assert_eq!(here.slack, 0.0);
 }
 
 #[test]
 fn a_ball_is_about_all_points() {
     let mut form = Form::EMPTY;
     form.push_box(DVec3::ONE, 3.0 * DVec3::ONE, 0.5);
-    form.push_hull(vec![DVec3::new(9.0, 2.0, 2.0)], 1.0, &[]);
+    form.push_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
     let (middle, radius) = form.ball();
     let far = [1.0, 3.0].map(|x| length(DVec3::new(x, 1.0, 1.0) - middle) + 0.5);
     assert!(far.iter().all(|far| radius >= *far) && radius >= 10.0 - middle.x);
@@ -110,8 +102,8 @@ fn a_ball_is_about_all_points() {
 #[test]
 fn only_a_ball_is_a_point() {
     let mut ball = Form::EMPTY;
-    ball.push_hull(vec![DVec3::X], 2.0, &[]);
+    ball.push_points([DVec3::X], 2.0, 0);
     assert_eq!(ball.point(), Some(DVec3::X));
-    ball.push_segment([DVec3::X; 2], 0);
+    ball.push_points([DVec3::X; 2], 0.0, 0);
     assert_eq!(ball.point(), None);
 }

@@ -1,12 +1,9 @@
 //! Finds the direction of least penetration of two overlapping convex pieces.
 
-use crate::Prepared;
-use crate::form::Form;
 use crate::order::length;
-use ccd_core::Outcome;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
-use ccd_core::{Piece, Pose};
+use ccd_core::{Body, Outcome, Piece, Polytope, Pose};
 use rigid_ccd::Solver;
 
 /// The maximum number of cross products of edges that are tried.
@@ -61,15 +58,16 @@ fn direction_between_cores(
         return None;
     }
     let core = |piece: Piece<'_>| {
-        let mut form = Form::EMPTY;
-        form.push_hull(piece.points.to_vec(), 0.0, &[]);
-        Prepared::new(&form).ok()
+        let points = piece.points.to_vec();
+        let core = Polytope {
+            points,
+            ..Polytope::default()
+        };
+        Body::polytope(core).ok()
     };
     let [a, b] = pieces.map(core);
     let (a, b) = (a?, b?);
-    let found = solver
-        .distance((a.body(), poses[0]), (b.body(), poses[1]))
-        .ok()?;
+    let found = solver.distance((&a, poses[0]), (&b, poses[1])).ok()?;
     match found.outcome {
         Outcome::Measured { lower, contact, .. } if lower > 0.0 => Some(contact.separation.normal),
         _ => None,

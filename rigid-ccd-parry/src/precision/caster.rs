@@ -1,13 +1,13 @@
 //! Casts that cache the bodies of shapes.
 
-use super::ask::Question;
+use super::ask::{self, linear_cast, nonlinear_cast};
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
 use super::library::shape::{SharedShape, TypedShape};
 use super::shapes::{body, half_space};
 #[cfg(feature = "record")]
 use crate::Recording;
-use crate::cast::PreparedShape;
+use crate::cast::{Cast, PreparedShape};
 use crate::{CastError, Options, Prepared, ShapeError};
 use rigid_ccd::Solver;
 use std::collections::HashMap;
@@ -72,10 +72,9 @@ impl Caster {
         end_time: Real,
         stop_at_penetration: bool,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let times = [start_time, end_time];
-        let question =
-            Question::from_nonlinear_cast([motion1, motion2], times, stop_at_penetration)?;
-        self.answer(&question, [g1, g2])
+        let (motions, times) = ([motion1, motion2], [start_time, end_time]);
+        let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
+        self.answer(cast, [g1, g2])
     }
 
     /// Finds when two shapes in linear motion first touch: `query::cast_shapes`, with the same arguments.
@@ -96,8 +95,8 @@ impl Caster {
         g2: &SharedShape,
         options: ShapeCastOptions,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let question = Question::from_linear_cast([(pos1, vel1), (pos2, vel2)], options)?;
-        self.answer(&question, [g1, g2])
+        let cast = linear_cast([(pos1, vel1), (pos2, vel2)], options, &self.options)?;
+        self.answer(cast, [g1, g2])
     }
 
     /// Records a cast as files for the command `ccd`, which can answer other questions about it and show it. The
@@ -134,11 +133,11 @@ impl Caster {
         end_time: Real,
         stop_at_penetration: bool,
     ) -> Result<Recording, CastError> {
-        let times = [start_time, end_time];
-        let question =
-            Question::from_nonlinear_cast([motion1, motion2], times, stop_at_penetration)?;
-        let [a, b] = PreparedShape::prepare_both([g1, g2], |shape| self.prepared_shape(shape))?;
-        question.record([&a, &b], &self.options)
+        let (motions, times) = ([motion1, motion2], [start_time, end_time]);
+        let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
+        let [a, b] = CastError::of_shapes([g1, g2].map(|shape| self.prepared_shape(shape)))?;
+        let cast = cast.ok_or(CastError::NoTime)?;
+        cast.with_scene([&a, &b], |scene| Ok(Recording::new(scene)))
     }
 
     /// Returns the body of a shape, for other questions, or to prepare it in advance.
@@ -182,11 +181,11 @@ impl Caster {
 
     fn answer(
         &mut self,
-        question: &Question,
+        cast: Option<Cast>,
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = PreparedShape::prepare_both(shapes, |shape| self.prepared_shape(shape))?;
-        question.answer([&a, &b], &self.options, &mut self.solver)
+        let [a, b] = CastError::of_shapes(shapes.map(|shape| self.prepared_shape(shape)))?;
+        ask::answer(cast, [&a, &b], &mut self.solver)
     }
 }
 

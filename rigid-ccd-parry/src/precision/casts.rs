@@ -1,12 +1,12 @@
 //! Functions with parry's names and signatures.
 
-use super::ask::Question;
+use super::ask::{self, linear_cast, nonlinear_cast};
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions, Unsupported};
 use super::library::shape::{Shape, TypedShape};
 use super::shapes::{form, half_space};
 use crate::body_cache::BodyCache;
-use crate::cast::PreparedShape;
+use crate::cast::{Cast, PreparedShape};
 use crate::{CastError, Options, ShapeError};
 use rigid_ccd::Solver;
 use std::cell::Cell;
@@ -65,8 +65,9 @@ pub fn try_cast_shapes_nonlinear(
     times: [Real; 2],
     stop_at_penetration: bool,
 ) -> Result<Option<ShapeCastHit>, CastError> {
-    let question = Question::from_nonlinear_cast([motion1, motion2], times, stop_at_penetration)?;
-    answer(&question, [g1, g2])
+    let options = Options::default();
+    let cast = nonlinear_cast([motion1, motion2], times, stop_at_penetration, &options)?;
+    answer(cast, [g1, g2])
 }
 
 /// Finds when two shapes in linear motion first touch: `query::cast_shapes`, never late.
@@ -114,8 +115,8 @@ pub fn try_cast_shapes(
     (pos2, vel2, g2): (&Pose, Vector, &dyn Shape),
     options: ShapeCastOptions,
 ) -> Result<Option<ShapeCastHit>, CastError> {
-    let question = Question::from_linear_cast([(pos1, vel1), (pos2, vel2)], options)?;
-    answer(&question, [g1, g2])
+    let cast = linear_cast([(pos1, vel1), (pos2, vel2)], options, &Options::default())?;
+    answer(cast, [g1, g2])
 }
 
 /// The solver and the bodies that a thread reuses from call to call.
@@ -130,12 +131,11 @@ thread_local! {
     static MEMORY: Cell<Option<Box<ThreadMemory>>> = const { Cell::new(None) };
 }
 
-fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
-    let options = Options::default();
+fn answer(cast: Option<Cast>, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
     // The memory is gone while its thread ends.
     let memory = MEMORY.try_with(Cell::take).ok().flatten();
     let mut memory = memory.unwrap_or_default();
-    let found = memory.answer(question, shapes, &options);
+    let found = memory.answer(cast, shapes);
     let _ = MEMORY.try_with(|place| place.set(Some(memory)));
     found
 }
@@ -143,26 +143,20 @@ fn answer(question: &Question, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCa
 impl ThreadMemory {
     fn answer(
         &mut self,
-        question: &Question,
+        cast: Option<Cast>,
         shapes: [&dyn Shape; 2],
-        options: &Options,
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] =
-            PreparedShape::prepare_both(shapes, |shape| self.prepared_shape(shape, options))?;
-        question.answer([&a, &b], options, &mut self.solver)
+        let [a, b] = CastError::of_shapes(shapes.map(|shape| self.prepared_shape(shape)))?;
+        ask::answer(cast, [&a, &b], &mut self.solver)
     }
 
-    fn prepared_shape(
-        &mut self,
-        shape: &dyn Shape,
-        options: &Options,
-    ) -> Result<PreparedShape, ShapeError> {
+    fn prepared_shape(&mut self, shape: &dyn Shape) -> Result<PreparedShape, ShapeError> {
         match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => half_space(plane).map(PreparedShape::HalfSpace),
-            _ => self
-                .body_cache
-                .body(form(shape, options)?)
-                .map(PreparedShape::Body),
+            _ => {
+                let form = form(shape, &Options::default())?;
+                self.body_cache.body(form).map(PreparedShape::Body)
+            }
         }
     }
 }

@@ -3,8 +3,8 @@
 use super::convert::{point, pose};
 use super::library::math::{IVector, Real};
 use super::library::shape::{
-    Compound, ConvexPolyhedron, Cuboid, HalfSpace as ParryHalfSpace, HeightField, Polyline, Shape,
-    TriMeshFlags, TypedShape, Voxels,
+    Compound, Cone, ConvexPolyhedron, Cuboid, Cylinder, HalfSpace as ParryHalfSpace, HeightField,
+    Polyline, Shape, TriMeshFlags, TypedShape, Voxels,
 };
 use crate::form::Form;
 use crate::half_space::HalfSpace;
@@ -62,39 +62,33 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
     let mut form = Form::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
-            form.push_hull(vec![DVec3::ZERO], size("radius", ball.radius)?, &[]);
+            form.push_points([DVec3::ZERO], size("radius", ball.radius)?, 0);
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
-            push_cuboid(
-                &mut form,
-                &round.inner_shape,
-                border_radius(round.border_radius)?,
-            )?;
+            let radius = border_radius(round.border_radius)?;
+            push_cuboid(&mut form, &round.inner_shape, radius)?;
         }
         TypedShape::Capsule(capsule) => {
             let ends = [capsule.segment.a, capsule.segment.b].map(point);
-            form.push_hull(ends.to_vec(), size("radius", capsule.radius)?, &[]);
+            form.push_points(ends, size("radius", capsule.radius)?, 0);
         }
         TypedShape::Segment(segment) => {
-            form.push_hull([segment.a, segment.b].map(point).to_vec(), 0.0, &[]);
+            form.push_points([segment.a, segment.b].map(point), 0.0, 0);
         }
-        TypedShape::Triangle(t) => form.push_triangle([t.a, t.b, t.c].map(point), 0),
+        TypedShape::Triangle(t) => form.push_triangles([t.a, t.b, t.c].map(point), &ONE, 0..),
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);
-            form.push_hull(corners.to_vec(), border_radius(round.border_radius)?, &[]);
+            form.push_points(corners, border_radius(round.border_radius)?, 0);
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
         TypedShape::RoundConvexPolyhedron(round) => {
-            push_polyhedron(
-                &mut form,
-                &round.inner_shape,
-                border_radius(round.border_radius)?,
-            );
+            let radius = border_radius(round.border_radius)?;
+            push_polyhedron(&mut form, &round.inner_shape, radius);
         }
         TypedShape::TriMesh(mesh) => {
             let vertices = mesh.vertices().iter().copied().map(point);
-            form.push_mesh(vertices, mesh.indices());
+            form.push_triangles(vertices, mesh.indices(), 0..);
         }
         TypedShape::Polyline(line) => push_polyline(&mut form, line),
         TypedShape::HeightField(field) => push_heights(&mut form, field),
@@ -109,25 +103,25 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
 fn round_form(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
-    type MakeRound = fn(f64, f64) -> Result<Round, InputError>;
-    let (made, half_height, radius, grown): (MakeRound, _, _, _) = match shape {
-        TypedShape::Cylinder(s) => (Round::cylinder, s.half_height, s.radius, 0.0),
-        TypedShape::Cone(s) => (Round::cone, s.half_height, s.radius, 0.0),
-        TypedShape::RoundCylinder(s) => {
-            let inner = &s.inner_shape;
-            let (height, radius) = (inner.half_height, inner.radius);
-            (Round::cylinder, height, radius, s.border_radius)
-        }
-        TypedShape::RoundCone(s) => {
-            let inner = &s.inner_shape;
-            let (height, radius) = (inner.half_height, inner.radius);
-            (Round::cone, height, radius, s.border_radius)
-        }
+    let cylinder = |s: &Cylinder| round(Round::cylinder, s.half_height, s.radius);
+    let cone = |s: &Cone| round(Round::cone, s.half_height, s.radius);
+    let (made, grown) = match shape {
+        TypedShape::Cylinder(s) => (cylinder(s), 0.0),
+        TypedShape::Cone(s) => (cone(s), 0.0),
+        TypedShape::RoundCylinder(s) => (cylinder(&s.inner_shape), s.border_radius),
+        TypedShape::RoundCone(s) => (cone(&s.inner_shape), s.border_radius),
         _ => return Err(ShapeError::Custom),
     };
+    Ok(Form::of_round(made?, border_radius(grown)?, options.excess))
+}
+
+fn round(
+    make: fn(f64, f64) -> Result<Round, InputError>,
+    half_height: Real,
+    radius: Real,
+) -> Result<Round, ShapeError> {
     let half_height = size("half height", half_height)?;
-    let round = made(size("radius", radius)?, half_height).map_err(ShapeError::Body)?;
-    Ok(Form::of_round(round, border_radius(grown)?, options.excess))
+    make(size("radius", radius)?, half_height).map_err(ShapeError::Body)
 }
 
 fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
@@ -150,7 +144,7 @@ fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) 
     let loops: Option<Vec<Vec<u32>>> = facets.collect();
     let points = polyhedron.points().iter().copied().map(point).collect();
     // Incomplete facets are useless.
-    form.push_hull(points, radius, &loops.unwrap_or_default());
+    form.push_hull(points, radius, loops.unwrap_or_default(), 0);
 }
 
 /// Adds the segments of a polyline to a form.
@@ -158,9 +152,12 @@ fn push_polyline(form: &mut Form, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
     for (number, ends) in (0..).zip(line.indices()) {
-        form.push_segment(ends.map(vertex), number);
+        form.push_points(ends.map(vertex), 0.0, number);
     }
 }
+
+/// The face of a mesh of one triangle.
+const ONE: [[u32; 3]; 1] = [[0, 1, 2]];
 
 /// Adds the triangles of a height field to a form, with parry's numbers and corners.
 fn push_heights(form: &mut Form, field: &HeightField) {
@@ -171,7 +168,7 @@ fn push_heights(form: &mut Form, field: &HeightField) {
             let number = j * rows + i;
             for (triangle, number) in [(left, number), (right, number + rows * columns)] {
                 if let Some(triangle) = triangle {
-                    form.push_triangle(triangle.vertices().map(point), number as u32);
+                    form.push_triangles(triangle.vertices().map(point), &ONE, number as u32..);
                 }
             }
         }
@@ -202,7 +199,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
         reach = greater(reach, greater(length(low), length(high)));
         form.push_box(low, high, 0.0);
     }
-    form.add_slack(VOXEL_ROUNDING * reach);
+    form.slack = VOXEL_ROUNDING * reach;
     Ok(())
 }
 

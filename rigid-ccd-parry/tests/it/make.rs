@@ -50,13 +50,12 @@ pub(crate) fn shape(recipe: &Recipe) -> SharedShape {
             }
         }
         Recipe::Mesh(vertices, faces) => {
-            let vertices = vertices.iter().map(|p| vector(*p)).collect();
-            SharedShape::trimesh(vertices, faces.clone()).expect("a mesh")
+            let vertices = vertices.iter().copied().map(vector);
+            SharedShape::trimesh(vertices.collect(), faces.clone()).expect("a mesh")
         }
         Recipe::Heights(heights, rows, scale) => {
-            let heights: Vec<Real> = heights.iter().map(|h| real(*h)).collect();
             let columns = heights.len() / rows;
-            let heights = Array2::new(*rows, columns, heights);
+            let heights = Array2::new(*rows, columns, heights.iter().copied().map(real).collect());
             SharedShape::new(HeightField::new(heights, vector(*scale)))
         }
         Recipe::Cylinder(half, radius, border) => {
@@ -74,18 +73,15 @@ pub(crate) fn shape(recipe: &Recipe) -> SharedShape {
             }
         }
         Recipe::Voxels(size, cells) => {
-            let cells: Vec<IVector> = (cells.iter())
-                .map(|[x, y, z]| IVector::new((*x).into(), (*y).into(), (*z).into()))
-                .collect();
+            let cell = |[x, y, z]: [i32; 3]| IVector::new(x.into(), y.into(), z.into());
+            let cells: Vec<IVector> = cells.iter().copied().map(cell).collect();
             SharedShape::new(Voxels::new(vector(*size), &cells))
         }
         Recipe::Polyline(points) => {
-            SharedShape::polyline(points.iter().map(|p| vector(*p)).collect(), None)
+            SharedShape::polyline(points.iter().copied().map(vector).collect(), None)
         }
         Recipe::Compound(parts) => {
-            let part = |(place, turned, inner): &([f32; 3], [f32; 4], Recipe)| {
-                (pose(*place, *turned), shape(inner))
-            };
+            let part = |(place, turned, inner): &(_, _, _)| (pose(*place, *turned), shape(inner));
             SharedShape::compound(parts.iter().map(part).collect())
         }
     }

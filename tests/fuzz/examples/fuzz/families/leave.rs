@@ -8,11 +8,7 @@ use crate::shapes;
 use ccd_core::StartPolicy;
 
 pub(super) fn draw(draw: &mut RandomSource) -> Case {
-    let half = [
-        draw.log_uniform(0.2..2.0),
-        draw.log_uniform(0.2..2.0),
-        draw.log_uniform(0.2..2.0),
-    ];
+    let half = [(); 3].map(|()| draw.log_uniform(0.2..2.0));
     let floor = shapes::cuboid([8.0, 8.0, 0.5]).map(|[x, y, z]| [x, y, z - 0.5]);
     let floor = if draw.chance(0.2) {
         floor.flipped()

@@ -1,0 +1,122 @@
+//! Scenes of two solids, and distances of them at sampled times.
+
+use ccd_core::order::lesser;
+use ccd_core::{Body, Moving, Trajectory};
+use ccd_tests::checks::CheckResult;
+use ccd_tests::courses::{self, KINDS};
+use ccd_tests::law;
+use ccd_tests::solids::Solid;
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// The distance from the origin within which the bodies move.
+const REACH: f64 = 2.0;
+
+/// The rounding error of distances and poses in this test, for coordinates below 32.
+pub(super) const ROUNDING: f64 = 2e-14;
+
+/// Two solids on trajectories over the times 0 to 1.
+pub(super) struct Scene {
+    pub(super) kinds: [usize; 2],
+    pub(super) solids: [Solid; 2],
+    pub(super) bodies: [Body; 2],
+    pub(super) ways: [Box<dyn Trajectory>; 2],
+}
+
+impl Scene {
+    pub(super) fn draw(rng: &mut Pcg64) -> Self {
+        let solids = [(); 2].map(|()| Solid::draw(rng, 0.7));
+        let kinds = [(); 2].map(|()| rng.random_range(0..KINDS.len()));
+        Scene {
+            bodies: [0, 1].map(|k| solids[k].body()),
+            ways: kinds.map(|kind| courses::draw(rng, kind, REACH)),
+            kinds,
+            solids,
+        }
+    }
+
+    pub(super) fn moving(&self) -> [Moving<'_>; 2] {
+        [0, 1].map(|k| (&self.bodies[k], self.ways[k].as_ref()).into())
+    }
+
+    pub(super) fn distance(&self, time: f64) -> f64 {
+        let [a, b] = [0, 1].map(|k| {
+            let pose = self.ways[k].pose(time).expect("a pose");
+            self.solids[k].placed(&pose)
+        });
+        a.distance(&b)
+    }
+
+    /// Samples the distance at even times, at and next to all knots, and more finely around the least distance.
+    pub(super) fn samples(&self) -> Samples {
+        const EVEN: u32 = 48;
+        let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
+        let mut corners = Vec::new();
+        for way in &self.ways {
+            corners_of(way.as_ref(), [0.0, 1.0], &mut corners);
+        }
+        for corner in corners {
+            let beside = [corner - 1e-7, corner, corner + 1e-7];
+            times.extend(beside.into_iter().filter(|time| (0.0..=1.0).contains(time)));
+        }
+        times.sort_unstable_by(f64::total_cmp);
+        let mut samples: Vec<_> = times.into_iter().map(|t| (t, self.distance(t))).collect();
+        let lowest = |k: &usize| {
+            let [before, after] = [k.saturating_sub(1), (k + 1).min(samples.len() - 1)];
+            samples[*k].1 <= lesser(samples[before].1, samples[after].1)
+        };
+        let mut valleys: Vec<usize> = (0..samples.len()).filter(lowest).collect();
+        valleys.sort_unstable_by(|i, k| samples[*i].1.total_cmp(&samples[*k].1));
+        for k in valleys.into_iter().take(4) {
+            let [mut from, mut to] =
+                [k.saturating_sub(1), (k + 1).min(samples.len() - 1)].map(|k| samples[k].0);
+            for _ in 0..24 {
+                let [one, two] = [from + 0.382 * (to - from), to - 0.382 * (to - from)];
+                let [near, far] = [one, two].map(|time| self.distance(time));
+                samples.extend([(one, near), (two, far)]);
+                if near < far { to = two } else { from = one }
+            }
+        }
+        Samples(samples)
+    }
+}
+
+fn corners_of(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>) {
+    if let Some(corner) = way.corner(from, to)
+        && from < corner
+        && corner < to
+    {
+        corners.push(corner);
+        corners_of(way, [from, corner], corners);
+        corners_of(way, [corner, to], corners);
+    }
+}
+
+/// Pairs of a sampled time and the distance then.
+pub(super) struct Samples(Vec<(f64, f64)>);
+
+impl Samples {
+    pub(super) fn least(&self) -> f64 {
+        self.0
+            .iter()
+            .map(|sample| sample.1)
+            .fold(f64::INFINITY, lesser)
+    }
+
+    /// Checks a lower bound of the distance at all chosen sample times.
+    pub(super) fn check_lower_bound(
+        &self,
+        bound: f64,
+        chosen: impl Fn(f64) -> bool,
+        what: &str,
+    ) -> CheckResult {
+        let chosen = self.0.iter().filter(|sample| chosen(sample.0));
+        for &(time, distance) in chosen {
+            law!(
+                distance >= bound - ROUNDING,
+                "{what}: {bound:e} is claimed, but at {time} it is {distance:e}"
+            );
+        }
+        Ok(())
+    }
+}
