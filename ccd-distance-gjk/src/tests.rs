@@ -8,7 +8,7 @@ use crate::{ClosedForm, Direct, Gjk};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rstest::rstest;
-use scene::{Meeting, Pcg64, Scene, SeedableRng};
+use scene::{NearestFeatures, Pcg64, Scene, SeedableRng};
 
 /// Returns the number of scenes per law; the environment variable `CCD_CASES` overrides it.
 fn cases() -> u64 {
@@ -31,27 +31,27 @@ macro_rules! obeys {
 
             #[test]
             fn random_triangles() {
-                random::<$oracle>(3, 3);
+                check_random_hulls::<$oracle>(3, 3);
             }
 
             #[test]
             fn intersecting_triangles() {
                 over(
-                    |rng| scene::intersecting(rng, 3, 3),
-                    |scene| laws::names_a_common_point::<$oracle>(scene, 1e-12),
+                    |rng| scene::intersecting_hulls(rng, 3, 3),
+                    |scene| laws::finds_common_point::<$oracle>(scene, 1e-12),
                 );
             }
 
             #[rstest]
             fn near_contact(
                 #[values(
-                    Meeting::CornerFace,
-                    Meeting::CrossedEdges,
-                    Meeting::ParallelFaces,
-                    Meeting::CornerEdge,
-                    Meeting::CornerCorner
+                    NearestFeatures::CornerFace,
+                    NearestFeatures::CrossedEdges,
+                    NearestFeatures::ParallelFaces,
+                    NearestFeatures::CornerEdge,
+                    NearestFeatures::CornerCorner
                 )]
-                meeting: Meeting,
+                meeting: NearestFeatures,
                 #[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64,
             ) {
                 super::near_contact::<$oracle>(meeting, gap);
@@ -64,7 +64,7 @@ macro_rules! obeys {
 
             #[test]
             fn degenerate() {
-                super::degenerate::<$oracle>();
+                super::check_degenerate_hulls::<$oracle>();
             }
 
             #[test]
@@ -74,12 +74,12 @@ macro_rules! obeys {
 
             #[test]
             fn any_scale() {
-                super::any_scale::<$oracle>();
+                super::check_any_scale::<$oracle>();
             }
 
             #[test]
             fn history() {
-                super::history::<$oracle>(3);
+                super::check_history_independence::<$oracle>(3);
             }
         }
     };
@@ -91,32 +91,34 @@ obeys!(direct, Direct);
 
 #[rstest]
 fn hulls_of_few_points(#[values(1, 2, 3, 4, 5, 6)] a: usize, #[values(4, 5, 6)] b: usize) {
-    random::<Gjk>(a, b);
-    random::<Direct>(a, b);
+    check_random_hulls::<Gjk>(a, b);
+    check_random_hulls::<Direct>(a, b);
 }
 
 #[rstest]
 fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
-    let draw = |rng: &mut Pcg64| scene::intersecting(rng, a, b);
+    let draw = |rng: &mut Pcg64| scene::intersecting_hulls(rng, a, b);
     over(draw, |scene| {
-        laws::names_a_common_point::<Gjk>(scene, 1e-12);
+        laws::finds_common_point::<Gjk>(scene, 1e-12);
     });
 }
 
 /// Tests flat pieces, whose common point has fewer correct digits: the worst error of these was 1.7e-7.
 #[rstest]
-fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
-    let draw = |rng: &mut Pcg64| scene::pressed(rng, a, b);
-    over(draw, |scene| laws::names_a_common_point::<Gjk>(scene, 1e-6));
+fn flattened_hulls(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
+    let draw = |rng: &mut Pcg64| scene::flattened_hulls(rng, a, b);
+    over(draw, |scene| laws::finds_common_point::<Gjk>(scene, 1e-6));
     over(draw, |scene| {
-        laws::names_a_common_point::<Direct>(scene, 1e-6);
+        laws::finds_common_point::<Direct>(scene, 1e-6);
     });
 }
 
 #[rstest]
 fn stacked_boxes(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
     let draw = |rng: &mut Pcg64| scene::stacked_boxes(rng, gap);
-    over(draw, |scene| is_apart_by::<Gjk>(scene, gap, 1e-9));
+    over(draw, |scene| {
+        check_certified_distance::<Gjk>(scene, gap, 1e-9)
+    });
 }
 
 #[rstest]
@@ -126,21 +128,21 @@ fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] ga
         laws::certifies_separation::<Gjk>(&scene);
         laws::is_symmetric::<Gjk>(&scene);
     }
-    history::<Gjk>(count);
+    check_history_independence::<Gjk>(count);
 }
 
 /// Tests random hulls, separate ones and intersecting ones. Separate hulls are certified, agree with brute force and do
 /// not depend on the order. Both outcomes occur often enough.
-fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
+fn check_random_hulls<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);
     let law = |scene: &Scene| {
-        laws::survives::<O>(scene);
+        laws::accepts_finite_input::<O>(scene);
         laws::is_symmetric::<O>(scene);
-        let checked = laws::check(scene, &laws::cold::<O>(scene));
+        let checked = laws::check(scene, &laws::claim_with_empty_cache::<O>(scene));
         if checked.distance > 1e-12 * scene.size {
             apart.set(apart.get() + 1);
             laws::certifies_separation::<O>(scene);
-            laws::agrees_with_twin::<O>(scene);
+            laws::agrees_with_brute_force::<O>(scene);
         }
     };
     over(|rng| scene::random(rng, a, b), law);
@@ -150,21 +152,21 @@ fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
     assert!(a < 3 || share < 0.97, "{share} are apart");
 }
 
-fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {
+fn near_contact<O: DistanceOracle + Default>(meeting: NearestFeatures, gap: f64) {
     // Tilted faces are nearest at a corner, which may be outside the other face's prism.
     let slack = match meeting {
-        Meeting::ParallelFaces => 1e-8,
+        NearestFeatures::ParallelFaces => 1e-8,
         _ => 0.0,
     };
     let law = |scene: &Scene| {
-        is_apart_by::<O>(scene, gap, slack);
-        laws::agrees_with_twin::<O>(scene);
+        check_certified_distance::<O>(scene, gap, slack);
+        laws::agrees_with_brute_force::<O>(scene);
     };
     over(|rng| scene::near_contact(rng, meeting, gap), law);
 }
 
 /// Checks that pieces are certified apart at the distance `gap`, or up to `slack` more.
-fn is_apart_by<O: DistanceOracle + Default>(scene: &Scene, gap: f64, slack: f64) {
+fn check_certified_distance<O: DistanceOracle + Default>(scene: &Scene, gap: f64, slack: f64) {
     let checked = laws::certifies_separation::<O>(scene);
     let range = gap - 1e-13..=gap + slack + 1e-13;
     assert!(
@@ -173,13 +175,13 @@ fn is_apart_by<O: DistanceOracle + Default>(scene: &Scene, gap: f64, slack: f64)
     );
 }
 
-fn degenerate<O: DistanceOracle + Default>() {
+fn check_degenerate_hulls<O: DistanceOracle + Default>() {
     let law = |scene: &Scene| {
         laws::is_symmetric::<O>(scene);
-        laws::survives::<O>(scene);
-        if laws::check(scene, &laws::cold::<O>(scene)).distance > 1e-6 {
+        laws::accepts_finite_input::<O>(scene);
+        if laws::check(scene, &laws::claim_with_empty_cache::<O>(scene)).distance > 1e-6 {
             laws::certifies_separation::<O>(scene);
-            laws::agrees_with_twin::<O>(scene);
+            laws::agrees_with_brute_force::<O>(scene);
         }
     };
     over(scene::degenerate, law);
@@ -187,10 +189,11 @@ fn degenerate<O: DistanceOracle + Default>() {
 
 /// Tests that coordinates of 1e6 cost the rounding of the pieces' positions, not of their shapes.
 fn far_from_the_origin<O: DistanceOracle + Default>() {
-    let draw =
-        |rng: &mut Pcg64| scene::near_contact(rng, Meeting::CornerFace, 1e-6).reframed(rng, 1e6);
+    let draw = |rng: &mut Pcg64| {
+        scene::near_contact(rng, NearestFeatures::CornerFace, 1e-6).in_random_frames(rng, 1e6)
+    };
     let law = |scene: &Scene| {
-        let checked = laws::check(scene, &laws::cold::<O>(scene));
+        let checked = laws::check(scene, &laws::claim_with_empty_cache::<O>(scene));
         assert!(
             (checked.distance - 1e-6).abs() <= 2e-9,
             "{checked:?} of {scene:?}"
@@ -203,7 +206,7 @@ fn far_from_the_origin<O: DistanceOracle + Default>() {
     over(draw, law);
 }
 
-fn any_scale<O: DistanceOracle + Default>() {
+fn check_any_scale<O: DistanceOracle + Default>() {
     let draw = |rng: &mut Pcg64| {
         let scale = scene::magnitude(rng, -45.0, 15.0);
         let mut scene = scene::random(rng, 3, 3).scaled(scale);
@@ -215,26 +218,26 @@ fn any_scale<O: DistanceOracle + Default>() {
         scene
     };
     let law = |scene: &Scene| {
-        laws::survives::<O>(scene);
+        laws::accepts_finite_input::<O>(scene);
         laws::is_symmetric::<O>(scene);
     };
     over(draw, law);
     let draw = |rng: &mut Pcg64| {
         let scale = scene::magnitude(rng, -45.0, 15.0);
-        scene::intersecting(rng, 3, 3).scaled(scale)
+        scene::intersecting_hulls(rng, 3, 3).scaled(scale)
     };
-    over(draw, |scene| laws::names_a_common_point::<O>(scene, 1e-12));
+    over(draw, |scene| laws::finds_common_point::<O>(scene, 1e-12));
 }
 
-fn history<O: DistanceOracle + Default>(count: usize) {
+fn check_history_independence<O: DistanceOracle + Default>(count: usize) {
     let mut rng = Pcg64::seed_from_u64(7);
     // Pieces of changing sizes, so that the caches' indices repeatedly go out of range.
     let scenes: Vec<Scene> = (0..200)
         .map(|k| match k % 4 {
             0 => scene::random(&mut rng, count, count),
             1 => scene::degenerate(&mut rng),
-            2 => scene::intersecting(&mut rng, count.max(3), 3.min(count)),
-            _ => scene::near_contact(&mut rng, Meeting::CrossedEdges, 1e-9),
+            2 => scene::intersecting_hulls(&mut rng, count.max(3), 3.min(count)),
+            _ => scene::near_contact(&mut rng, NearestFeatures::CrossedEdges, 1e-9),
         })
         .filter(|scene| count > 3 || scene.a.len().max(scene.b.len()) <= 3)
         .collect();
@@ -254,7 +257,7 @@ fn ends<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
     }
 }
 
-fn all_end(a: &[DVec3], b: &[DVec3], b_to_a: Frame) {
+fn check_all_terminate(a: &[DVec3], b: &[DVec3], b_to_a: Frame) {
     let (a, b) = (Piece::from_points(a), Piece::from_points(b));
     for (a, b) in [(a, b), (b, a), (a, a)] {
         let pair = PiecePair { a, b, b_to_a };
@@ -269,10 +272,10 @@ fn odd_coordinates_end() {
     for seed in 0..cases() {
         let mut rng = Pcg64::seed_from_u64(seed);
         for count in [1, 2, 3, 8, 20] {
-            let [a, b] = [count, 3].map(|count| scene::odd_points(&mut rng, count));
-            let translation = scene::odd_points(&mut rng, 1)[0];
-            all_end(&a, &b, Frame::IDENTITY);
-            all_end(
+            let [a, b] = [count, 3].map(|count| scene::extreme_coordinate_points(&mut rng, count));
+            let translation = scene::extreme_coordinate_points(&mut rng, 1)[0];
+            check_all_terminate(&a, &b, Frame::IDENTITY);
+            check_all_terminate(
                 &a,
                 &b,
                 Frame {
@@ -295,7 +298,7 @@ fn nonsense_ends() {
                 translation: DVec3::new(wrong, 0.0, -wrong),
                 rotation: wrong * DMat3::IDENTITY,
             };
-            all_end(&a, &b, b_to_a);
+            check_all_terminate(&a, &b, b_to_a);
         }
     }
 }

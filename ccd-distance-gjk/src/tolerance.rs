@@ -21,7 +21,7 @@ pub(crate) const INTERSECTION_SHARE: f64 = 0.5;
 pub(crate) const MAX_STEPS: u32 = 64;
 
 /// The largest number of times that a GJK search continues from the axes of features, if its own axis is too poor.
-pub(crate) const MAX_ROUNDS: u32 = 4;
+pub(crate) const MAX_FEATURE_AXIS_ROUNDS: u32 = 4;
 
 /// The difference of support gap and distance at which GJK has converged, in units in the last place of the distance.
 pub(crate) const CONVERGED_ULPS: f64 = 16.0;

@@ -44,8 +44,8 @@ pub(crate) fn certify(
     let found = search_common_point(placed, extremal(placed, placed.b.origin()), counters);
     found.ok_or(match end {
         End::Cycle(_) => GiveUp::Cycle,
-        End::Cap(_) => GiveUp::StepCap,
-        End::Nearest(..) | End::Common(..) | End::Unclear(_) => GiveUp::Uncertified,
+        End::StepLimit(_) => GiveUp::StepCap,
+        End::Nearest(..) | End::CommonPoint(..) | End::Unclear(_) => GiveUp::Uncertified,
     })
 }
 
@@ -59,7 +59,7 @@ fn check(
 ) -> Result<Certified, Doubtful> {
     match end {
         End::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
-        End::Common(pair, which, crossing) => {
+        End::CommonPoint(pair, which, crossing) => {
             counters.penetrations += 1;
             Ok((pair, touching::common(placed, which, &crossing)))
         }
@@ -67,7 +67,7 @@ fn check(
             Some(answer) => Ok(answer),
             None => certify_tie(placed, pair),
         },
-        End::Cycle(pair) | End::Cap(pair) => certify_tie(placed, pair),
+        End::Cycle(pair) | End::StepLimit(pair) => certify_tie(placed, pair),
     }
 }
 

@@ -5,19 +5,24 @@ use ccd_core::glam::DVec3;
 
 /// One end of a clipped edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Cut {
+pub(crate) struct ClipEnd {
     pub(crate) parameter: f64,
     /// The edge of the face whose plane made the cut; `None` if the clipped edge ends there itself.
-    pub(crate) by: Option<u32>,
+    pub(crate) cutting_edge: Option<u32>,
 }
 
 /// Clips an edge by the face-edge planes of a face, and returns both ends of the part within the prism above and below
 /// the face; `None` if nothing is left.
 #[inline]
-pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> Option<[Cut; 2]> {
-    let uncut = |parameter| Cut {
+pub(crate) fn clip_to_prism<Y: Placed>(
+    line: &Line,
+    end: DVec3,
+    y: &Y,
+    face: u32,
+) -> Option<[ClipEnd; 2]> {
+    let uncut = |parameter| ClipEnd {
         parameter,
-        by: None,
+        cutting_edge: None,
     };
     let (mut from, mut to) = (uncut(0.0), uncut(line.length));
     for side in y.shape().sides_of(face) {
@@ -31,9 +36,9 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
             continue;
         }
         let parameter = clamp(line.length * (at_start / (at_start - at_end)), line.length);
-        let cut = Cut {
+        let cut = ClipEnd {
             parameter,
-            by: Some(side.edge),
+            cutting_edge: Some(side.edge),
         };
         if at_start < 0.0 && parameter > from.parameter {
             from = cut;

@@ -20,13 +20,13 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let (edge_x, edge_y) = (x.shape().edge(e), y.shape().edge(f));
     let near = nearest(&one, &other);
     let ends = [
-        end_of(edge_x, near.parameters[0]),
-        end_of(edge_y, near.parameters[1]),
+        end_vertex_at(edge_x, near.parameters[0]),
+        end_vertex_at(edge_y, near.parameters[1]),
     ];
     match ends {
-        [Some(v), Some(w)] => return Next::To(Feature::Vertex(v), Feature::Vertex(w)),
-        [Some(v), None] => return Next::To(Feature::Vertex(v), Feature::Edge(f)),
-        [None, Some(w)] => return Next::To(Feature::Edge(e), Feature::Vertex(w)),
+        [Some(v), Some(w)] => return Next::Continue(Feature::Vertex(v), Feature::Vertex(w)),
+        [Some(v), None] => return Next::Continue(Feature::Vertex(v), Feature::Edge(f)),
+        [None, Some(w)] => return Next::Continue(Feature::Edge(e), Feature::Vertex(w)),
         [None, None] => {}
     }
     let points = [one.at(near.parameters[0]), other.at(near.parameters[1])];
@@ -103,7 +103,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
 
 /// Returns the vertex of an edge at a parameter; `None` between the ends.
 #[inline(always)]
-pub(crate) fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
+pub(crate) fn end_vertex_at(edge: &Edge, parameter: f64) -> Option<u32> {
     if !(parameter > 0.0) {
         Some(edge.ends[0])
     } else if !(parameter < edge.length) {
@@ -155,7 +155,7 @@ impl NearestVector {
         Some(if beyond_both && !is_above() {
             Side::Behind(face)
         } else {
-            Side::Before(face)
+            Side::InFront(face)
         })
     }
 }
@@ -163,7 +163,7 @@ impl NearestVector {
 /// On which side of an edge a point outside its Voronoi region is.
 enum Side {
     /// The point is on the side of this face.
-    Before(u32),
+    InFront(u32),
     /// The point is behind both faces of the edge, less far behind this one.
     Behind(u32),
 }
@@ -180,7 +180,7 @@ impl Side {
         scale: Scale,
     ) -> Next {
         match *self {
-            Side::Before(face) => Next::To(Feature::Face(face), Feature::Edge(f)),
+            Side::InFront(face) => Next::Continue(Feature::Face(face), Feature::Edge(f)),
             Side::Behind(face) => escape(y, Feature::Edge(f), point, x, face, scale).swapped(),
         }
     }

@@ -17,12 +17,12 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let line = x.line(e);
     let ends = x.shape().edge(e).ends;
     let end = x.vertex(ends[1]);
-    let Some([from, to]) = clip::to_prism(&line, end, y, f) else {
-        return to_nearest_side(e, &line, y, f);
+    let Some([from, to]) = clip::clip_to_prism(&line, end, y, f) else {
+        return step_to_nearest_side(e, &line, y, f);
     };
     let normal = y.vector(y.shape().face(f).normal);
     let Some(side) = y.shape().sides_of(f).first() else {
-        return to_nearest_side(e, &line, y, f);
+        return step_to_nearest_side(e, &line, y, f);
     };
     // The same product, to the bit, as the slope of the corner's edges in `vertex_face`.
     let slope = line.along.dot(normal);
@@ -35,21 +35,21 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         return escape(x, Feature::Edge(e), line.at(high.parameter), y, f, scale);
     }
     if height(low.parameter) < rounding {
-        if let Some(crossing) = penetration::pierced(x, e, y, f) {
+        if let Some(crossing) = penetration::edge_face_crossing(x, e, y, f) {
             return Next::Common(Which::X, crossing);
         }
         if height(low.parameter) < -rounding {
-            return to_nearest_side(e, &line, y, f);
+            return step_to_nearest_side(e, &line, y, f);
         }
     }
-    match low.by {
-        None => Next::To(Feature::Vertex(ends[usize::from(falls)]), Feature::Face(f)),
-        Some(edge) => Next::To(Feature::Edge(e), Feature::Edge(edge)),
+    match low.cutting_edge {
+        None => Next::Continue(Feature::Vertex(ends[usize::from(falls)]), Feature::Face(f)),
+        Some(edge) => Next::Continue(Feature::Edge(e), Feature::Edge(edge)),
     }
 }
 
 /// Continues to the edge of the face that is nearest to the given edge.
-fn to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
+fn step_to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
     let sides = y.shape().sides_of(f);
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));
     for side in sides {
@@ -60,7 +60,7 @@ fn to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
             (least, nearest) = (square, side.edge);
         }
     }
-    Next::To(Feature::Edge(e), Feature::Edge(nearest))
+    Next::Continue(Feature::Edge(e), Feature::Edge(nearest))
 }
 
 #[cfg(test)]

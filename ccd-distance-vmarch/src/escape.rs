@@ -21,15 +21,15 @@ pub(crate) fn escape<X: Placed, Y: Placed>(
         && height > scale.rounding()
         && face != behind
     {
-        return Next::To(feature, Feature::Face(face));
+        return Next::Continue(feature, Feature::Face(face));
     }
     let inside = match feature {
-        Feature::Vertex(v) => penetration::corner_inside(x, v, y),
+        Feature::Vertex(v) => penetration::inner_corner_crossing(x, v, y),
         Feature::Edge(e) => {
             let mut faces = 0..y.shape().faces.len() as u32;
-            let through = faces.find_map(|f| penetration::pierced(x, e, y, f));
+            let through = faces.find_map(|f| penetration::edge_face_crossing(x, e, y, f));
             // An edge with an inner point that does not cross the surface is entirely inside.
-            through.or_else(|| penetration::corner_inside(x, x.shape().edge(e).ends[0], y))
+            through.or_else(|| penetration::inner_corner_crossing(x, x.shape().edge(e).ends[0], y))
         }
         Feature::Face(_) => None,
     };

@@ -19,7 +19,7 @@ pub(crate) struct Pair {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
     /// The march continues with a pair that is nearer, or equally near and of lower dimension.
-    To(Feature, Feature),
+    Continue(Feature, Feature),
     /// The march stops: each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
     Stop(Certainty),
     /// A feature of one polytope has a common point with the other.
@@ -40,7 +40,7 @@ impl Next {
     #[inline(always)]
     pub(crate) fn swapped(self) -> Next {
         match self {
-            Next::To(x, y) => Next::To(y, x),
+            Next::Continue(x, y) => Next::Continue(y, x),
             Next::Common(which, crossing) => Next::Common(which.other(), crossing),
             Next::Stop(_) | Next::Unclear => self,
         }
@@ -71,16 +71,16 @@ pub(crate) enum Certainty {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
     /// The ends of the edge, or twice the corner, with their weights.
-    pub(crate) on_edge: Corners<2>,
+    pub(crate) on_edge: WeightedCorners<2>,
     /// Three corners of the face with their weights, and a fourth corner if the point is inside.
-    pub(crate) on_face: Corners<4>,
+    pub(crate) on_face: WeightedCorners<4>,
     /// The face that is crossed, or a face with the point behind it.
     pub(crate) face: u32,
 }
 
 /// Corners of a polytope and their weights in a convex combination.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Corners<const N: usize> {
+pub(crate) struct WeightedCorners<const N: usize> {
     pub(crate) vertices: [u32; N],
     pub(crate) weights: [f64; N],
 }

@@ -3,24 +3,24 @@
 use crate::counters::Counters;
 use crate::feature::{Feature, Next, Pair};
 use crate::placed::{Placed, PlacedPair};
-use crate::termination::{Brent, End};
+use crate::termination::{BrentCycleDetector, End};
 use crate::tolerance::MAX_STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
 /// Marches from a pair of features to the nearest pair.
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower dimension, so that no
-/// pair occurs twice. In floating point one may, which [`Brent`] detects.
+/// pair occurs twice. In floating point one may, which [`BrentCycleDetector`] detects.
 pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> End {
-    let features = placed.a.shape().features() + placed.b.shape().features();
+    let features = placed.a.shape().feature_count() + placed.b.shape().feature_count();
     let mut pair = start;
-    let mut brent = Brent::new(start);
+    let mut brent = BrentCycleDetector::new(start);
     for _ in 0..MAX_STEPS_PER_FEATURE * features {
         counters.steps += 1;
         pair = match step(placed, pair) {
-            Next::To(a, b) => Pair { a, b },
+            Next::Continue(a, b) => Pair { a, b },
             Next::Stop(certainty) => return End::Nearest(pair, certainty),
-            Next::Common(which, crossing) => return End::Common(pair, which, crossing),
+            Next::Common(which, crossing) => return End::CommonPoint(pair, which, crossing),
             Next::Unclear => return End::Unclear(pair),
         };
         if brent.is_repeated(pair) {
@@ -28,7 +28,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
             return End::Cycle(pair);
         }
     }
-    End::Cap(pair)
+    End::StepLimit(pair)
 }
 
 /// Tests one pair of features of A and B, and returns the next one. Two faces are never tested: an edge of one replaces
@@ -47,7 +47,7 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
         (Feature::Face(f), Feature::Edge(e)) => edge_face::next(b, e, a, f, *scale).swapped(),
         (Feature::Face(f), Feature::Face(_)) => {
             let edge = a.shape().sides_of(f).first().map_or(0, |side| side.edge);
-            Next::To(Feature::Edge(edge), pair.b)
+            Next::Continue(Feature::Edge(edge), pair.b)
         }
     }
 }

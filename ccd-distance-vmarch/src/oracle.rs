@@ -72,8 +72,8 @@ impl DistanceOracle for Vmarch {
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
         self.counters.calls += 1;
         let (mut own_a, mut own_b) = (None, None);
-        let a = prepared(&pair.a, &mut own_a)?;
-        let b = prepared(&pair.b, &mut own_b)?;
+        let a = prepared_polytope(&pair.a, &mut own_a)?;
+        let b = prepared_polytope(&pair.b, &mut own_b)?;
         let placed = PlacedPair::new(a, b, &pair.b_to_a);
         let end = march(&placed, cache.start(&placed), &mut self.counters);
         if let End::Nearest(nearest, Certainty::Sure) = end {
@@ -136,7 +136,10 @@ fn prepare(piece: &Piece<'_>) -> Prepared {
 
 /// Returns the prepared form of a piece. A piece that belongs to no list is prepared now, and stored in `own`.
 #[inline]
-fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
+fn prepared_polytope<'p>(
+    piece: &Piece<'p>,
+    own: &'p mut Option<Prepared>,
+) -> Result<&'p Polytope, GiveUp> {
     let prepared = match piece.cached(prepare) {
         Some(kept) => kept,
         None => own.insert(prepare(piece)),

@@ -1,7 +1,7 @@
 //! Finds common points of two polytopes, and proves them by exact signs `[SHE97]`.
 
 use crate::double_double::volume;
-use crate::feature::{Corners, Crossing};
+use crate::feature::{Crossing, WeightedCorners};
 use crate::placed::Placed;
 use crate::tolerance::MAX_PIERCED_PAIRS;
 use ccd_core::exact::side;
@@ -12,7 +12,12 @@ use ccd_core::glam::DVec3;
 /// # Guarantee
 /// Signs are exact for the placed points, which are rounded. A crossing is returned only if the edge and one of the
 /// triangles spanned by the face's corners do have a common point.
-pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Option<Crossing> {
+pub(crate) fn edge_face_crossing<X: Placed, Y: Placed>(
+    x: &X,
+    e: u32,
+    y: &Y,
+    f: u32,
+) -> Option<Crossing> {
     let ends = x.shape().edge(e).ends;
     let edge = ends.map(|v| x.vertex(v));
     let sides = y.shape().sides_of(f);
@@ -22,11 +27,11 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
         if segment_meets_triangle(edge, triangle) {
             let (along, inside) = weights(edge, triangle);
             return Some(Crossing {
-                on_edge: Corners {
+                on_edge: WeightedCorners {
                     vertices: ends,
                     weights: along,
                 },
-                on_face: Corners {
+                on_face: WeightedCorners {
                     vertices: [corners[0], corners[1], corners[2], corners[2]],
                     weights: [inside[0], inside[1], inside[2], 0.0],
                 },
@@ -41,8 +46,12 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
 /// triangle of a face.
 ///
 /// # Guarantee
-/// Like [`pierced`].
-pub(crate) fn corner_inside<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Crossing> {
+/// Like [`edge_face_crossing`].
+pub(crate) fn inner_corner_crossing<X: Placed, Y: Placed>(
+    x: &X,
+    v: u32,
+    y: &Y,
+) -> Option<Crossing> {
     let point = x.vertex(v);
     let shape = y.shape();
     if shape.faces.len() < 3 {
@@ -59,11 +68,11 @@ pub(crate) fn corner_inside<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Optio
             let triangle = corners.map(|w| y.vertex(w));
             if let Some(inside) = barycentric_coordinates(point, apex, triangle) {
                 return Some(Crossing {
-                    on_edge: Corners {
+                    on_edge: WeightedCorners {
                         vertices: [v, v],
                         weights: [1.0, 0.0],
                     },
-                    on_face: Corners {
+                    on_face: WeightedCorners {
                         vertices: [corners[0], corners[1], corners[2], 0],
                         weights: inside,
                     },
@@ -82,9 +91,9 @@ pub(crate) fn search_crossing<X: Placed, Y: Placed>(x: &X, y: &Y) -> Option<Cros
     if edges as usize * faces as usize > MAX_PIERCED_PAIRS {
         return None;
     }
-    let through = (0..faces).find_map(|f| (0..edges).find_map(|e| pierced(x, e, y, f)));
+    let through = (0..faces).find_map(|f| (0..edges).find_map(|e| edge_face_crossing(x, e, y, f)));
     // If no edge goes through the surface, X is either entirely inside or entirely outside.
-    through.or_else(|| corner_inside(x, 0, y))
+    through.or_else(|| inner_corner_crossing(x, 0, y))
 }
 
 /// Returns whether a segment and a triangle that are not coplanar have a common point.

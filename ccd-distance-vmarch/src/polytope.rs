@@ -34,7 +34,7 @@ pub(crate) struct Polytope {
     /// The distance of the farthest corner from the origin.
     pub(crate) reach: f64,
     pub(crate) vertices: Vec<Vertex>,
-    pub(crate) spokes: Vec<Spoke>,
+    pub(crate) outgoing_edges: Vec<OutgoingEdge>,
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
@@ -48,13 +48,13 @@ pub(crate) struct Vertex {
     pub(crate) point: DVec3,
     /// The index of the corner in the piece's points.
     pub(crate) number: u32,
-    first_spoke: u32,
-    end_spoke: u32,
+    first_outgoing: u32,
+    end_outgoing: u32,
 }
 
 /// An edge at one of its vertices. Its direction is the normal of a vertex-edge plane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spoke {
+pub(crate) struct OutgoingEdge {
     /// The unit vector away from the vertex along the edge.
     pub(crate) along: DVec3,
     pub(crate) edge: u32,
@@ -129,9 +129,9 @@ impl Polytope {
 
     /// Returns the edges at a vertex, each directed away from it.
     #[inline]
-    pub(crate) fn spokes_of(&self, v: u32) -> &[Spoke] {
+    pub(crate) fn outgoing_edges_of(&self, v: u32) -> &[OutgoingEdge] {
         let vertex = self.vertex(v);
-        &self.spokes[vertex.first_spoke as usize..vertex.end_spoke as usize]
+        &self.outgoing_edges[vertex.first_outgoing as usize..vertex.end_outgoing as usize]
     }
 
     /// Returns the sides of a face.
@@ -144,7 +144,11 @@ impl Polytope {
     /// Returns the edges at a vertex, or the edge itself; an empty list for a face.
     pub(crate) fn edges_at(&self, feature: Feature) -> Vec<u32> {
         match feature {
-            Feature::Vertex(v) => self.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
+            Feature::Vertex(v) => self
+                .outgoing_edges_of(v)
+                .iter()
+                .map(|spoke| spoke.edge)
+                .collect(),
             Feature::Edge(e) => vec![e],
             Feature::Face(_) => Vec::new(),
         }
@@ -187,7 +191,7 @@ impl Polytope {
     }
 
     /// Returns the number of vertices, edges and faces together.
-    pub(crate) fn features(&self) -> usize {
+    pub(crate) fn feature_count(&self) -> usize {
         self.vertices.len() + self.edges.len() + self.faces.len()
     }
 }

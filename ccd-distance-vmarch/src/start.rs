@@ -94,7 +94,12 @@ fn extremal_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
 }
 
 fn extremal_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
-    Feature::Vertex(placed.b.shape().extremal(-placed.b.own_vector(axis)))
+    Feature::Vertex(
+        placed
+            .b
+            .shape()
+            .extremal(-placed.b.to_local_direction(axis)),
+    )
 }
 
 #[cfg(test)]

@@ -8,27 +8,27 @@ pub(crate) enum End {
     /// The march reached the nearest features.
     Nearest(Pair, Certainty),
     /// The march found a common point of A's and B's features; `Which` is the polytope of the edge.
-    Common(Pair, Which, Crossing),
+    CommonPoint(Pair, Which, Crossing),
     /// The march returned to this pair.
     Cycle(Pair),
     /// This pair is behind all faces, but no common point could be proven.
     Unclear(Pair),
     /// The march reached its limit of steps at this pair.
-    Cap(Pair),
+    StepLimit(Pair),
 }
 
 /// Brent's algorithm for the detection of cycles. Each state is compared with a remembered one, which is replaced after
 /// 1, 2, 4, … steps. A cycle is detected within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Brent {
+pub(crate) struct BrentCycleDetector {
     left: Pair,
     steps: u32,
     until: u32,
 }
 
-impl Brent {
+impl BrentCycleDetector {
     pub(crate) fn new(start: Pair) -> Self {
-        Brent {
+        BrentCycleDetector {
             left: start,
             steps: 0,
             until: 1,

@@ -17,7 +17,7 @@ use ccd_core::{Body, Claim, DistanceOracle, Frame, GiveUp, PiecePair};
 use rstest::rstest;
 use scene::{Kind, Scene};
 use shape::{Pcg64, SeedableRng, direction, magnitude};
-use twin::Bare;
+use twin::ReferencePolytope;
 
 /// Returns the number of scenes of each kind. `CCD_TEST_CASES` in the environment multiplies it, `CCD_TEST_SLOW` makes
 /// it a million claims over all kinds.
@@ -34,16 +34,16 @@ fn cases() -> u64 {
 #[derive(Debug, Default)]
 struct Tally {
     claims: u64,
-    meeting: u64,
+    intersecting: u64,
     give_ups: u64,
     /// The largest relative error of a distance, for distances of at least a thousandth of the coordinates.
     relative: f64,
     /// The largest error of a distance, in units of the coordinates' rounding.
     rounding: f64,
     /// The largest difference of the distance and the gap along the axis, in the same units.
-    short: f64,
+    gap_deficit: f64,
     /// The largest distance claimed for intersecting pieces, in the same units.
-    meeting_distance: f64,
+    intersecting_distance: f64,
 }
 
 /// The relative rounding error of one operation in f64.
@@ -69,40 +69,40 @@ impl Tally {
         let distance = on_a.distance(on_b);
         let unit = UNIT_ROUNDOFF * scene.reach();
         if scene.gap == 0.0 {
-            self.meeting += 1;
-            self.meeting_distance = greater(self.meeting_distance, distance / unit);
+            self.intersecting += 1;
+            self.intersecting_distance = greater(self.intersecting_distance, distance / unit);
             assert!(
                 distance <= 200.0 * unit,
                 "{distance:e}: {}",
-                described(scene, &claim)
+                describe(scene, &claim)
             );
             return;
         }
-        let a = Bare::new(&scene.a.shape, &Frame::IDENTITY);
-        let b = Bare::new(&scene.b.shape, &scene.b_to_a);
+        let a = ReferencePolytope::new(&scene.a.shape, &Frame::IDENTITY);
+        let b = ReferencePolytope::new(&scene.b.shape, &scene.b_to_a);
         let truth = twin::distance(&a, &b);
         let error = (distance - truth).abs();
         let gap = twin::gap(&a, &b, claim.axis.normalize_or_zero());
         let slack = 1e-12 * truth + 100.0 * unit;
         self.rounding = greater(self.rounding, error / unit);
-        self.short = greater(self.short, (truth - gap) / unit);
+        self.gap_deficit = greater(self.gap_deficit, (truth - gap) / unit);
         if truth > 1e-3 * scene.reach() {
             self.relative = greater(self.relative, error / truth);
         }
         assert!(
             error <= slack,
             "{distance:e}, not {truth:e}: {}",
-            described(scene, &claim)
+            describe(scene, &claim)
         );
         assert!(
             gap >= truth - slack,
             "gap {gap:e} of {truth:e}: {}",
-            described(scene, &claim)
+            describe(scene, &claim)
         );
     }
 }
 
-fn described(scene: &Scene<'_>, claim: &Claim) -> String {
+fn describe(scene: &Scene<'_>, claim: &Claim) -> String {
     let (a, b, frame) = (&scene.a.shape, &scene.b.shape, scene.b_to_a);
     format!("{claim:?} of {a:?}, {b:?}, {frame:?}")
 }
@@ -133,13 +133,13 @@ fn agrees_with_brute_force(
         Kind::Plates,
         Kind::Prisms,
         Kind::Balls,
-        Kind::Few,
+        Kind::FewPoints,
         Kind::Flat
     )]
     kind: Kind,
 ) {
     let mut rng = Pcg64::seed_from_u64(kind as u64);
-    let pool = scene::pool(kind, &mut rng);
+    let pool = scene::body_pool(kind, &mut rng);
     let (mut oracle, mut tally, mut foreign) =
         (Vmarch::default(), Tally::default(), Cache::default());
     // Those of a thousand corners take brute force a while.

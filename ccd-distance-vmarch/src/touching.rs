@@ -80,7 +80,7 @@ fn features<X: Placed, Y: Placed>(
 
 /// Returns the edge between two vertices, if there is one.
 fn edge_between(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
-    let mut spokes = shape.spokes_of(v).iter();
+    let mut spokes = shape.outgoing_edges_of(v).iter();
     let spoke = spokes.find(|spoke| spoke.to == w)?;
     Some(Feature::Edge(spoke.edge))
 }

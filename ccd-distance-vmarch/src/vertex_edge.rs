@@ -22,10 +22,10 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     let from_start = corner - line.start;
     let parameter = from_start.dot(line.along);
     if parameter < 0.0 {
-        return Next::To(Feature::Vertex(v), Feature::Vertex(edge.ends[0]));
+        return Next::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[0]));
     }
     if (corner - y.vertex(edge.ends[1])).dot(line.along) > 0.0 {
-        return Next::To(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
+        return Next::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
     }
     let offset = line.at(parameter) - corner;
     let rounding = scale.rounding();
@@ -34,11 +34,11 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     }
     let inward = y.inward(edge, from_start);
     if let Some(face) = face_towards_point(y, edge.faces, inward, from_start) {
-        return Next::To(Feature::Vertex(v), Feature::Face(face));
+        return Next::Continue(Feature::Vertex(v), Feature::Face(face));
     }
-    let approach = steepest_towards(x, v, &line, offset, scale);
+    let approach = steepest_edge_towards(x, v, &line, offset, scale);
     if approach.decrease > 0.0 {
-        return Next::To(Feature::Edge(approach.edge), Feature::Edge(e));
+        return Next::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
     }
     let clear = edge.is_clear(inward, rounding) && !approach.tied;
     Next::Stop(if clear { Sure } else { Tied })
@@ -78,7 +78,7 @@ struct SteepestEdge {
 /// the line counts. It is small for nearly parallel edges, and the allowance for rounding has to be
 /// small as well; otherwise their slow approach would be missed.
 #[inline(always)]
-fn steepest_towards<X: Placed>(
+fn steepest_edge_towards<X: Placed>(
     x: &X,
     v: u32,
     line: &Line,
@@ -91,7 +91,7 @@ fn steepest_towards<X: Placed>(
         tied: false,
     };
     let rounding = scale.rounding();
-    for spoke in x.shape().spokes_of(v) {
+    for spoke in x.shape().outgoing_edges_of(v) {
         let along = x.vector(spoke.along);
         let slope = along.dot(offset);
         // Written so that NaN is a tie.

@@ -5,7 +5,7 @@ use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::PRODUCT_ERROR;
-use crate::vertex_vertex::steepest;
+use crate::vertex_vertex::steepest_edge;
 
 /// Tests the corner against all face-edge planes, and continues with the edge of the most violated one. Above the face,
 /// it continues with the corner's edge that falls towards the face most steeply.
@@ -26,7 +26,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
         height = normal.dot(from);
     }
     if let Some(edge) = outside {
-        return Next::To(Feature::Vertex(v), Feature::Edge(edge));
+        return Next::Continue(Feature::Vertex(v), Feature::Edge(edge));
     }
     let rounding = scale.rounding();
     if height < -rounding {
@@ -35,9 +35,9 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
     if height <= rounding {
         return Next::Stop(Tied);
     }
-    let falling = steepest(x, v, -normal);
+    let falling = steepest_edge(x, v, -normal);
     if falling.slope > PRODUCT_ERROR {
-        return Next::To(Feature::Edge(falling.edge), Feature::Face(f));
+        return Next::Continue(Feature::Edge(falling.edge), Feature::Face(f));
     }
     // The face's normal is accurate up to rounding, however near the corner is.
     Next::Stop(Sure)

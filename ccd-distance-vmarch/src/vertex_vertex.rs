@@ -17,35 +17,35 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Sc
     if offset.length_squared() <= rounding * rounding {
         return Next::Stop(Tied);
     }
-    let from_x = steepest(x, v, offset);
+    let from_x = steepest_edge(x, v, offset);
     if from_x.slope > 0.0 {
-        return Next::To(Feature::Edge(from_x.edge), Feature::Vertex(w));
+        return Next::Continue(Feature::Edge(from_x.edge), Feature::Vertex(w));
     }
-    let from_y = steepest(y, w, -offset);
+    let from_y = steepest_edge(y, w, -offset);
     if from_y.slope > 0.0 {
-        return Next::To(Feature::Vertex(v), Feature::Edge(from_y.edge));
+        return Next::Continue(Feature::Vertex(v), Feature::Edge(from_y.edge));
     }
     let clear = from_x.slope < -rounding && from_y.slope < -rounding;
     Next::Stop(if clear { Sure } else { Tied })
 }
 
 /// An edge at a corner, and how far it leads along a vector per unit of its length.
-pub(crate) struct Steepest {
+pub(crate) struct SteepestEdge {
     pub(crate) edge: u32,
     pub(crate) slope: f64,
 }
 
 /// Returns the edge at a corner that leads farthest along a vector, per unit of its length.
 #[inline(always)]
-pub(crate) fn steepest<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> Steepest {
-    let mut best = Steepest {
+pub(crate) fn steepest_edge<P: Placed>(polytope: &P, v: u32, offset: DVec3) -> SteepestEdge {
+    let mut best = SteepestEdge {
         edge: 0,
         slope: f64::NEG_INFINITY,
     };
-    for spoke in polytope.shape().spokes_of(v) {
+    for spoke in polytope.shape().outgoing_edges_of(v) {
         let slope = polytope.vector(spoke.along).dot(offset);
         if slope > best.slope {
-            best = Steepest {
+            best = SteepestEdge {
                 edge: spoke.edge,
                 slope,
             };

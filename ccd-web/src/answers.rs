@@ -7,12 +7,12 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
 /// The number of random throws.
-const THROWS: u32 = 400;
+const THROW_COUNT: u32 = 400;
 /// The number of steps in time of each throw.
 const STEPS: u32 = 60;
 
 /// Returns random throws as JSON, with certified and stepped results.
-pub(crate) fn answers() -> Result<Value, WebError> {
+pub(crate) fn random_throw_results() -> Result<Value, WebError> {
     let mut random = Pcg64Mcg::seed_from_u64(7);
     let (parts, targets) = Part::NAMES.split_at(5);
     let mut answer = || {
@@ -39,5 +39,5 @@ pub(crate) fn answers() -> Result<Value, WebError> {
             "steps": seen,
         }))
     };
-    (0..THROWS).map(|_| answer()).collect()
+    (0..THROW_COUNT).map(|_| answer()).collect()
 }

@@ -1,6 +1,6 @@
 //! Writes the page: WebAssembly module, scripts and style in one file.
 
-use crate::answers::answers;
+use crate::answers::random_throw_results;
 use anyhow::{Context, Result, ensure};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -27,7 +27,7 @@ pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
     let checks = if check {
         format!(
             "<script type=\"application/json\" id=\"answers\">{}</script>\n<script>\n{}</script>",
-            ccd_view::json(&answers()?)?,
+            ccd_view::json(&random_throw_results()?)?,
             include_str!("page/check.js")
         )
     } else {

@@ -22,14 +22,17 @@ pub(crate) fn faces(body: &Body) -> Result<TriangleMesh, MeshError> {
 /// either cap.
 pub(crate) fn capsule(radius: f64, half: f64) -> Result<TriangleMesh, MeshError> {
     const AROUND: u32 = 32;
-    const ALONG: u32 = 17;
-    sheet([AROUND, ALONG, ALONG + 1], |[around, along]| {
-        let (sine, cosine) = (TAU * around).sin_cos();
-        let latitude = PI * (along - 0.5);
-        let height = radius * latitude.sin() + if along < 0.5 { -half } else { half };
-        let ring = radius * latitude.cos();
-        dvec3(ring * cosine, ring * sine, height)
-    })
+    const DIVISIONS_ALONG: u32 = 17;
+    sheet(
+        [AROUND, DIVISIONS_ALONG, DIVISIONS_ALONG + 1],
+        |[around, along]| {
+            let (sine, cosine) = (TAU * around).sin_cos();
+            let latitude = PI * (along - 0.5);
+            let height = radius * latitude.sin() + if along < 0.5 { -half } else { half };
+            let ring = radius * latitude.cos();
+            dvec3(ring * cosine, ring * sine, height)
+        },
+    )
 }
 
 /// Returns the surface of a tube along a trefoil knot.

@@ -1,6 +1,6 @@
 //! Caches bodies by their geometry.
 
-use crate::form::Form;
+use crate::form::ShapeGeometry;
 use crate::limits::{KEPT_BODIES, KEPT_BYTES};
 use crate::{Prepared, ShapeError};
 use std::sync::Arc;
@@ -13,39 +13,39 @@ pub(crate) struct BodyCache {
     /// The cached bodies, the most recently used one last.
     bodies: Vec<Entry>,
     /// The maximum memory of all cached bodies, in bytes.
-    most_bytes: usize,
+    max_bytes: usize,
 }
 
 impl Default for BodyCache {
     fn default() -> Self {
         BodyCache {
             bodies: Vec::new(),
-            most_bytes: KEPT_BYTES,
+            max_bytes: KEPT_BYTES,
         }
     }
 }
 
 #[derive(Debug)]
 struct Entry {
-    form: Form,
+    geometry: ShapeGeometry,
     body: Arc<Prepared>,
     bytes: usize,
 }
 
 impl BodyCache {
     /// Returns the body of a form from the cache, or makes it.
-    pub(crate) fn body(&mut self, form: Form) -> Result<Arc<Prepared>, ShapeError> {
-        if let Some(at) = self.bodies.iter().rposition(|kept| kept.form == form) {
+    pub(crate) fn body(&mut self, form: ShapeGeometry) -> Result<Arc<Prepared>, ShapeError> {
+        if let Some(at) = self.bodies.iter().rposition(|kept| kept.geometry == form) {
             self.bodies[at..].rotate_left(1);
             let last = self.bodies.last().map(|kept| Arc::clone(&kept.body));
             return last.map_or_else(|| Prepared::new(&form).map(Arc::new), Ok);
         }
         let body = Arc::new(Prepared::new(&form)?);
         let bytes = body.bytes() + form.bytes();
-        self.make_room(bytes);
-        if bytes <= self.most_bytes {
+        self.evict_until_fits(bytes);
+        if bytes <= self.max_bytes {
             self.bodies.push(Entry {
-                form,
+                geometry: form,
                 body: Arc::clone(&body),
                 bytes,
             });
@@ -54,11 +54,11 @@ impl BodyCache {
     }
 
     /// Removes the least recently used bodies until `bytes` fit.
-    fn make_room(&mut self, bytes: usize) {
+    fn evict_until_fits(&mut self, bytes: usize) {
         let mut held: usize = self.bodies.iter().map(|kept| kept.bytes).sum();
         let mut gone = 0;
         while gone < self.bodies.len()
-            && (held + bytes > self.most_bytes || self.bodies.len() - gone >= KEPT_BODIES)
+            && (held + bytes > self.max_bytes || self.bodies.len() - gone >= KEPT_BODIES)
         {
             held -= self.bodies[gone].bytes;
             gone += 1;

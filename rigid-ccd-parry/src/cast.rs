@@ -6,7 +6,7 @@ use crate::interval::Interval;
 use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDED_UP, SHARE_OF_SIZE};
+use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDING_FACTOR, MAX_TOLERANCE_SHARE};
 use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
@@ -81,7 +81,7 @@ impl Cast {
         shifted: [ShiftedMotion; 2],
     ) -> Result<Scene<'b>, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
-        let shifted = [0, 1].map(|k| shifted[k].without_spin_of(bodies[k]));
+        let shifted = [0, 1].map(|k| shifted[k].without_ball_rotation(bodies[k]));
         let sides = [0, 1].map(|k| shifted[k].motion_with_extent(bodies[k]));
         let slack = |k: usize| bodies[k].slack() + point_deviation(shifted[k].stray, &sides[k]);
         let rounded = self.velocity_rounding(relative_displacement(
@@ -111,7 +111,7 @@ impl Cast {
         then: impl FnOnce(&Scene<'_>) -> Result<T, CastError>,
     ) -> Result<T, CastError> {
         let frames = shifted.map(|shifted| shifted.motion);
-        let side = shifted[1 - index].without_spin_of(body);
+        let side = shifted[1 - index].without_ball_rotation(body);
         let stray = side.stray;
         let side = side.motion_with_extent(body);
         let of_plane = shifted[index].plane_with_extent(&side);
@@ -184,7 +184,7 @@ impl Cast {
         let sizes = bodies.iter().map(|body| body.ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
         let by_default = sizes.fold(self.contact, |least, size| {
-            lesser(least, SHARE_OF_SIZE * size)
+            lesser(least, MAX_TOLERANCE_SHARE * size)
         });
         let asked = self.options.tolerance;
         asked.unwrap_or(greater(by_default, LEAST_TOLERANCE))
@@ -239,7 +239,7 @@ impl ShiftedMotion {
         MotionWithExtent {
             motion: self.motion,
             about,
-            reach: (length(middle - about) + radius) * END_ROUNDED_UP,
+            reach: (length(middle - about) + radius) * END_ROUNDING_FACTOR,
         }
     }
 
@@ -259,7 +259,7 @@ impl ShiftedMotion {
     }
 
     /// Returns the motion with the angular velocity removed if the body is a ball that rotates about its centre.
-    fn without_spin_of(self, body: &Prepared) -> Self {
+    fn without_ball_rotation(self, body: &Prepared) -> Self {
         if body.point != Some(self.motion.centre()) {
             return self;
         }

@@ -16,11 +16,11 @@ use std::iter::repeat;
 ///
 /// A body is made of this alone: equal forms make equal bodies.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Form {
+pub(crate) struct ShapeGeometry {
     vertices: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     /// The sub-shape index of each triangle.
-    triangle_numbers: Vec<u32>,
+    triangle_sub_shapes: Vec<u32>,
     parts: Vec<Part>,
     /// A cylinder or a cone, grown by a radius, if the form consists of it alone.
     round: Option<(Round, f64, Excess)>,
@@ -41,12 +41,12 @@ struct Part {
     number: u32,
 }
 
-impl Form {
+impl ShapeGeometry {
     /// The form without any points.
-    pub(crate) const EMPTY: Form = Form {
+    pub(crate) const EMPTY: ShapeGeometry = ShapeGeometry {
         vertices: Vec::new(),
         triangles: Vec::new(),
-        triangle_numbers: Vec::new(),
+        triangle_sub_shapes: Vec::new(),
         parts: Vec::new(),
         round: None,
         volume: Volume::Surface,
@@ -56,15 +56,15 @@ impl Form {
     };
 
     /// Returns the form of a cylinder or a cone, grown by a radius; its polytope is made with the body.
-    pub(crate) fn of_round(round: Round, radius: f64, excess: Excess) -> Self {
-        Form {
+    pub(crate) fn from_round(round: Round, radius: f64, excess: Excess) -> Self {
+        ShapeGeometry {
             round: Some((round, radius, excess)),
-            ..Form::EMPTY
+            ..ShapeGeometry::EMPTY
         }
     }
 
     /// Returns the form with a polytope in place of a cylinder or a cone, if it is one.
-    pub(crate) fn with_polytope(&self) -> Result<Cow<'_, Form>, ShapeError> {
+    pub(crate) fn with_polytope(&self) -> Result<Cow<'_, ShapeGeometry>, ShapeError> {
         let Some((round, radius, excess)) = &self.round else {
             return Ok(Cow::Borrowed(self));
         };
@@ -78,14 +78,14 @@ impl Form {
             radius: *radius,
             ..about.polytope().clone()
         };
-        Ok(Cow::Owned(Form {
+        Ok(Cow::Owned(ShapeGeometry {
             parts: vec![Part {
                 polytope,
                 number: 0,
             }],
             excess: about.excess(),
             surface: has_surface.then_some((triangles, numbers)),
-            ..Form::EMPTY
+            ..ShapeGeometry::EMPTY
         }))
     }
 
@@ -144,7 +144,7 @@ impl Form {
         self.vertices.extend(vertices);
         let corners = |face: &[u32; 3]| face.map(|corner| first.saturating_add(corner));
         self.triangles.extend(faces.iter().map(corners));
-        (self.triangle_numbers).extend(numbers.into_iter().take(faces.len()));
+        (self.triangle_sub_shapes).extend(numbers.into_iter().take(faces.len()));
     }
 
     /// Returns the form in which the triangles are the surface of a solid.
@@ -154,7 +154,7 @@ impl Form {
     pub(crate) fn into_solid(self) -> Result<Self, ShapeError> {
         match open_edge(&self.vertices, &self.triangles) {
             Some([from, to]) => Err(ShapeError::Open { from, to }),
-            None => Ok(Form {
+            None => Ok(ShapeGeometry {
                 volume: Volume::Solid,
                 ..self
             }),
@@ -162,10 +162,10 @@ impl Form {
     }
 
     /// Adds another form at a pose, with the sub-shape index `number`.
-    pub(crate) fn push_placed(
+    pub(crate) fn push_at_pose(
         &mut self,
         pose: &Pose,
-        inner: &Form,
+        inner: &ShapeGeometry,
         number: u32,
     ) -> Result<(), ShapeError> {
         let inner = inner.with_polytope()?;
@@ -214,7 +214,7 @@ impl Form {
             |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, farthest(self.vertices.iter(), middle));
-        (middle, radius * crate::tolerance::END_ROUNDED_UP)
+        (middle, radius * crate::tolerance::END_ROUNDING_FACTOR)
     }
 
     /// Returns the centre if the form is a single ball; `None` for other forms.
@@ -239,12 +239,12 @@ impl Form {
     /// [`ShapeError::Piece`] that names the sub-shape, [`ShapeError::Body`].
     pub(crate) fn body(&self) -> Result<(Body, Vec<u32>), ShapeError> {
         let made = match (&self.parts[..], self.triangles.is_empty()) {
-            (parts, true) => self.of_parts(parts),
+            (parts, true) => self.body_of_parts(parts),
             ([], false) => {
-                Pieces::triangles(&self.vertices, &self.triangles, &self.triangle_numbers)
+                Pieces::triangles(&self.vertices, &self.triangles, &self.triangle_sub_shapes)
                     .and_then(|pieces| Body::new(&pieces, self.volume))
             }
-            (parts, false) => self.of_parts(&self.parts_and_triangles(parts)),
+            (parts, false) => self.body_of_parts(&self.parts_and_triangles(parts)),
         };
         let body = made.map_err(|error| self.with_sub_shape(error))?;
         let numbers = (0..body.pieces().len()).map(|k| self.sub_shape_of_piece(&body, k));
@@ -252,7 +252,7 @@ impl Form {
         Ok((body, numbers))
     }
 
-    fn of_parts(&self, parts: &[Part]) -> Result<Body, InputError> {
+    fn body_of_parts(&self, parts: &[Part]) -> Result<Body, InputError> {
         if let [part] = parts {
             let body = Body::polytope(part.polytope.clone())?;
             return match &self.surface {
@@ -287,7 +287,7 @@ impl Form {
         let faces = self
             .triangles
             .iter()
-            .zip(&self.triangle_numbers)
+            .zip(&self.triangle_sub_shapes)
             .map(of_face);
         parts.iter().cloned().chain(faces).collect()
     }
@@ -322,7 +322,10 @@ impl Form {
         };
         let number = |piece: usize| match self.parts.get(piece) {
             Some(part) => Some(part.number),
-            None => self.triangle_numbers.get(piece - self.parts.len()).copied(),
+            None => self
+                .triangle_sub_shapes
+                .get(piece - self.parts.len())
+                .copied(),
         };
         match piece.and_then(number) {
             Some(number) => ShapeError::Piece { number, error },

@@ -3,10 +3,10 @@
 //! The other body stays within a ball about a point of the half-space, in the half-space's frame. A box that holds the
 //! part of the half-space in that ball, and hardly more, has the same contacts.
 
-use crate::form::Form;
+use crate::form::ShapeGeometry;
 use crate::horizon::{Horizon, MotionWithExtent, repetition_time, time_of_turn};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{END_ROUNDED_UP, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
+use crate::tolerance::{END_ROUNDING_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
 use crate::{Prepared, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
@@ -83,14 +83,14 @@ impl HalfSpace {
         let rounding = PLANE_ROUNDING * length(velocity);
         let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         let height = normal.dot(to - from);
-        let reach = (body.reach + within + PLANE_ROUNDING * spread) * END_ROUNDED_UP;
+        let reach = (body.reach + within + PLANE_ROUNDING * spread) * END_ROUNDING_FACTOR;
         let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, needed) / rate * END_ROUNDED_UP)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * END_ROUNDING_FACTOR)
     }
 
     /// Bounds the distance from `plane.about` of all points of the half-space that the body may touch.
@@ -105,7 +105,7 @@ impl HalfSpace {
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         (length(b - p) + speed * duration + body.reach + within + PLANE_ROUNDING * spread)
-            * END_ROUNDED_UP
+            * END_ROUNDING_FACTOR
     }
 
     /// Returns a box that contains all points of the half-space within the distance `reach` of `plane.about`.
@@ -122,13 +122,13 @@ impl HalfSpace {
         // The face is above the plane, whatever rounding does to the corners.
         let above = PLANE_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
-        let wide = reach * END_ROUNDED_UP + above;
+        let wide = reach * END_ROUNDING_FACTOR + above;
         let corner = |k: u32| {
             let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
             let high = if k & 4 == 4 { above } else { below };
             middle + side(0) * across + side(1) * along + high * normal
         };
-        let mut form = Form::EMPTY;
+        let mut form = ShapeGeometry::EMPTY;
         form.excess = 2.0 * above;
         form.push_corners((0..8).map(corner).collect(), 0.0);
         Prepared::new(&form)

@@ -4,7 +4,7 @@
 //! have passed each other, and a motion that repeats itself need be looked at once.
 
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{END_ROUNDED_UP, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
+use crate::tolerance::{END_ROUNDING_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
@@ -69,12 +69,12 @@ impl Horizon {
 fn time_when_passed(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * END_ROUNDED_UP)
+    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * END_ROUNDING_FACTOR)
 }
 
 /// Bounds the relative displacement of the bodies while they may be in contact.
 pub(crate) fn relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
-    let rounding = (END_ROUNDED_UP - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
+    let rounding = (END_ROUNDING_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
     length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
 }
 
@@ -92,7 +92,7 @@ pub(crate) fn time_of_turn(spin: DVec3) -> f64 {
     if spin == DVec3::ZERO {
         0.0
     } else {
-        TAU / length(spin) * END_ROUNDED_UP
+        TAU / length(spin) * END_ROUNDING_FACTOR
     }
 }
 

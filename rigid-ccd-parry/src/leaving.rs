@@ -5,10 +5,10 @@
 
 mod direction;
 
-use crate::form::Form;
+use crate::form::ShapeGeometry;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{END_ROUNDED_UP, LARGEST_SLIDING_RATE};
+use crate::tolerance::{END_ROUNDING_FACTOR, LARGEST_SLIDING_RATE};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
@@ -17,7 +17,7 @@ use rigid_ccd::Solver;
 
 /// The maximum number of pairs of pieces that are ignored because they part. Beyond it the bodies are in contact at the
 /// start.
-const MOST_PAIRS: usize = 256;
+const MAX_PARTING_PAIRS: usize = 256;
 
 /// Returns the first contact of all pairs of pieces that do not begin to part; `overlap` is the hit at the start.
 pub(crate) fn first_contact_unless_parting(
@@ -39,7 +39,7 @@ pub(crate) fn first_contact_unless_parting(
             Ending::Overlap => {
                 left_out += 1;
                 let [a, b] = found.numbers;
-                if left_out > MOST_PAIRS || !begin_to_part(scene, [a, b], solver) {
+                if left_out > MAX_PARTING_PAIRS || !begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
                 }
                 let [mut of_a, of_b] = task;
@@ -77,7 +77,7 @@ fn first_contact_of_pieces(
 
 /// Returns a body of the given pieces, with the pieces' indices as sub-shape indices.
 fn body_of_pieces(body: &Prepared, pieces: &[u32]) -> Result<Prepared, crate::ShapeError> {
-    let mut form = Form::EMPTY;
+    let mut form = ShapeGeometry::EMPTY;
     for &number in pieces {
         let piece = body.body().pieces().get(number as usize);
         form.push_hull(
@@ -103,10 +103,10 @@ fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
         let rounding =
-            (END_ROUNDED_UP - 1.0) * (length(place) + length(from) + length(displacement));
+            (END_ROUNDING_FACTOR - 1.0) * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * END_ROUNDED_UP + rounding)
+        !(apart > (within + radius) * END_ROUNDING_FACTOR + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces

@@ -136,7 +136,7 @@ pub mod f32 {
             "f32"
         };
     }
-    pub(crate) use crate::tolerance::CONTACT_F32 as CONTACT;
+    pub(crate) use crate::tolerance::CONTACT_DISTANCE_F32 as CONTACT;
     pub(crate) use parry3d as library;
 
     #[path = "api.rs"]
@@ -164,7 +164,7 @@ pub mod f64 {
             "f64"
         };
     }
-    pub(crate) use crate::tolerance::CONTACT_F64 as CONTACT;
+    pub(crate) use crate::tolerance::CONTACT_DISTANCE_F64 as CONTACT;
     pub(crate) use parry3d_f64 as library;
 
     #[path = "api.rs"]

@@ -1,7 +1,7 @@
 //! Bodies made from shapes, with what casts need to know about them.
 
 use crate::ShapeError;
-use crate::form::Form;
+use crate::form::ShapeGeometry;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 
@@ -26,7 +26,7 @@ pub struct Prepared {
 
 impl Prepared {
     /// Makes the body from the geometry of a shape.
-    pub(crate) fn new(form: &Form) -> Result<Self, ShapeError> {
+    pub(crate) fn new(form: &ShapeGeometry) -> Result<Self, ShapeError> {
         let form = form.with_polytope()?;
         let (body, numbers) = form.body()?;
         let together = if form.slack > 0.0 {

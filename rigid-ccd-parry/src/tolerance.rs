@@ -10,16 +10,16 @@ use ccd_core::rounding::U64;
 /// reports twice as early; a thousandth of it takes a few percent longer, for contacts that single precision can
 /// not tell apart.
 #[cfg(feature = "f32")]
-pub(crate) const CONTACT_F32: f64 = 1e-6;
+pub(crate) const CONTACT_DISTANCE_F32: f64 = 1e-6;
 
 /// The default contact distance in double precision, in the scene's unit of length. parry's casts stop at 2e-15, which
 /// no proof in double precision can reach.
 #[cfg(feature = "f64")]
-pub(crate) const CONTACT_F64: f64 = 1e-9;
+pub(crate) const CONTACT_DISTANCE_F64: f64 = 1e-9;
 
 /// The largest default tolerance, as a share of the smaller body's radius, so that tiny bodies are not in contact at a
 /// distance of their own size.
-pub(crate) const SHARE_OF_SIZE: f64 = 1.0 / (1 << 20) as f64;
+pub(crate) const MAX_TOLERANCE_SHARE: f64 = 1.0 / (1 << 20) as f64;
 
 /// A bound on the rounding error of a point to which a pose is applied in f64, relative to the lengths of the point and
 /// of the translation.
@@ -50,7 +50,7 @@ pub(crate) const DIFFERENCE_ROUNDING: f64 = 2.0 * U64;
 
 /// The factor on lengths and times at the end of an interval that covers their rounding: the sums and quotients that
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
-pub(crate) const END_ROUNDED_UP: f64 = 1.0 + 1024.0 * U64;
+pub(crate) const END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * U64;
 
 /// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;

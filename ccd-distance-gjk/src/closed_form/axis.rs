@@ -13,12 +13,12 @@ use ccd_core::vector::unit;
 /// edges, their cross product; for a face, its normal; and in one plane, the normals of the edges within it.
 #[derive(Debug)]
 pub(crate) struct Candidates<L: Simd> {
-    directions: [Lanes3<L>; GROUPS],
+    directions: [Lanes3<L>; LANE_GROUPS],
     /// The support gaps along the unit vectors, −∞ for directions that are zero.
-    gaps: [f64x4<L>; GROUPS],
+    gaps: [f64x4<L>; LANE_GROUPS],
 }
 
-const GROUPS: usize = 8;
+const LANE_GROUPS: usize = 8;
 
 impl<L: Simd> Candidates<L> {
     /// Computes the candidates of two triangles whose nearest points differ by about `w`.
@@ -26,7 +26,7 @@ impl<L: Simd> Candidates<L> {
     pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
         let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
-        let lanes_q = with_lane(level, edges_q, DVec3::ZERO);
+        let lanes_q = with_fourth_lane(level, edges_q, DVec3::ZERO);
         // Nearly parallel edges have a cross product that rounding tilts along them.
         let cross = |e: DVec3| {
             let e = Lanes3::splat(level, e);
@@ -39,13 +39,13 @@ impl<L: Simd> Candidates<L> {
                 cross(edges_p[0]),
                 cross(edges_p[1]),
                 cross(edges_p[2]),
-                w.perpendicular_to(with_lane(level, edges_p, DVec3::ZERO)),
+                w.perpendicular_to(with_fourth_lane(level, edges_p, DVec3::ZERO)),
                 w.perpendicular_to(lanes_q),
-                with_lane(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
-                with_lane(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
+                with_fourth_lane(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
+                with_fourth_lane(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
                 axes_of_longest_edge(level, &edges_p, &edges_q),
             ],
-            gaps: [splat(level, 0.0); GROUPS],
+            gaps: [splat(level, 0.0); LANE_GROUPS],
         };
         for (n, gap) in out.directions.iter_mut().zip(&mut out.gaps) {
             (*n, *gap) = oriented(p, q, *n);
@@ -57,7 +57,8 @@ impl<L: Simd> Candidates<L> {
     /// zero, and the gap −∞.
     pub(crate) fn best(&self) -> (DVec3, f64) {
         let gap = |k: usize| self.gaps[k / 4][k % 4];
-        let best = (0..4 * GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
+        let best =
+            (0..4 * LANE_GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
         let direction = unit(self.directions[best / 4].lane(best % 4));
         (direction.unwrap_or(DVec3::ZERO), gap(best))
     }
@@ -92,7 +93,7 @@ fn edges([a, b, c]: &Corners) -> [DVec3; 3] {
 /// rotation about that edge.
 fn normal(edges: &[DVec3; 3]) -> DVec3 {
     let n = edges[0].cross(edges[1]);
-    let long = longest(edges);
+    let long = longest_edge(edges);
     match long.length_squared() {
         square if square > 0.0 => n - n.dot(long) / square * long,
         _ => n,
@@ -106,13 +107,13 @@ fn axes_of_longest_edge<L: Simd>(
     edges_p: &[DVec3; 3],
     edges_q: &[DVec3; 3],
 ) -> Lanes3<L> {
-    let edge = longest(&[longest(edges_p), longest(edges_q)]);
+    let edge = longest_edge(&[longest_edge(edges_p), longest_edge(edges_q)]);
     let along = unit(edge).unwrap_or(DVec3::X);
     let (across, other) = along.any_orthonormal_pair();
-    with_lane(level, [along, across, other], DVec3::ZERO)
+    with_fourth_lane(level, [along, across, other], DVec3::ZERO)
 }
 
-fn longest(edges: &[DVec3]) -> DVec3 {
+fn longest_edge(edges: &[DVec3]) -> DVec3 {
     edges.iter().fold(DVec3::ZERO, |best, &e| {
         if e.length_squared() > best.length_squared() {
             e
@@ -123,6 +124,6 @@ fn longest(edges: &[DVec3]) -> DVec3 {
 }
 
 #[inline(always)]
-fn with_lane<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
+fn with_fourth_lane<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
     Lanes3::new(level, [a, b, c, d])
 }

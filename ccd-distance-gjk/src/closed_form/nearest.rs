@@ -42,9 +42,9 @@ pub(crate) fn nearest(level: Level, p: &Corners, q: &Corners) -> Nearest {
 
 #[inline(always)]
 fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
-    let edges = edges_to_edges(level, p, q);
-    let corners_q = corners_to_face(level, p, q);
-    let corners_p = corners_to_face(level, q, p);
+    let edges = nearest_edge_points(level, p, q);
+    let corners_q = project_corners_to_face(level, p, q);
+    let corners_p = project_corners_to_face(level, q, p);
     let face_p = corners_q.square.simd_lt(corners_p.square);
     let faces = corners_q.square.min(corners_p.square);
     let (at_edges, at_faces) = (least_lane(edges.square), least_lane(faces));
@@ -87,7 +87,7 @@ impl<L: Simd> EdgeEdge<L> {
 const LANE_CORNER: [usize; 4] = [0, 1, 2, 2];
 
 #[inline(always)]
-fn edges_to_edges<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
+fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<L> {
     let starts = Lanes3::new(level, LANE_CORNER.map(|k| q[k]));
     let f = Lanes3::new(level, [q[1] - q[0], q[2] - q[1], q[0] - q[2], DVec3::ZERO]);
     let per_f = reciprocal(f.dot(f));
@@ -141,7 +141,7 @@ impl<L: Simd> CornerFace<L> {
 }
 
 #[inline(always)]
-fn corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> CornerFace<L> {
+fn project_corners_to_face<L: Simd>(level: L, face: &Corners, corners: &Corners) -> CornerFace<L> {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
     let square = n.length_squared();

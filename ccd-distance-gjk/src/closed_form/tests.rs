@@ -9,7 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rstest::rstest;
 
-const FLOOR: [DVec3; 3] = [
+const BASE_TRIANGLE: [DVec3; 3] = [
     DVec3::ZERO,
     DVec3::new(4.0, 0.0, 0.0),
     DVec3::new(0.0, 4.0, 0.0),
@@ -39,7 +39,7 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
 #[case::corner_beside_corner([v(6.0, -1.0, 1.0), v(7.0, -2.0, 1.0), v(7.0, -1.0, 2.0)], &[1], &[0])]
 #[case::crossed_edges([v(1.0, -1.0, -1.0), v(1.0, -1.0, 1.0), v(1.0, -4.0, 0.0)], &[0, 1], &[0, 1])]
 fn names_the_features(#[case] b: [DVec3; 3], #[case] of_a: &[u32], #[case] of_b: &[u32]) {
-    let claim = claim(&FLOOR, &b).expect("triangles");
+    let claim = claim(&BASE_TRIANGLE, &b).expect("triangles");
     let sorted = |support: &[u32]| {
         let mut support = support.to_vec();
         support.sort_unstable();
@@ -61,33 +61,33 @@ fn segments_and_points_keep_their_indices() {
 #[test]
 fn refuses_other_numbers_of_points() {
     let four = [DVec3::ZERO; 4];
-    assert_eq!(claim(&four, &FLOOR), Err(GiveUp::TooManyPoints));
-    assert_eq!(claim(&FLOOR, &four), Err(GiveUp::TooManyPoints));
-    assert_eq!(claim(&FLOOR, &[]), Err(GiveUp::TooManyPoints));
+    assert_eq!(claim(&four, &BASE_TRIANGLE), Err(GiveUp::TooManyPoints));
+    assert_eq!(claim(&BASE_TRIANGLE, &four), Err(GiveUp::TooManyPoints));
+    assert_eq!(claim(&BASE_TRIANGLE, &[]), Err(GiveUp::TooManyPoints));
 }
 
 /// Tests triangles that intersect although their boundaries are far apart.
 #[test]
 fn finds_the_point_where_an_edge_passes_through() {
     let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
-    let near = nearest(&FLOOR, &spear);
-    assert!(near.difference(&FLOOR, &spear).length() > 0.9);
-    let common = common_point(&FLOOR, &spear, near);
-    assert!(common.difference(&FLOOR, &spear).length() < 1e-15);
+    let near = nearest(&BASE_TRIANGLE, &spear);
+    assert!(near.difference(&BASE_TRIANGLE, &spear).length() > 0.9);
+    let common = common_point(&BASE_TRIANGLE, &spear, near);
+    assert!(common.difference(&BASE_TRIANGLE, &spear).length() < 1e-15);
     // From either side.
-    let near = nearest(&spear, &FLOOR);
-    let common = common_point(&spear, &FLOOR, near);
-    assert!(common.difference(&spear, &FLOOR).length() < 1e-15);
+    let near = nearest(&spear, &BASE_TRIANGLE);
+    let common = common_point(&spear, &BASE_TRIANGLE, near);
+    assert!(common.difference(&spear, &BASE_TRIANGLE).length() < 1e-15);
 }
 
 /// Tests a point behind the plane that is nearest to another part of the boundary, which is no intersection.
 #[test]
 fn does_not_pierce_outside_of_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
-    let near = nearest(&FLOOR, &spear);
-    let before = near.difference(&FLOOR, &spear).length();
-    let after = common_point(&FLOOR, &spear, near)
-        .difference(&FLOOR, &spear)
+    let near = nearest(&BASE_TRIANGLE, &spear);
+    let before = near.difference(&BASE_TRIANGLE, &spear).length();
+    let after = common_point(&BASE_TRIANGLE, &spear, near)
+        .difference(&BASE_TRIANGLE, &spear)
         .length();
     assert!((after - before).abs() < 1e-14);
 }

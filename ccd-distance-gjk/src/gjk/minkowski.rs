@@ -9,22 +9,22 @@ use ccd_core::{Piece, PiecePair};
 ///
 /// Points are relative to the first one of their piece: rounding depends on the sizes and the distance of the pieces,
 /// not on their positions.
-pub(crate) struct Difference<'a> {
+pub(crate) struct MinkowskiDifference<'a> {
     pair: &'a PiecePair<'a>,
-    first_a: DVec3,
-    first_b: DVec3,
+    first_point_a: DVec3,
+    first_point_b: DVec3,
     /// The vector from the first point of A's piece to that of B's.
     pub(crate) between: DVec3,
 }
 
-impl<'a> Difference<'a> {
+impl<'a> MinkowskiDifference<'a> {
     /// Creates the difference of a pair of pieces; `None` if a piece has no points.
     pub(crate) fn new(pair: &'a PiecePair<'a>) -> Option<Self> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
-        Some(Difference {
+        Some(MinkowskiDifference {
             pair,
-            first_a,
-            first_b,
+            first_point_a: first_a,
+            first_point_b: first_b,
             between: pair.b_to_a.point(first_b) - first_a,
         })
     }
@@ -32,21 +32,21 @@ impl<'a> Difference<'a> {
     /// Returns a point of A's piece, relative to the piece's first point.
     #[inline]
     pub(crate) fn point_a(&self, index: u32) -> Option<DVec3> {
-        Some(*self.pair.a.points.get(index as usize)? - self.first_a)
+        Some(*self.pair.a.points.get(index as usize)? - self.first_point_a)
     }
 
     /// Returns a point of B's piece, relative to the piece's first point.
     #[inline]
     pub(crate) fn point_b(&self, index: u32) -> Option<DVec3> {
-        let turned = *self.pair.b.points.get(index as usize)? - self.first_b;
+        let turned = *self.pair.b.points.get(index as usize)? - self.first_point_b;
         Some(self.pair.b_to_a.rotation * turned + self.between)
     }
 
     /// Returns the vertex of the difference with the least height along `direction`.
     pub(crate) fn support(&self, direction: DVec3) -> Vertex {
-        let a = farthest(&self.pair.a, self.first_a, direction);
+        let a = farthest(&self.pair.a, self.first_point_a, direction);
         let turned = self.pair.b_to_a.inverse_vector(direction);
-        let b = farthest(&self.pair.b, self.first_b, -turned);
+        let b = farthest(&self.pair.b, self.first_point_b, -turned);
         self.vertex(a, b).unwrap_or(Vertex {
             point: self.between,
             a: 0,

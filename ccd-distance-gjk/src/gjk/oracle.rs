@@ -1,13 +1,13 @@
 //! GJK as a distance oracle.
 
-use super::minkowski::Difference;
+use super::minkowski::MinkowskiDifference;
 use super::refine;
 use super::search::{Best, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
-use super::termination::{Stop, gap_equals_distance};
-use crate::tolerance::{CERTIFIED_ULPS, MAX_ROUNDS, MIN_CERTIFIED_SHARE};
+use super::termination::{StopReason, gap_equals_distance};
+use crate::tolerance::{CERTIFIED_ULPS, MAX_FEATURE_AXIS_ROUNDS, MIN_CERTIFIED_SHARE};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
@@ -44,7 +44,7 @@ impl DistanceOracle for Gjk {
     type Cache = Cache;
 
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
-        let Some(difference) = Difference::new(pair) else {
+        let Some(difference) = MinkowskiDifference::new(pair) else {
             return Ok(EMPTY_CLAIM);
         };
         let found = solve_from(&difference, cache);
@@ -63,7 +63,7 @@ pub(crate) const EMPTY_CLAIM: Claim = Claim {
 /// Searches for the nearest point from the cached simplex, and again without it if the result is poor.
 ///
 /// A cached simplex may be degenerate at the new positions, so that no step gets nearer.
-pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
+pub(crate) fn solve_from(difference: &MinkowskiDifference<'_>, cache: &Cache) -> Best {
     let found = solve(difference, cache.simplex(difference));
     if found.gap > 0.0 && !is_certified(&found) {
         found.combine(solve(difference, Cache::default().simplex(difference)))
@@ -75,16 +75,16 @@ pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Best {
 /// Searches for the nearest point, and again from other vertices if rounding stalls the search.
 ///
 /// A search that stalls before its axis certifies the distance continues from the vertices found by axes of features.
-pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Best {
+pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) -> Best {
     let mut found = Best::empty();
-    for _ in 0..MAX_ROUNDS {
+    for _ in 0..MAX_FEATURE_AXIS_ROUNDS {
         let before = found.square;
         let stop = search(difference, simplex, &mut found);
-        if stop == Stop::Enclosed {
+        if stop == StopReason::Enclosed {
             sharpen::try_face_axes(difference, &mut found);
             break;
         }
-        if stop == Stop::Converged && found.gap >= MIN_CERTIFIED_SHARE * found.square.sqrt() {
+        if stop == StopReason::Converged && found.gap >= MIN_CERTIFIED_SHARE * found.square.sqrt() {
             break;
         }
         refine::witnesses(difference, found.simplex, &mut found);

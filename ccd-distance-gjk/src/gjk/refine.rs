@@ -1,6 +1,6 @@
 //! Improves the nearest points of a search by closed forms.
 
-use super::minkowski::Difference;
+use super::minkowski::MinkowskiDifference;
 use super::search::Best;
 use super::simplex::Simplex;
 use crate::closed_form::nearest::{Corners, nearest};
@@ -12,7 +12,7 @@ use ccd_core::order::lesser;
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.
-pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Best) {
+pub(crate) fn witnesses(difference: &MinkowskiDifference<'_>, simplex: Simplex, found: &mut Best) {
     let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
     let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
@@ -55,7 +55,7 @@ impl Points {
 
 /// Returns vertices of the difference, and weights, whose combination equals given combinations of both pieces' points.
 fn pair_weights(
-    difference: &Difference<'_>,
+    difference: &MinkowskiDifference<'_>,
     p: &Points,
     q: &Points,
     paired_weights: PairedWeights,

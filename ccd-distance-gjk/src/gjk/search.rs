@@ -1,8 +1,8 @@
 //! The iteration of the GJK algorithm `[GJK88]`.
 
-use super::minkowski::Difference;
+use super::minkowski::MinkowskiDifference;
 use super::simplex::{Simplex, Vertex};
-use super::termination::{Stop, gap_equals_distance, is_at_origin};
+use super::termination::{StopReason, gap_equals_distance, is_at_origin};
 use crate::tolerance::{CONVERGED_ULPS, MAX_STEPS};
 use ccd_core::glam::DVec3;
 
@@ -48,7 +48,11 @@ impl Best {
     }
 
     /// Computes the support gap along an axis, and the vertex with the least height along it.
-    pub(crate) fn probe(&mut self, difference: &Difference<'_>, axis: DVec3) -> (Vertex, f64) {
+    pub(crate) fn probe_axis(
+        &mut self,
+        difference: &MinkowskiDifference<'_>,
+        axis: DVec3,
+    ) -> (Vertex, f64) {
         let vertex = difference.support(axis);
         let gap = axis.dot(vertex.point) / axis.length_squared().sqrt();
         if gap > self.gap {
@@ -60,33 +64,37 @@ impl Best {
 
 /// Searches for the point of the difference that is nearest to the origin, from an initial simplex. `found` keeps the
 /// best result, however the search stops.
-pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Best) -> Stop {
+pub(crate) fn search(
+    difference: &MinkowskiDifference<'_>,
+    mut simplex: Simplex,
+    found: &mut Best,
+) -> StopReason {
     for _ in 0..MAX_STEPS {
         let Some(foot) = simplex.foot() else {
-            return Stop::Stalled;
+            return StopReason::Stalled;
         };
         let square = foot.point.length_squared();
         // Written so that NaN stops it.
         if !(square < found.square) {
-            return Stop::Stalled;
+            return StopReason::Stalled;
         }
         let reduced;
         (reduced, found.weights) = simplex.without_zero_weights(&foot);
         (found.simplex, found.square) = (reduced, square);
         let Some(direction) = foot.direction else {
-            return Stop::Enclosed;
+            return StopReason::Enclosed;
         };
         if is_at_origin(&foot, &simplex) {
-            return Stop::Touching;
+            return StopReason::Touching;
         }
-        let (vertex, gap) = found.probe(difference, direction);
+        let (vertex, gap) = found.probe_axis(difference, direction);
         if gap_equals_distance(gap, square, &simplex, CONVERGED_ULPS) {
-            return Stop::Converged;
+            return StopReason::Converged;
         }
         simplex = reduced;
         if !simplex.push(vertex) {
-            return Stop::Stalled;
+            return StopReason::Stalled;
         }
     }
-    Stop::Capped
+    StopReason::StepLimit
 }

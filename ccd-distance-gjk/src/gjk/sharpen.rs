@@ -2,7 +2,7 @@
 //! difference.
 
 use super::fan::AxisCandidates;
-use super::minkowski::Difference;
+use super::minkowski::MinkowskiDifference;
 use super::search::Best;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::MAX_AXIS_VERTICES;
@@ -18,14 +18,14 @@ use ccd_core::vector::unit;
 /// the nearest point's direction out of that cone when the point is short. The axis is therefore
 /// made perpendicular to one or two of the edges `x − f` towards vertices x below it, repeatedly,
 /// until no vertex is below it.
-pub(crate) fn try_feature_axes(difference: &Difference<'_>, found: &mut Best) -> Simplex {
+pub(crate) fn try_feature_axes(difference: &MinkowskiDifference<'_>, found: &mut Best) -> Simplex {
     let Some(mut fan) = AxisCandidates::new(found) else {
         return Simplex::EMPTY;
     };
     if found.axis == DVec3::ZERO {
         // The search found no axis: any axis finds the first vertices.
         let axis = unit(difference.between).unwrap_or(DVec3::X);
-        fan.push(found.probe(difference, axis).0);
+        fan.push(found.probe_axis(difference, axis).0);
     }
     for _ in 0..MAX_AXIS_VERTICES {
         let (axis, promise) = fan.best(found.axis);
@@ -33,7 +33,7 @@ pub(crate) fn try_feature_axes(difference: &Difference<'_>, found: &mut Best) ->
         if !(promise > found.gap) {
             break;
         }
-        let (vertex, gap) = found.probe(difference, axis);
+        let (vertex, gap) = found.probe_axis(difference, axis);
         if gap >= promise || !fan.push(vertex) {
             break;
         }
@@ -42,7 +42,7 @@ pub(crate) fn try_feature_axes(difference: &Difference<'_>, found: &mut Best) ->
 }
 
 /// Tries the face normals of a simplex that encloses the origin as axes of least penetration.
-pub(crate) fn try_face_axes(difference: &Difference<'_>, found: &mut Best) {
+pub(crate) fn try_face_axes(difference: &MinkowskiDifference<'_>, found: &mut Best) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {
         return;
@@ -51,7 +51,7 @@ pub(crate) fn try_face_axes(difference: &Difference<'_>, found: &mut Best) {
         let n = (b.point - a.point).cross(c.point - a.point);
         let inward = if n.dot(a.point) > 0.0 { -n } else { n };
         if let Some(axis) = unit(inward) {
-            found.probe(difference, axis);
+            found.probe_axis(difference, axis);
         }
     }
 }

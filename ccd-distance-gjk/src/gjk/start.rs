@@ -1,6 +1,6 @@
 //! Chooses the simplex from which a search starts: that of the last call on the pair, or a support vertex.
 
-use super::minkowski::Difference;
+use super::minkowski::MinkowskiDifference;
 use super::search::Best;
 use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
@@ -32,7 +32,7 @@ impl Cache {
     }
 
     /// Returns the simplex to start from, which is never empty.
-    pub(crate) fn simplex(&self, difference: &Difference<'_>) -> Simplex {
+    pub(crate) fn simplex(&self, difference: &MinkowskiDifference<'_>) -> Simplex {
         let mut simplex = Simplex::EMPTY;
         for &[a, b] in self.pairs.iter().take(usize::from(self.len)) {
             if let Some(vertex) = difference.vertex(a, b) {

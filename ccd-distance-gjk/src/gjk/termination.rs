@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 
 /// The reason why a search stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stop {
+pub(crate) enum StopReason {
     /// The support gap equals the distance, up to rounding.
     Converged,
     /// The nearest point is the origin, up to rounding.
@@ -17,7 +17,7 @@ pub(crate) enum Stop {
     /// No vertex decreases the distance from the origin.
     Stalled,
     /// The search reached its limit of steps.
-    Capped,
+    StepLimit,
 }
 
 /// Returns whether the nearest point is the origin, up to rounding.

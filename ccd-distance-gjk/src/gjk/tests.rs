@@ -2,15 +2,15 @@
 
 use super::fan::AxisCandidates;
 use super::foot::NearestPoint;
-use super::minkowski::Difference;
+use super::minkowski::MinkowskiDifference;
 use super::oracle::{is_certified, solve, solve_from};
 use super::refine::PairedWeights;
 use super::search::{Best, search};
 use super::simplex::{Simplex, Vertex};
 use super::start::Cache;
-use super::termination::Stop;
+use super::termination::StopReason;
 use super::{segment, tetrahedron, triangle};
-use crate::tests::scene::{self, Meeting, Pcg64, SeedableRng};
+use crate::tests::scene::{self, NearestFeatures, Pcg64, SeedableRng};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Body, Frame, PiecePair};
@@ -40,7 +40,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
 }
 
 /// Checks that a foot is the nearest point: it is a convex combination, and no corner is nearer along it than the foot.
-fn is_nearest(corners: &[DVec3], foot: &NearestPoint) {
+fn assert_nearest(corners: &[DVec3], foot: &NearestPoint) {
     let size = corners
         .iter()
         .map(|c| c.length_squared())
@@ -78,11 +78,11 @@ fn feet_are_nearest() {
     for seed in 0..20_000 {
         let corners = corners(&mut Pcg64::seed_from_u64(seed));
         let [a, b, c, d] = corners;
-        is_nearest(&corners[..2], &segment::foot(a, b));
-        is_nearest(&corners[..3], &triangle::foot(a, b, c));
+        assert_nearest(&corners[..2], &segment::foot(a, b));
+        assert_nearest(&corners[..3], &triangle::foot(a, b, c));
         let foot = tetrahedron::foot([a, b, c, d]);
         enclosed += u32::from(foot.direction.is_none());
-        is_nearest(&corners, &foot);
+        assert_nearest(&corners, &foot);
     }
     assert!(
         (500..10_000).contains(&enclosed),
@@ -173,14 +173,17 @@ fn a_fan_finds_the_axis_between_its_edges() {
 fn stalled_searches_are_taken_up_again() {
     let (mut stalled, mut short) = (0, 0);
     for seed in 0..1000 {
-        let scene =
-            scene::near_contact(&mut Pcg64::seed_from_u64(seed), Meeting::CrossedEdges, 1e-9);
+        let scene = scene::near_contact(
+            &mut Pcg64::seed_from_u64(seed),
+            NearestFeatures::CrossedEdges,
+            1e-9,
+        );
         let pair = scene.pair();
-        let difference = Difference::new(&pair).expect("pieces with points");
+        let difference = MinkowskiDifference::new(&pair).expect("pieces with points");
         let start = || Cache::default().simplex(&difference);
         let mut alone = Best::empty();
         let stop = search(&difference, start(), &mut alone);
-        stalled += u32::from(stop == Stop::Stalled);
+        stalled += u32::from(stop == StopReason::Stalled);
         short += u32::from(alone.gap < 0.5 * alone.square.sqrt());
         let found = solve(&difference, start());
         assert!(
@@ -213,7 +216,7 @@ fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
                 b: b.pieces().get(0),
                 b_to_a: a_to_world.from_frame(&Frame::IDENTITY),
             };
-            let difference = Difference::new(&pair).unwrap();
+            let difference = MinkowskiDifference::new(&pair).unwrap();
             let warm = solve(&difference, cache.simplex(&difference));
             stalled += u32::from(!is_certified(&warm));
             let found = solve_from(&difference, &cache);

@@ -13,7 +13,7 @@ use ccd_core::order::greater;
 /// face with the origin on its inner side may contain the nearest point.
 pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
     let heights = FACES.map(|[apex, a, b, c]| {
-        Height::with_certain_side(corners[a], corners[b], corners[c], corners[apex])
+        FaceHeights::with_certain_side(corners[a], corners[b], corners[c], corners[apex])
     });
     if let [Some(a), Some(b), Some(c), Some(d)] = heights
         && let Some(inside) = weights_of_origin(corners, [a, b, c, d])
@@ -33,7 +33,7 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
 /// Returns the weights of the origin inside the tetrahedron; `None` if rounding prevents it.
-fn weights_of_origin(corners: [DVec3; 4], heights: [Height; 4]) -> Option<NearestPoint> {
+fn weights_of_origin(corners: [DVec3; 4], heights: [FaceHeights; 4]) -> Option<NearestPoint> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
         terms.fold(DVec3::ZERO, |sum, (&corner, weight)| sum + corner * weight)
@@ -43,12 +43,12 @@ fn weights_of_origin(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Neares
         let total = weights.iter().fold(0.0, |sum, &weight| sum + weight);
         weights.map(|weight| weight / total)
     };
-    let mut weights = normalised(heights.map(|height| height.of_origin / height.of_apex));
+    let mut weights = normalised(heights.map(|height| height.origin_height / height.apex_height));
     // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights is accurate, and
     // each round of correction gains as many digits again.
     for _ in 0..WEIGHT_CORRECTIONS {
         let missed = combined(weights);
-        let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
+        let correction = heights.map(|height| height.normal.dot(missed) / height.apex_height);
         weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));
     }
     let reach = corners
@@ -66,13 +66,13 @@ fn weights_of_origin(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Neares
 
 /// The heights of the origin and of the opposite corner above a face, both times the length of the face's normal.
 #[derive(Clone, Copy)]
-struct Height {
+struct FaceHeights {
     normal: DVec3,
-    of_origin: f64,
-    of_apex: f64,
+    origin_height: f64,
+    apex_height: f64,
 }
 
-impl Height {
+impl FaceHeights {
     /// Computes both heights; `None` unless both are certainly on the same side of the face.
     fn with_certain_side(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
@@ -84,10 +84,10 @@ impl Height {
         let certain = of_origin * of_apex > 0.0
             && of_origin * of_origin > unit * a.length_squared()
             && of_apex * of_apex > unit * up.length_squared();
-        certain.then_some(Height {
+        certain.then_some(FaceHeights {
             normal,
-            of_origin,
-            of_apex,
+            origin_height: of_origin,
+            apex_height: of_apex,
         })
     }
 }

@@ -43,12 +43,12 @@ fn nearest_in_face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> NearestPoi
     let n = n - edge * (n.dot(edge) / length2);
     let total = areas[0] + areas[1] + areas[2];
     let mut weights = areas.map(|area| area / total);
-    let back = combined(corners, weights).dot(edge) / length2;
+    let back = weighted_sum(corners, weights).dot(edge) / length2;
     // Clamped to the edges.
     let back = lesser(weights[end], greater(-weights[start], back));
     weights[start] += back;
     weights[end] -= back;
-    let point = combined(corners, weights);
+    let point = weighted_sum(corners, weights);
     NearestPoint {
         weights: [weights[0], weights[1], weights[2], 0.0],
         point,
@@ -75,6 +75,6 @@ fn less_tilted_direction(corners: [DVec3; 3], n: DVec3, point: DVec3, length2: f
     }
 }
 
-fn combined(corners: [DVec3; 3], [u, v, w]: [f64; 3]) -> DVec3 {
+fn weighted_sum(corners: [DVec3; 3], [u, v, w]: [f64; 3]) -> DVec3 {
     corners[0] * u + corners[1] * v + corners[2] * w
 }

@@ -14,7 +14,7 @@ pub(super) struct Checked {
 }
 
 /// Calls a new oracle with an empty cache.
-pub(super) fn cold<O: DistanceOracle + Default>(scene: &Scene) -> Claim {
+pub(super) fn claim_with_empty_cache<O: DistanceOracle + Default>(scene: &Scene) -> Claim {
     ask(&mut O::default(), scene, &mut O::Cache::default())
 }
 
@@ -45,7 +45,7 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
 /// Checks that the axis certifies the distance of separate pieces: up to rounding if they are well apart, else at least
 /// half of it.
 pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> Checked {
-    let checked = check(scene, &cold::<O>(scene));
+    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     let Checked { distance, gap } = checked;
     assert!(
         gap <= distance + 1e-14 * scene.size,
@@ -62,8 +62,8 @@ pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -
 }
 
 /// Checks that the nearest points of separate pieces are as near as by brute force.
-pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
-    let checked = check(scene, &cold::<O>(scene));
+pub(super) fn agrees_with_brute_force<O: DistanceOracle + Default>(scene: &Scene) {
+    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     let (a, b) = scene.local();
     let truth = twin::distance(&a, &b);
     let error = (checked.distance - truth).abs();
@@ -74,8 +74,8 @@ pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
 }
 
 /// Checks that both combinations of intersecting pieces are the same point, to a share of the size.
-pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
-    let checked = check(scene, &cold::<O>(scene));
+pub(super) fn finds_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
+    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
         checked.distance <= within * scene.size,
         "{checked:?} of {scene:?}"
@@ -84,7 +84,7 @@ pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene, w
 
 /// Checks that the axis separates the interiors of pieces that only just touch.
 pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
-    let checked = check(scene, &cold::<O>(scene));
+    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
         checked.distance <= 1e-12 * scene.size,
         "{checked:?} of {scene:?}"
@@ -97,9 +97,9 @@ pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
 
 /// Checks that exchanging the pieces exchanges the answer.
 pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
-    let one = check(scene, &cold::<O>(scene));
+    let one = check(scene, &claim_with_empty_cache::<O>(scene));
     let swapped = scene.swapped();
-    let other = check(&swapped, &cold::<O>(&swapped));
+    let other = check(&swapped, &claim_with_empty_cache::<O>(&swapped));
     let error = (one.distance - other.distance).abs();
     assert!(
         error <= 1e-12 * scene.size,
@@ -112,7 +112,7 @@ pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
 pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     let (mut used, mut cache) = (O::default(), O::Cache::default());
     for scene in scenes {
-        let fresh = cold::<O>(scene);
+        let fresh = claim_with_empty_cache::<O>(scene);
         let warm = ask(&mut used, scene, &mut cache);
         let again = ask(&mut used, scene, &mut cache);
         let unread = ask(&mut used, scene, &mut O::Cache::default());
@@ -134,8 +134,8 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
 }
 
 /// Checks that any finite input gives points of the pieces, no nearer than the axis allows.
-pub(super) fn survives<O: DistanceOracle + Default>(scene: &Scene) {
-    let checked = check(scene, &cold::<O>(scene));
+pub(super) fn accepts_finite_input<O: DistanceOracle + Default>(scene: &Scene) {
+    let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;
     assert!(
         sound && checked.distance.is_finite(),

@@ -67,7 +67,7 @@ impl Scene {
     }
 
     /// Moves both bodies to other frames, with origins `far` away. The points move by the rounding of that.
-    pub(crate) fn reframed(self, rng: &mut Pcg64, far: f64) -> Scene {
+    pub(crate) fn in_random_frames(self, rng: &mut Pcg64, far: f64) -> Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
             a: self.a.iter().map(|&x| to_a.point(x)).collect(),
@@ -76,14 +76,14 @@ impl Scene {
                 .iter()
                 .map(|&y| to_b.point(self.b_to_a.point(y)))
                 .collect(),
-            b_to_a: to_b_then(&to_a, &to_b),
+            b_to_a: relative_frame(&to_a, &to_b),
             size: self.size,
         }
     }
 }
 
 /// Returns the transform that applies the inverse of `to_b`, then `to_a`.
-fn to_b_then(to_a: &Frame, to_b: &Frame) -> Frame {
+fn relative_frame(to_a: &Frame, to_b: &Frame) -> Frame {
     let rotation = to_a.rotation * to_b.rotation.transpose();
     Frame {
         rotation,
@@ -106,9 +106,9 @@ pub(crate) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
 }
 
 /// Draws points whose coordinates are far apart in size: zeros, units, the least and large numbers.
-pub(crate) fn odd_points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
-    const ODD: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e15, -1e15, f64::MIN_POSITIVE];
-    let mut odd = || ODD[rng.random_range(0..ODD.len())];
+pub(crate) fn extreme_coordinate_points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
+    const EXTREME_VALUES: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e15, -1e15, f64::MIN_POSITIVE];
+    let mut odd = || EXTREME_VALUES[rng.random_range(0..EXTREME_VALUES.len())];
     (0..count)
         .map(|_| DVec3::new(odd(), odd(), odd()))
         .collect()
@@ -123,21 +123,21 @@ pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
 pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();
-    Scene::new(points(rng, a), b).reframed(rng, 1.0)
+    Scene::new(points(rng, a), b).in_random_frames(rng, 1.0)
 }
 
 /// Draws random hulls, moved so that an inner point of each coincides.
-pub(crate) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+pub(crate) fn intersecting_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (a, b) = crossing(rng, a, b);
-    Scene::new(a, b).reframed(rng, 1.0)
+    Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
 /// Draws intersecting hulls, flattened along one or two directions, down to 1e-12 of their size.
-pub(crate) fn pressed(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+pub(crate) fn flattened_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (mut a, mut b) = crossing(rng, a, b);
     let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
     a.iter_mut().chain(&mut b).for_each(|x| *x *= thin);
-    Scene::new(a, b).reframed(rng, 1.0)
+    Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
 fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
@@ -154,7 +154,7 @@ fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
 
 /// The kinds of features that are nearest in [`near_contact`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Meeting {
+pub(crate) enum NearestFeatures {
     CornerFace,
     CrossedEdges,
     ParallelFaces,
@@ -164,7 +164,7 @@ pub(crate) enum Meeting {
 
 /// Creates triangles at the distance `gap` along z, whose other corners rise or fall at slopes of any magnitude down to
 /// 1e-12.
-pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene {
+pub(crate) fn near_contact(rng: &mut Pcg64, meeting: NearestFeatures, gap: f64) -> Scene {
     let slope = |rng: &mut Pcg64| magnitude(rng, -12.0, 0.0);
     let flat = |rng: &mut Pcg64| {
         let v = vector(rng);
@@ -182,14 +182,14 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene
     };
     let through = |direction: DVec3| [-0.7 * direction, 0.6 * direction];
     let (a, b) = match meeting {
-        Meeting::CornerFace => (about(rng).to_vec(), vec![up, rising(rng), rising(rng)]),
-        Meeting::CrossedEdges => {
+        NearestFeatures::CornerFace => (about(rng).to_vec(), vec![up, rising(rng), rising(rng)]),
+        NearestFeatures::CrossedEdges => {
             let angle = magnitude(rng, -12.0, 0.0);
             let [p, q] = through(DVec3::X);
             let [r, s] = through(DVec3::new(angle.cos(), angle.sin(), 0.0)).map(|x| x + up);
             (vec![p, q, falling(rng)], vec![r, s, rising(rng)])
         }
-        Meeting::ParallelFaces => {
+        NearestFeatures::ParallelFaces => {
             let tilt = DQuat::from_scaled_axis(magnitude(rng, -16.0, -9.0) * vector(rng));
             let b = about(rng).map(|y| tilt * y);
             // Lifted until its lowest corner is up at the gap.
@@ -199,16 +199,16 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene
                 b.map(|y| y + up - low * DVec3::Z).to_vec(),
             )
         }
-        Meeting::CornerEdge => {
+        NearestFeatures::CornerEdge => {
             let [p, q] = through(flat(rng).normalize());
             (vec![p, q, falling(rng)], vec![up, rising(rng), rising(rng)])
         }
-        Meeting::CornerCorner => (
+        NearestFeatures::CornerCorner => (
             vec![DVec3::ZERO, falling(rng), falling(rng)],
             vec![up, rising(rng), rising(rng)],
         ),
     };
-    Scene::new(a, b).reframed(rng, 1.0)
+    Scene::new(a, b).in_random_frames(rng, 1.0)
 }
 
 /// Draws triangles that share a corner, an edge, or a plane, and nothing else.
@@ -249,7 +249,7 @@ pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
         }
     };
     let b = piece(rng).iter().map(|y| *y + offset).collect();
-    Scene::new(piece(rng), b).reframed(rng, 1.0)
+    Scene::new(piece(rng), b).in_random_frames(rng, 1.0)
 }
 
 /// Draws boxes at the distance `gap` whose faces are parallel up to a tilt below rounding.
@@ -269,7 +269,7 @@ pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
     let low = b.iter().map(|y| y.z).fold(f64::INFINITY, lesser);
     let lift = DVec3::new(rng.random_range(-0.9..0.9), 0.3, 1.0 + gap - low);
     let b = b.iter().map(|y| *y + lift).collect();
-    Scene::new(cuboid(DVec3::ONE), b).reframed(rng, 1.0)
+    Scene::new(cuboid(DVec3::ONE), b).in_random_frames(rng, 1.0)
 }
 
 /// Draws hulls of points on spheres, at a distance of about `gap`.
@@ -281,5 +281,5 @@ pub(crate) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
     };
     let (a, offset) = (ball(rng), (2.0 + gap) * vector(rng).normalize());
     let b = ball(rng).iter().map(|y| *y + offset).collect();
-    Scene::new(a, b).reframed(rng, 1.0)
+    Scene::new(a, b).in_random_frames(rng, 1.0)
 }

@@ -29,14 +29,16 @@ fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
         let t = (x - p).dot(d) / d.length_squared();
         (t > 0.0 && t < 1.0).then(|| (p + t * d).distance(x))
     });
-    let faces = edges(points)
-        .into_iter()
-        .flat_map(|[p, q]| points.iter().filter_map(move |&r| above(x, p, q, r)));
+    let faces = edges(points).into_iter().flat_map(|[p, q]| {
+        points
+            .iter()
+            .filter_map(move |&r| height_above_triangle(x, p, q, r))
+    });
     corners.chain(feet).chain(faces).fold(f64::INFINITY, lesser)
 }
 
 /// Returns the height of `x` above a triangle; `None` if its projection is outside.
-fn above(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> {
+fn height_above_triangle(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> {
     let n = (q - p).cross(r - p);
     let foot = x - (x - p).dot(n) / n.length_squared() * n;
     let inside = [[p, q], [q, r], [r, p]]

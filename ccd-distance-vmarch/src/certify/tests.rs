@@ -25,7 +25,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             let close =
                 Witness::new(placed, pair).distance() < CERTAIN_DISTANCE * placed.scale.size;
             let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
-            let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];
+            let ends = [End::Cycle(pair), End::StepLimit(pair), End::Unclear(pair)];
             for end in ends.into_iter().chain(tie) {
                 let mut counters = Counters::default();
                 let answer = certify(placed, end, &mut counters);
@@ -76,7 +76,7 @@ fn positions_that_are_not_finite_are_given_up() {
         };
         let mut counters = Counters::default();
         let cycle = certify(&placed, End::Cycle(pair), &mut counters);
-        let cap = certify(&placed, End::Cap(pair), &mut counters);
+        let cap = certify(&placed, End::StepLimit(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
         // An end reported as a cycle is counted as one.

@@ -1,24 +1,24 @@
 //! Tests lines over the top of a cube, and lines parallel to each other.
 
-use super::{middle_of_overlap, to_prism};
+use super::{clip_to_prism, middle_of_overlap};
 use crate::placed::{Line, Placed};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 /// Returns the part of a needle over the cube's top, by the parameters and the cutting edges of its ends.
-fn clipped(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
+fn clip_needle(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);
     let line = placed.b.line(0);
     let end = placed.b.vertex(1);
-    let clipped = to_prism(&line, end, &placed.a, face(&cube, DVec3::Z))?;
-    Some(clipped.map(|cut| (cut.parameter, cut.by)))
+    let clipped = clip_to_prism(&line, end, &placed.a, face(&cube, DVec3::Z))?;
+    Some(clipped.map(|cut| (cut.parameter, cut.cutting_edge)))
 }
 
 #[test]
 fn edges_within_the_prism_are_not_cut() {
-    let left = clipped(0.5 * DVec3::X, 3.0 * DVec3::Z);
+    let left = clip_needle(0.5 * DVec3::X, 3.0 * DVec3::Z);
     assert_eq!(left, Some([(0.0, None), (1.0, None)]));
 }
 
@@ -33,7 +33,7 @@ fn longer_edges_are_cut(
     #[case] by: [DVec3; 2],
 ) {
     let by = by.map(|side| Some(edge(&cube(), side + DVec3::Z)));
-    let [from, to] = clipped(half, at).expect("some is left");
+    let [from, to] = clip_needle(half, at).expect("some is left");
     assert_eq!([from.0, to.0], parameters);
     assert_eq!([from.1, to.1], by);
 }
@@ -44,13 +44,13 @@ fn longer_edges_are_cut(
 #[case(DVec3::NAN, DVec3::ZERO)]
 fn no_part_is_left_outside_of_the_prism(#[case] half: DVec3, #[case] at: DVec3) {
     if half.is_finite() {
-        assert_eq!(clipped(half, at), None);
+        assert_eq!(clip_needle(half, at), None);
     } else {
         let cube = cube();
         let placed = moved(&cube, &cube, DVec3::NAN);
         let top = face(&cube, DVec3::Z);
-        let left = to_prism(&placed.b.line(0), DVec3::NAN, &placed.a, top);
-        assert!(left.is_none_or(|[from, _]| from.by.is_none()));
+        let left = clip_to_prism(&placed.b.line(0), DVec3::NAN, &placed.a, top);
+        assert!(left.is_none_or(|[from, _]| from.cutting_edge.is_none()));
     }
 }
 

@@ -11,7 +11,7 @@ use ccd_core::order::lesser;
 use rstest::rstest;
 
 /// Tests the cube's edge along x at y = z = 1 against a needle.
-fn of_needle(half: DVec3, at: DVec3) -> Next {
+fn next_for_needle(half: DVec3, at: DVec3) -> Next {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
@@ -26,24 +26,24 @@ fn of_needle(half: DVec3, at: DVec3) -> Next {
     there
 }
 
-const ACROSS: DVec3 = DVec3::new(0.3, 2.0, -2.0);
+const CROSSING_NEEDLE: DVec3 = DVec3::new(0.3, 2.0, -2.0);
 
 #[rstest]
-#[case(ACROSS, DVec3::new(0.0, 1.5, 1.5), Sure)]
-#[case(ACROSS, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
+#[case(CROSSING_NEEDLE, DVec3::new(0.0, 1.5, 1.5), Sure)]
+#[case(CROSSING_NEEDLE, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
 // Across and along one face.
 #[case(2.0 * DVec3::Y, DVec3::new(0.0, 1.0, 1.5), Tied)]
 // Parallel needles, on the bisector and above the border of a face.
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.5, 1.5), Sure)]
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.0, 1.5), Tied)]
 // Touching.
-#[case(ACROSS, DVec3::new(0.0, 1.0, 1.0), Tied)]
+#[case(CROSSING_NEEDLE, DVec3::new(0.0, 1.0, 1.0), Tied)]
 fn stops_between_both_regions(
     #[case] half: DVec3,
     #[case] at: DVec3,
     #[case] certainty: crate::feature::Certainty,
 ) {
-    assert_eq!(of_needle(half, at), Next::Stop(certainty));
+    assert_eq!(next_for_needle(half, at), Next::Stop(certainty));
 }
 
 #[test]
@@ -53,24 +53,30 @@ fn goes_on_to_ends() {
         edge(&cube, DVec3::new(0.0, 1.0, 1.0)),
         vertex(&cube, DVec3::ONE),
     );
-    let beyond = of_needle(ACROSS, DVec3::new(2.0, 1.5, 1.5));
-    assert_eq!(beyond, Next::To(Feature::Vertex(corner), Feature::Edge(0)));
-    let above = of_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(0.1, 1.8, 1.8));
-    assert_eq!(above, Next::To(Feature::Edge(e), Feature::Vertex(0)));
-    let both = of_needle(DVec3::new(0.5, 0.5, 0.5), DVec3::new(2.0, 2.0, 2.0));
-    assert_eq!(both, Next::To(Feature::Vertex(corner), Feature::Vertex(0)));
+    let beyond = next_for_needle(CROSSING_NEEDLE, DVec3::new(2.0, 1.5, 1.5));
+    assert_eq!(
+        beyond,
+        Next::Continue(Feature::Vertex(corner), Feature::Edge(0))
+    );
+    let above = next_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(0.1, 1.8, 1.8));
+    assert_eq!(above, Next::Continue(Feature::Edge(e), Feature::Vertex(0)));
+    let both = next_for_needle(DVec3::new(0.5, 0.5, 0.5), DVec3::new(2.0, 2.0, 2.0));
+    assert_eq!(
+        both,
+        Next::Continue(Feature::Vertex(corner), Feature::Vertex(0))
+    );
 }
 
 #[test]
 fn goes_on_to_the_face_on_whose_side_it_is() {
-    let above = of_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
+    let above = next_for_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
     let face = face(&cube(), DVec3::Z);
-    assert_eq!(above, Next::To(Feature::Face(face), Feature::Edge(0)));
+    assert_eq!(above, Next::Continue(Feature::Face(face), Feature::Edge(0)));
 }
 
 #[test]
 fn finds_edges_below_both_faces() {
-    let found = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9));
+    let found = next_for_needle(CROSSING_NEEDLE, DVec3::new(0.0, 0.9, 0.9));
     assert!(matches!(found, Next::Common(Which::Y, _)), "{found:?}");
 }
 

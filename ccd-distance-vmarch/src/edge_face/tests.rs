@@ -28,7 +28,10 @@ fn of_needle(half: DVec3, at: DVec3) -> Next {
 fn goes_down_to_the_lower_end(#[case] half: DVec3, #[case] end: u32) {
     let top = face(&cube(), DVec3::Z);
     let said = of_needle(half, 2.0 * DVec3::Z);
-    assert_eq!(said, Next::To(Feature::Vertex(end), Feature::Face(top)));
+    assert_eq!(
+        said,
+        Next::Continue(Feature::Vertex(end), Feature::Face(top))
+    );
 }
 
 #[rstest]
@@ -38,14 +41,14 @@ fn goes_down_to_the_lower_end(#[case] half: DVec3, #[case] end: u32) {
 fn goes_down_to_the_side_that_cuts_it(#[case] half: DVec3, #[case] side: DVec3) {
     let edge = edge(&cube(), side + DVec3::Z);
     let said = of_needle(half, 2.0 * DVec3::Z);
-    assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge)));
+    assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Edge(edge)));
 }
 
 #[test]
 fn goes_on_to_the_nearest_side_from_outside() {
     let edge = edge(&cube(), DVec3::X + DVec3::Z);
     let said = of_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
-    assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge)));
+    assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Edge(edge)));
 }
 
 #[rstest]
@@ -66,5 +69,8 @@ fn finds_features_behind() {
     // Below the bottom.
     let bottom = face(&cube(), -DVec3::Z);
     let beyond = of_needle(DVec3::new(0.5, 0.0, 0.1), -3.0 * DVec3::Z);
-    assert_eq!(beyond, Next::To(Feature::Edge(0), Feature::Face(bottom)));
+    assert_eq!(
+        beyond,
+        Next::Continue(Feature::Edge(0), Feature::Face(bottom))
+    );
 }

@@ -18,13 +18,13 @@ fn leads_to_the_face_it_is_highest_above() {
     let below = face(&cube(), -DVec3::Z);
     assert_eq!(
         of_point(-3.0 * DVec3::Z),
-        Next::To(Feature::Vertex(0), Feature::Face(below))
+        Next::Continue(Feature::Vertex(0), Feature::Face(below))
     );
     let beside = face(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
     assert_eq!(
         of_point(at),
-        Next::To(Feature::Vertex(0), Feature::Face(beside))
+        Next::Continue(Feature::Vertex(0), Feature::Face(beside))
     );
 }
 

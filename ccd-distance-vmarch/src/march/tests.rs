@@ -18,7 +18,7 @@ fn shapes() -> [Polytope; 9] {
         prepared(&shape::prism(5)),
         prepared(&shape::antiprism(4)),
         prepared(&shape::polygon(5)),
-        prepared(&shape::few(&[DVec3::ZERO, DVec3::X, DVec3::Y])),
+        prepared(&shape::few_points(&[DVec3::ZERO, DVec3::X, DVec3::Y])),
         needle(DVec3::new(0.5, 0.3, 0.1)),
         point(),
     ]

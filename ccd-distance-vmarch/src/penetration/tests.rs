@@ -1,8 +1,8 @@
 //! Tests common points of needles, tetrahedra and cubes, to the last bit.
 
 use super::{
-    barycentric_coordinates, corner_inside, pierced, search_crossing, segment_meets_triangle,
-    weights,
+    barycentric_coordinates, edge_face_crossing, inner_corner_crossing, search_crossing,
+    segment_meets_triangle, weights,
 };
 use crate::placed::Placed;
 use crate::tests::setting::{cube, face, moved, needle, point};
@@ -13,8 +13,8 @@ use rstest::rstest;
 const TRIANGLE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
 
 /// The next f64 above 0.25.
-const ABOVE: f64 = 0.25 + f64::EPSILON / 4.0;
-const BELOW: f64 = 0.25 - f64::EPSILON / 8.0;
+const NEXT_ABOVE_QUARTER: f64 = 0.25 + f64::EPSILON / 4.0;
+const NEXT_BELOW_QUARTER: f64 = 0.25 - f64::EPSILON / 8.0;
 
 #[rstest]
 // Through the inside, a side, a corner.
@@ -25,8 +25,8 @@ const BELOW: f64 = 0.25 - f64::EPSILON / 8.0;
 #[case(DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 0.0), true)]
 #[case(DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 1e-80), false)]
 // Past the side x + y = 1/2 + 1/2, by one unit in the last place to either side.
-#[case(DVec3::new(0.75, ABOVE, 1.0), DVec3::new(0.75, ABOVE, -1.0), false)]
-#[case(DVec3::new(0.75, BELOW, 1.0), DVec3::new(0.75, BELOW, -1.0), true)]
+#[case(DVec3::new(0.75, NEXT_ABOVE_QUARTER, 1.0), DVec3::new(0.75, NEXT_ABOVE_QUARTER, -1.0), false)]
+#[case(DVec3::new(0.75, NEXT_BELOW_QUARTER, 1.0), DVec3::new(0.75, NEXT_BELOW_QUARTER, -1.0), true)]
 // Next to it, and within its plane.
 #[case(DVec3::new(2.0, 0.25, 1.0), DVec3::new(2.0, 0.25, -1.0), false)]
 #[case(DVec3::new(-1.0, 0.25, 0.0), DVec3::new(2.0, 0.25, 0.0), false)]
@@ -96,7 +96,7 @@ fn tetrahedra_enclose_to_the_last_bit() {
 fn corners_are_inside_or_not(#[case] at: DVec3, #[case] inside: bool) {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
-    let found = corner_inside(&placed.b, 0, &placed.a);
+    let found = inner_corner_crossing(&placed.b, 0, &placed.a);
     assert_eq!(found.is_some(), inside);
     if let Some(found) = found {
         let corners = found.on_face.vertices.iter().zip(found.on_face.weights);
@@ -111,10 +111,10 @@ fn faces_are_pierced_anywhere() {
     for (x, y) in [(0.0, 0.0), (0.9, -0.9), (-0.5, 0.5), (1.0, 1.0), (0.0, 1.0)] {
         let placed = moved(&cube, &needle, DVec3::new(x, y, 0.0));
         for normal in [DVec3::Z, -DVec3::Z] {
-            let found = pierced(&placed.b, 0, &placed.a, face(&cube, normal));
+            let found = edge_face_crossing(&placed.b, 0, &placed.a, face(&cube, normal));
             assert!(found.is_some());
         }
-        let beside = pierced(&placed.b, 0, &placed.a, face(&cube, DVec3::X));
+        let beside = edge_face_crossing(&placed.b, 0, &placed.a, face(&cube, DVec3::X));
         assert!(beside.is_none());
     }
 }

@@ -1,7 +1,7 @@
 //! Assembles polytopes from outlines of faces.
 
 use super::facets::{Plane, sides_of_loop, unit};
-use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
+use super::{Edge, Face, NO_FACE, OutgoingEdge, Polytope, Side, Vertex};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -37,11 +37,11 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
             .map(|&number| Vertex {
                 point: local(number),
                 number,
-                first_spoke: 0,
-                end_spoke: 0,
+                first_outgoing: 0,
+                end_outgoing: 0,
             })
             .collect(),
-        spokes: Vec::new(),
+        outgoing_edges: Vec::new(),
         edges: Vec::new(),
         faces: faces.collect(),
         sides: Vec::with_capacity(loops.iter().map(Vec::len).sum()),
@@ -60,7 +60,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
         _ => edges_of(&outlines).map(|(v, w)| edge(v, w)).collect(),
     };
     add_sides(&mut out, &outlines);
-    add_spokes(&mut out);
+    add_outgoing_edges(&mut out);
     out
 }
 
@@ -109,11 +109,11 @@ fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
     }
 }
 
-fn add_spokes(out: &mut Polytope) {
-    let mut spokes: Vec<(u32, Spoke)> = Vec::with_capacity(2 * out.edges.len());
+fn add_outgoing_edges(out: &mut Polytope) {
+    let mut spokes: Vec<(u32, OutgoingEdge)> = Vec::with_capacity(2 * out.edges.len());
     for (edge, number) in out.edges.iter().zip(0..) {
         let [start, end] = edge.ends;
-        let spoke = |along, to| Spoke {
+        let spoke = |along, to| OutgoingEdge {
             along,
             edge: number,
             to,
@@ -124,12 +124,12 @@ fn add_spokes(out: &mut Polytope) {
     spokes.sort_by_key(|&(from, _)| from);
     let mut at = 0;
     for (vertex, number) in out.vertices.iter_mut().zip(0u32..) {
-        vertex.first_spoke = at;
+        vertex.first_outgoing = at;
         at += spokes[at as usize..]
             .iter()
             .take_while(|(from, _)| *from == number)
             .count() as u32;
-        vertex.end_spoke = at;
+        vertex.end_outgoing = at;
     }
-    out.spokes = spokes.into_iter().map(|(_, spoke)| spoke).collect();
+    out.outgoing_edges = spokes.into_iter().map(|(_, spoke)| spoke).collect();
 }

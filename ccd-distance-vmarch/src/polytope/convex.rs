@@ -16,7 +16,7 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
     if polytope.faces.len() < 2 || edges.iter().any(|edge| edge.faces.contains(&NO_FACE)) {
         return false;
     }
-    let check = Check {
+    let check = ConvexityCheck {
         points,
         polytope,
         rounding: rounding * (CONVEX_HEIGHT / COPLANAR_DISTANCE),
@@ -24,14 +24,14 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
     (0..polytope.faces.len() as u32).all(|f| check.is_outer_polygon(f)) && check.is_connected()
 }
 
-struct Check<'a> {
+struct ConvexityCheck<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
     /// The rounding of the corners.
     rounding: f64,
 }
 
-impl Check<'_> {
+impl ConvexityCheck<'_> {
     /// Returns whether a face is a planar convex polygon that winds once, with all corners of the polytope behind it.
     fn is_outer_polygon(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;

@@ -39,10 +39,10 @@ fn extremal_corners_are_highest() {
 }
 
 /// Checks the properties that every polytope has.
-fn is_sound(polytope: &Polytope) {
+fn assert_sound(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
-        for spoke in polytope.spokes_of(v) {
+        for spoke in polytope.outgoing_edges_of(v) {
             let offset = polytope.vertex(spoke.to).point - vertex.point;
             assert!((offset - offset.length() * spoke.along).length() <= slack);
             assert!(polytope.edge(spoke.edge).ends.contains(&v));
@@ -91,23 +91,23 @@ fn is_sound(polytope: &Polytope) {
 #[case(shape::cyclic(20), [20, 54, 36])]
 #[case(shape::polygon(12), [12, 12, 2])]
 #[case(shape::polygon(12).triangulated(), [12, 12, 2])]
-#[case(shape::few(&[DVec3::X]), [1, 0, 0])]
-#[case(shape::few(&[DVec3::X, DVec3::Y]), [2, 1, 0])]
-#[case(shape::few(&[DVec3::X, DVec3::Y, DVec3::Z]), [3, 3, 2])]
+#[case(shape::few_points(&[DVec3::X]), [1, 0, 0])]
+#[case(shape::few_points(&[DVec3::X, DVec3::Y]), [2, 1, 0])]
+#[case(shape::few_points(&[DVec3::X, DVec3::Y, DVec3::Z]), [3, 3, 2])]
 // Pieces of lower dimension than their number of points suggests.
-#[case(shape::few(&[DVec3::X, DVec3::X]), [1, 0, 0])]
-#[case(shape::few(&[DVec3::X, DVec3::Y, DVec3::X]), [2, 1, 0])]
-#[case(shape::few(&[DVec3::X, 2.0 * DVec3::X, 5.0 * DVec3::X]), [2, 1, 0])]
-#[case(shape::few(&[DVec3::X; 9]), [1, 0, 0])]
-#[case(shape::few(&[DVec3::X, 2.0 * DVec3::X, 3.0 * DVec3::X, DVec3::ZERO]), [2, 1, 0])]
+#[case(shape::few_points(&[DVec3::X, DVec3::X]), [1, 0, 0])]
+#[case(shape::few_points(&[DVec3::X, DVec3::Y, DVec3::X]), [2, 1, 0])]
+#[case(shape::few_points(&[DVec3::X, 2.0 * DVec3::X, 5.0 * DVec3::X]), [2, 1, 0])]
+#[case(shape::few_points(&[DVec3::X; 9]), [1, 0, 0])]
+#[case(shape::few_points(&[DVec3::X, 2.0 * DVec3::X, 3.0 * DVec3::X, DVec3::ZERO]), [2, 1, 0])]
 fn features_follow_from_points_and_facets(#[case] shape: Shape, #[case] expected: [usize; 3]) {
     let polytope = prepared(&shape);
     assert_eq!(counts(&polytope), expected);
-    is_sound(&polytope);
+    assert_sound(&polytope);
 }
 
 /// Creates a cube with points inside its edges and faces, as in meshes: 26 points, 48 triangles.
-fn subdivided() -> Shape {
+fn subdivided_cube() -> Shape {
     let cube = shape::cuboid(DVec3::ONE);
     let mut points = Vec::new();
     let mut loops = Vec::new();
@@ -133,20 +133,20 @@ fn subdivided() -> Shape {
 
 #[test]
 fn coplanar_facets_are_one_face_and_corners_within_are_none() {
-    let shape = subdivided();
+    let shape = subdivided_cube();
     assert_eq!((shape.points.len(), shape.loops.len()), (26, 48));
     let polytope = prepared(&shape);
     assert_eq!(counts(&polytope), [8, 12, 6]);
-    is_sound(&polytope);
+    assert_sound(&polytope);
     // Rounded corners are as coplanar as they come.
     let mut rng = Pcg64::seed_from_u64(1);
     for _ in 0..200 {
         let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
         let (size, shift) = (magnitude(&mut rng, -6.0, 6.0), vector(&mut rng));
-        let moved = subdivided().mapped(|p| size * (turn * p + shift));
+        let moved = subdivided_cube().mapped(|p| size * (turn * p + shift));
         let polytope = prepared(&moved);
         assert_eq!(counts(&polytope), [8, 12, 6]);
-        is_sound(&polytope);
+        assert_sound(&polytope);
     }
 }
 
@@ -165,7 +165,7 @@ fn superfluous_points_are_left_out() {
     cube.loops.push(vec![0, 4, 8]);
     let polytope = prepared(&cube);
     assert_eq!(counts(&polytope), [8, 12, 6]);
-    is_sound(&polytope);
+    assert_sound(&polytope);
 }
 
 /// Tests slivers as thin as the rounding of corners, and random affine images of polytopes.
@@ -182,7 +182,7 @@ fn thin_polytopes_are_sound() {
         let hull = shape::hull(&points);
         let pieces = hull.pieces();
         let made = Polytope::new(&pieces.get(0));
-        is_sound(&made.unwrap_or_else(|why| panic!("{why:?}: {squeeze} {hull:?}")));
+        assert_sound(&made.unwrap_or_else(|why| panic!("{why:?}: {squeeze} {hull:?}")));
         // Turned, its corners are rounded, and its facets no more exactly convex.
         let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
         let turned = hull.mapped(|p| turn * p);
@@ -202,7 +202,7 @@ fn plates_are_flat_from_rounding_on() {
     }
 }
 
-fn refused(points: &[DVec3], loops: &[&[u32]]) {
+fn assert_refused(points: &[DVec3], loops: &[&[u32]]) {
     let shape = Shape {
         points: points.to_vec(),
         loops: loops.iter().map(|l| l.to_vec()).collect(),
@@ -216,18 +216,18 @@ const TETRAHEDRON: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
 
 #[test]
 fn open_surfaces_are_refused() {
-    refused(&TETRAHEDRON, &[]);
-    refused(&TETRAHEDRON, &[&[0, 2, 1], &[0, 1, 3], &[0, 3, 2]]);
-    refused(
+    assert_refused(&TETRAHEDRON, &[]);
+    assert_refused(&TETRAHEDRON, &[&[0, 2, 1], &[0, 1, 3], &[0, 3, 2]]);
+    assert_refused(
         &TETRAHEDRON,
         &[&[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 3, 2]],
     );
-    refused(
+    assert_refused(
         &TETRAHEDRON,
         &[&[0, 2, 1], &[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]],
     );
     // A corner twice in a loop.
-    refused(
+    assert_refused(
         &TETRAHEDRON,
         &[&[0, 2, 1, 2], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]],
     );
@@ -236,7 +236,7 @@ fn open_surfaces_are_refused() {
 #[test]
 fn surfaces_that_are_not_convex_are_refused() {
     // Inside out.
-    refused(
+    assert_refused(
         &TETRAHEDRON,
         &[&[0, 1, 2], &[0, 3, 1], &[0, 2, 3], &[1, 3, 2]],
     );
@@ -246,9 +246,9 @@ fn surfaces_that_are_not_convex_are_refused() {
     for off in [0.1, -0.1, 1e-6] {
         let mut points = cube.points.clone();
         points[7] += off * DVec3::new(1.0, 0.3, -0.2);
-        refused(&points, &loops);
+        assert_refused(&points, &loops);
     }
-    let mut dented = subdivided();
+    let mut dented = subdivided_cube();
     let top = dented
         .points
         .iter()
@@ -256,7 +256,7 @@ fn surfaces_that_are_not_convex_are_refused() {
         .expect("the middle of the top");
     dented.points[top] = 0.9 * DVec3::Z;
     let loops: Vec<&[u32]> = dented.loops.iter().map(|l| &l[..]).collect();
-    refused(&dented.points, &loops);
+    assert_refused(&dented.points, &loops);
     // A flat polygon that is not convex, and one that goes around twice.
     let arrow = [
         DVec3::ZERO,
@@ -264,9 +264,9 @@ fn surfaces_that_are_not_convex_are_refused() {
         0.5 * DVec3::Y,
         DVec3::new(-2.0, 2.0, 0.0),
     ];
-    refused(&arrow, &[&[0, 1, 2, 3], &[3, 2, 1, 0]]);
+    assert_refused(&arrow, &[&[0, 1, 2, 3], &[3, 2, 1, 0]]);
     let star = shape::polygon(5).points;
-    refused(&star, &[&[0, 2, 4, 1, 3], &[3, 1, 4, 2, 0]]);
+    assert_refused(&star, &[&[0, 2, 4, 1, 3], &[3, 1, 4, 2, 0]]);
 }
 
 #[test]
@@ -276,7 +276,7 @@ fn surfaces_that_wind_twice_are_refused() {
     points.extend(TETRAHEDRON.map(|p| 0.5 * p + DVec3::splat(0.05)));
     let own: [&[u32]; 4] = [&[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]];
     let other: [&[u32]; 4] = [&[4, 6, 5], &[4, 5, 7], &[4, 7, 6], &[5, 6, 7]];
-    refused(&points, &[own, other].concat());
+    assert_refused(&points, &[own, other].concat());
     // The great icosahedron: every edge convex, every facet a triangle, closed, and seven layers.
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let mut corners = Vec::new();
@@ -300,7 +300,7 @@ fn surfaces_that_wind_twice_are_refused() {
         }
     }
     assert_eq!(loops.len(), 20);
-    refused(&corners, &loops.iter().map(|l| &l[..]).collect::<Vec<_>>());
+    assert_refused(&corners, &loops.iter().map(|l| &l[..]).collect::<Vec<_>>());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Tests that repeated states are detected.
 
-use super::Brent;
+use super::BrentCycleDetector;
 use crate::feature::{Feature, Pair};
 
 #[test]
@@ -11,7 +11,7 @@ fn states_that_come_again_are_noticed() {
     };
     for tail in 0..40 {
         for length in 1..40 {
-            let mut brent = Brent::new(state(0));
+            let mut brent = BrentCycleDetector::new(state(0));
             // 0, 1, …, tail, …, tail + length − 1, tail, …
             let at = |k: u32| {
                 if k < tail {
@@ -28,6 +28,6 @@ fn states_that_come_again_are_noticed() {
             );
         }
     }
-    let mut brent = Brent::new(state(0));
+    let mut brent = BrentCycleDetector::new(state(0));
     assert!((1..1000).all(|k| !brent.is_repeated(state(k))));
 }

@@ -2,7 +2,7 @@
 
 use super::scene::{self, Body, Kind, Scene};
 use super::shape::{self, Pcg64, RngExt, SeedableRng, Shape, direction, magnitude};
-use super::twin::{self, Bare};
+use super::twin::{self, ReferencePolytope};
 use super::{Tally, cases};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -26,7 +26,7 @@ fn touching_is_exact_up_to_rounding(
     for pointed in [
         shape::cuboid(DVec3::ONE),
         shape::bipyramid(6),
-        shape::few(&[-DVec3::Z, DVec3::Z]),
+        shape::few_points(&[-DVec3::Z, DVec3::Z]),
     ] {
         let other = Body::new(pointed);
         // As far outside of the cube's top as above it, where it overhangs.
@@ -46,8 +46,8 @@ fn touching_is_exact_up_to_rounding(
         let on_a = claim.a.of(&cube.shape.points).expect("a point of A");
         let on_b = b_to_a.point(claim.b.of(&other.shape.points).expect("a point of B"));
         let (a, b) = (
-            Bare::new(&cube.shape, &Frame::IDENTITY),
-            Bare::new(&other.shape, &b_to_a),
+            ReferencePolytope::new(&cube.shape, &Frame::IDENTITY),
+            ReferencePolytope::new(&other.shape, &b_to_a),
         );
         let certified = twin::gap(&a, &b, claim.axis.normalize_or_zero());
         let distance = on_a.distance(on_b);
@@ -104,7 +104,7 @@ fn pieces_inside_intersect() {
             &around,
             oracle.separation(&around.pair(), &mut Cache::default()),
         );
-        assert_eq!((tally.meeting, tally.give_ups), (2, 0));
+        assert_eq!((tally.intersecting, tally.give_ups), (2, 0));
     }
     assert_eq!(oracle.counters().penetrations, 1000);
 }
@@ -130,7 +130,7 @@ fn odd_coordinates_end() {
     for k in 0..cases() {
         let [a, b] = [1 + k as usize % 3, 3].map(|count| {
             let points: Vec<DVec3> = (0..count).map(|_| point()).collect();
-            Body::new(shape::few(&points))
+            Body::new(shape::few_points(&points))
         });
         for b in [&a, &b] {
             let b_to_a = Frame {
@@ -154,8 +154,8 @@ fn nonsense_ends() {
     let shapes = [
         shape::cuboid(DVec3::ONE),
         shape::polygon(5),
-        shape::few(&[DVec3::ZERO]),
-        shape::few(&[DVec3::X, DVec3::Y]),
+        shape::few_points(&[DVec3::ZERO]),
+        shape::few_points(&[DVec3::X, DVec3::Y]),
         Shape {
             loops: Vec::new(),
             ..shape::cuboid(DVec3::ONE)
@@ -278,7 +278,7 @@ fn changes_of_features_are_exact_to_the_last_bit() {
 fn size_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(6);
     for kind in [Kind::Random, Kind::Coplanar, Kind::Sliver, Kind::Flat] {
-        let pool = scene::pool(kind, &mut rng);
+        let pool = scene::body_pool(kind, &mut rng);
         for _ in 0..300 {
             let scene = scene::draw(kind, &pool, &mut rng);
             let power = [-150, -40, 30][(magnitude(&mut rng, 0.0, 1.0) as usize) % 3];
@@ -306,7 +306,7 @@ fn size_does_not_matter() {
 #[test]
 fn place_does_not_matter() {
     let mut rng = Pcg64::seed_from_u64(7);
-    let pool = scene::pool(Kind::Random, &mut rng);
+    let pool = scene::body_pool(Kind::Random, &mut rng);
     for _ in 0..500 {
         let scene = scene::draw(Kind::Random, &pool, &mut rng);
         let shift = 1e6 * shape::vector(&mut rng);
@@ -333,8 +333,8 @@ fn place_does_not_matter() {
 #[test]
 fn other_oracles_take_over_and_counts_are_kept() {
     /// An oracle that claims the first points of both pieces.
-    struct First;
-    impl DistanceOracle for First {
+    struct FirstPointsOracle;
+    impl DistanceOracle for FirstPointsOracle {
         type Cache = ();
         fn separation(&mut self, _: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
             Ok(Claim {
@@ -363,7 +363,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
     let mut alone = Vmarch::default();
     let refused = alone.separation(&unknown.pair(), &mut Cache::default());
     assert_eq!(refused, Err(GiveUp::BadFacets));
-    let mut oracle = Vmarch::default().or_else(First);
+    let mut oracle = Vmarch::default().or_else(FirstPointsOracle);
     let mut cache = Default::default();
     for (scene, fallbacks) in [(&known, 0), (&unknown, 1), (&known, 1), (&unknown, 2)] {
         assert!(oracle.separation(&scene.pair(), &mut cache).is_ok());
@@ -387,7 +387,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
 #[test]
 fn answers_repeat() {
     let mut rng = Pcg64::seed_from_u64(12);
-    let pool = scene::pool(Kind::Coplanar, &mut rng);
+    let pool = scene::body_pool(Kind::Coplanar, &mut rng);
     let mut used = Vmarch::default();
     for _ in 0..500 {
         let scene = scene::draw(Kind::Coplanar, &pool, &mut rng);

@@ -35,17 +35,17 @@ pub(crate) enum Kind {
     Plates,
     Prisms,
     Balls,
-    Few,
+    FewPoints,
     Flat,
 }
 
 /// Draws the bodies from which pairs of a kind are made.
-pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
+pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
     let shapes = match kind {
         Kind::Random => hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]),
-        Kind::NearParallel | Kind::Coplanar => with_faces(rng),
+        Kind::NearParallel | Kind::Coplanar => shapes_with_faces(rng),
         Kind::Sliver => slivers(rng),
-        Kind::Grid => on_a_grid(rng),
+        Kind::Grid => grid_shapes(rng),
         Kind::Plates => plates(rng),
         Kind::Prisms => {
             let prisms = [3, 5, 8, 16, 40, 100].map(shape::prism).into_iter();
@@ -62,7 +62,7 @@ pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
             out.extend(hulls(rng, &[40]));
             out
         }
-        Kind::Few => of_few_points(rng),
+        Kind::FewPoints => few_point_shapes(rng),
         Kind::Flat => {
             let mut out = [3, 4, 6, 12, 40].map(shape::polygon).to_vec();
             out.push(shape::polygon(8).triangulated());
@@ -86,7 +86,7 @@ fn hulls(rng: &mut Pcg64, counts: &[usize]) -> Vec<Shape> {
     counts.iter().map(hull).collect()
 }
 
-fn with_faces(rng: &mut Pcg64) -> Vec<Shape> {
+fn shapes_with_faces(rng: &mut Pcg64) -> Vec<Shape> {
     let mut out = vec![shape::cuboid(DVec3::ONE)];
     out.push(shape::cuboid(DVec3::new(0.4, 0.7, 1.1)).triangulated());
     out.extend([3, 4, 5, 6, 8, 12].map(shape::prism));
@@ -109,7 +109,7 @@ fn slivers(rng: &mut Pcg64) -> Vec<Shape> {
     out
 }
 
-fn on_a_grid(rng: &mut Pcg64) -> Vec<Shape> {
+fn grid_shapes(rng: &mut Pcg64) -> Vec<Shape> {
     let mut out = vec![shape::cuboid(DVec3::ONE)];
     out.push(shape::cuboid(DVec3::new(1.0, 2.0, 3.0)));
     for count in [5, 6, 8, 12, 16, 20] {
@@ -130,15 +130,15 @@ fn plates(rng: &mut Pcg64) -> Vec<Shape> {
     out
 }
 
-fn of_few_points(rng: &mut Pcg64) -> Vec<Shape> {
+fn few_point_shapes(rng: &mut Pcg64) -> Vec<Shape> {
     let mut out = hulls(rng, &[6, 10]);
     for _ in 0..4 {
         let [p, q, r] = std::array::from_fn(|_| vector(rng));
         let beside = p.lerp(q, 0.3) + magnitude(rng, -9.0, -1.0) * r;
-        out.push(shape::few(&[p]));
-        out.push(shape::few(&[p, q]));
-        out.push(shape::few(&[p, q, r]));
-        out.push(shape::few(&[p, q, beside]));
+        out.push(shape::few_points(&[p]));
+        out.push(shape::few_points(&[p, q]));
+        out.push(shape::few_points(&[p, q, r]));
+        out.push(shape::few_points(&[p, q, beside]));
     }
     out
 }
@@ -148,7 +148,7 @@ pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
 }
 
 /// Draws a rotation that maps coordinate axes to coordinate axes.
-fn quarter_turns(rng: &mut Pcg64) -> DMat3 {
+fn random_axis_aligned_rotation(rng: &mut Pcg64) -> DMat3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let k = rng.random_range(0..3);
     let sign = |rng: &mut Pcg64| if rng.random_bool(0.5) { 1.0 } else { -1.0 };
@@ -193,10 +193,10 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
     let aligned = matches!(kind, Kind::NearParallel | Kind::Coplanar | Kind::Grid);
     let mut rotation = match rng.random_range(0..4) {
         0 if !aligned => DMat3::IDENTITY,
-        1 if !aligned => quarter_turns(rng),
+        1 if !aligned => random_axis_aligned_rotation(rng),
         _ if !aligned => DMat3::from_quat(rotation(rng)),
         0 => DMat3::IDENTITY,
-        _ => quarter_turns(rng),
+        _ => random_axis_aligned_rotation(rng),
     };
     // Rotated so that a face of B is parallel to a face of A, up to a tiny tilt.
     if kind == Kind::NearParallel {
@@ -237,7 +237,7 @@ fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (D
     let whole = kind == Kind::Grid;
     let n = match rng.random_range(0..4) {
         0 => direction(rng),
-        1 if aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
+        1 if has_aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
         2 => crossed(a, b, rotation, rng).unwrap_or(DVec3::Z),
         _ => normal(a, rng).unwrap_or_else(|| direction(rng)),
     };
@@ -269,7 +269,7 @@ fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (D
     (base + n * (gap + high - low - n.dot(base)), gap)
 }
 
-fn aligned_axes(kind: Kind) -> bool {
+fn has_aligned_axes(kind: Kind) -> bool {
     matches!(kind, Kind::Grid | Kind::Coplanar | Kind::NearParallel)
 }
 

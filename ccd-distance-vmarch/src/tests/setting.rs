@@ -18,12 +18,12 @@ pub(crate) fn cube() -> Polytope {
 }
 
 pub(crate) fn point() -> Polytope {
-    prepared(&shape::few(&[DVec3::ZERO]))
+    prepared(&shape::few_points(&[DVec3::ZERO]))
 }
 
 /// Creates one edge about the origin.
 pub(crate) fn needle(half: DVec3) -> Polytope {
-    prepared(&shape::few(&[-half, half]))
+    prepared(&shape::few_points(&[-half, half]))
 }
 
 pub(crate) fn moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> PlacedPair<'a> {

@@ -284,7 +284,7 @@ pub(crate) fn polygon(corners: u32) -> Shape {
 }
 
 /// Creates the shape of one, two or three points.
-pub(crate) fn few(points: &[DVec3]) -> Shape {
+pub(crate) fn few_points(points: &[DVec3]) -> Shape {
     Shape {
         points: points.to_vec(),
         loops: Vec::new(),

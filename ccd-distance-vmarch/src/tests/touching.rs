@@ -2,7 +2,7 @@
 
 use super::scene::{Body, Scene};
 use super::shape;
-use super::twin::{self, Bare};
+use super::twin::{self, ReferencePolytope};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::{DistanceOracle, Frame};
@@ -14,7 +14,7 @@ fn parts() -> Vec<Body> {
     let triangles = cube.clone().triangulated();
     let triangle = |corners: &Vec<u32>| {
         let points = corners.iter().map(|&v| triangles.points[v as usize]);
-        Body::new(shape::few(&points.collect::<Vec<_>>()))
+        Body::new(shape::few_points(&points.collect::<Vec<_>>()))
     };
     let mut parts: Vec<Body> = triangles.loops.iter().map(triangle).collect();
     parts.push(Body::new(cube));
@@ -62,8 +62,8 @@ fn parts_of_flush_cubes_are_kept_apart() {
             let on_a = claim.a.of(&a.shape.points).expect("a point of A");
             let on_b = b_to_a.point(claim.b.of(&b.shape.points).expect("a point of B"));
             let distance = on_a.distance(on_b);
-            let bare_a = Bare::new(&a.shape, &Frame::IDENTITY);
-            let bare_b = Bare::new(&b.shape, &b_to_a);
+            let bare_a = ReferencePolytope::new(&a.shape, &Frame::IDENTITY);
+            let bare_b = ReferencePolytope::new(&b.shape, &b_to_a);
             let kept = twin::gap(&bare_a, &bare_b, claim.axis.normalize_or_zero());
             assert!(
                 claim.axis != DVec3::ZERO && kept >= distance - 4e-15,

@@ -8,7 +8,7 @@ use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 
 /// A polytope in A's frame, as plain lists of features.
-pub(crate) struct Bare {
+pub(crate) struct ReferencePolytope {
     pub(crate) points: Vec<DVec3>,
     edges: Vec<Segment>,
     faces: Vec<Polygon>,
@@ -25,7 +25,7 @@ struct Polygon {
     normal: DVec3,
 }
 
-impl Bare {
+impl ReferencePolytope {
     pub(crate) fn new(shape: &Shape, frame: &Frame) -> Self {
         let points: Vec<DVec3> = shape.points.iter().map(|&p| frame.point(p)).collect();
         let at = |v: &u32| points[*v as usize];
@@ -55,7 +55,7 @@ impl Bare {
             corners: corners.iter().map(at).collect(),
             normal: normal(corners),
         };
-        Bare {
+        ReferencePolytope {
             edges: shape.edges().into_iter().map(segment).collect(),
             faces: loops.iter().map(polygon).collect(),
             points,
@@ -71,7 +71,7 @@ impl Bare {
 }
 
 /// Returns the support gap from A to B along a unit vector.
-pub(crate) fn gap(a: &Bare, b: &Bare, n: DVec3) -> f64 {
+pub(crate) fn gap(a: &ReferencePolytope, b: &ReferencePolytope, n: DVec3) -> f64 {
     -b.highest(-n) - a.highest(n)
 }
 
@@ -80,7 +80,7 @@ pub(crate) fn gap(a: &Bare, b: &Bare, n: DVec3) -> f64 {
 ///
 /// Every number that is compared is the distance of two points that the polytopes do have, so that it
 /// is never too small by more than the rounding of a point.
-pub(crate) fn distance(a: &Bare, b: &Bare) -> f64 {
+pub(crate) fn distance(a: &ReferencePolytope, b: &ReferencePolytope) -> f64 {
     let mut best = f64::INFINITY;
     for &p in &a.points {
         for &q in &b.points {
@@ -154,21 +154,21 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     on_f.distance(foot(on_f, e))
 }
 
-fn turned(shape: &Shape, by: DQuat, to: DVec3) -> Bare {
+fn turned(shape: &Shape, by: DQuat, to: DVec3) -> ReferencePolytope {
     let frame = Frame {
         rotation: DMat3::from_quat(by),
         translation: to,
     };
-    Bare::new(shape, &frame)
+    ReferencePolytope::new(shape, &frame)
 }
 
 /// Tests brute force against closed forms, at distances down to a millionth of the size.
 #[test]
 fn brute_force_is_right() {
-    use super::shape::{cuboid, few, polygon};
-    let cube = Bare::new(&cuboid(DVec3::ONE), &Frame::IDENTITY);
+    use super::shape::{cuboid, few_points, polygon};
+    let cube = ReferencePolytope::new(&cuboid(DVec3::ONE), &Frame::IDENTITY);
     for gap in [1e-6, 1e-3, 1.0, 1e3] {
-        let close = |a: &Bare, b: &Bare, truth: f64| {
+        let close = |a: &ReferencePolytope, b: &ReferencePolytope, truth: f64| {
             let found = [distance(a, b), distance(b, a)];
             for found in found {
                 let error = (found - truth).abs();
@@ -202,10 +202,10 @@ fn brute_force_is_right() {
         let keel = turned(&cuboid(DVec3::ONE), DQuat::from_rotation_y(eighth), up);
         close(&roof, &keel, gap);
         // Needles whose directions differ by an angle of any size cross at their middles.
-        let flat = Bare::new(&few(&[-DVec3::X, DVec3::X]), &Frame::IDENTITY);
+        let flat = ReferencePolytope::new(&few_points(&[-DVec3::X, DVec3::X]), &Frame::IDENTITY);
         for angle in [1e-12, 1e-8, 1e-4, 1.0] {
             let other = turned(
-                &few(&[-DVec3::X, DVec3::X]),
+                &few_points(&[-DVec3::X, DVec3::X]),
                 DQuat::from_rotation_z(angle),
                 gap * DVec3::Z,
             );

@@ -37,7 +37,7 @@ fn goes_on_to_the_end_it_is_beyond(#[case] at: DVec3, #[case] corner: DVec3) {
     let corner = vertex(&cube(), corner);
     assert_eq!(
         of_point(at),
-        Next::To(Feature::Vertex(0), Feature::Vertex(corner))
+        Next::Continue(Feature::Vertex(0), Feature::Vertex(corner))
     );
 }
 
@@ -52,7 +52,7 @@ fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DV
     let face = face(&cube(), normal);
     assert_eq!(
         of_point(at),
-        Next::To(Feature::Vertex(0), Feature::Face(face))
+        Next::Continue(Feature::Vertex(0), Feature::Face(face))
     );
 }
 
@@ -74,7 +74,7 @@ fn goes_on_to_an_edge_that_falls(#[case] slope: f64, #[case] falls: Option<bool>
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
     let said = next(&placed.b, 0, &placed.a, edge, placed.scale);
     match falls {
-        Some(_) => assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge))),
+        Some(_) => assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Edge(edge))),
         None => assert_eq!(said, Next::Stop(Sure)),
     }
 }

@@ -42,7 +42,7 @@ fn goes_on_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) 
     let edge = edge(&cube(), middle);
     assert_eq!(
         of_point(at),
-        Next::To(Feature::Vertex(0), Feature::Edge(edge))
+        Next::Continue(Feature::Vertex(0), Feature::Edge(edge))
     );
 }
 
@@ -52,7 +52,7 @@ fn goes_on_from_behind_unless_inside() {
     assert!(matches!(inside, Next::Common(Which::X, _)), "{inside:?}");
     let bottom = Feature::Face(face(&cube(), -DVec3::Z));
     let beyond = of_point(DVec3::new(0.0, 0.0, -7.0));
-    assert_eq!(beyond, Next::To(Feature::Vertex(0), bottom));
+    assert_eq!(beyond, Next::Continue(Feature::Vertex(0), bottom));
 }
 
 /// Tests corners above the face: a corner is nearest unless one of its edges falls by more than rounding.
@@ -73,7 +73,7 @@ fn goes_on_along_an_edge_that_falls(#[case] slope: f64, #[case] falls: bool) {
     let top = face(&cube, DVec3::Z);
     let said = next(&placed.b, 0, &placed.a, top, placed.scale);
     if falls {
-        assert_eq!(said, Next::To(Feature::Edge(0), Feature::Face(top)));
+        assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Face(top)));
     } else {
         assert_eq!(said, Next::Stop(Sure));
     }

@@ -44,6 +44,6 @@ fn goes_on_to_the_edge_behind_a_plane(#[case] at: DVec3, #[case] middle: DVec3) 
     let edge = edge(&cube(), middle);
     assert_eq!(
         of_point(at),
-        Next::To(Feature::Edge(edge), Feature::Vertex(0))
+        Next::Continue(Feature::Edge(edge), Feature::Vertex(0))
     );
 }

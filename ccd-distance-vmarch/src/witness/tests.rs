@@ -29,7 +29,7 @@ fn witness(
 fn features_have_nearest_points() {
     let cuboid = shape::cuboid(DVec3::ONE);
     let at = DVec3::new(0.25, 3.0, 4.0);
-    let single = shape::few(&[DVec3::ZERO]);
+    let single = shape::few_points(&[DVec3::ZERO]);
     let corner = witness(&cuboid, &single, at, |a, _| Pair {
         a: Feature::Vertex(vertex(a, DVec3::ONE)),
         b: Feature::Vertex(0),
@@ -56,9 +56,9 @@ fn features_have_nearest_points() {
         (back.offset(), back.claim.axis),
         (-3.0 * DVec3::Z, -DVec3::Z)
     );
-    let across = shape::few(&[-DVec3::Y, DVec3::Y]);
+    let across = shape::few_points(&[-DVec3::Y, DVec3::Y]);
     let crossed = witness(
-        &shape::few(&[-DVec3::X, DVec3::X]),
+        &shape::few_points(&[-DVec3::X, DVec3::X]),
         &across,
         2.0 * DVec3::Z,
         |_, _| Pair {

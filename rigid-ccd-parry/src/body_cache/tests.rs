@@ -1,14 +1,14 @@
 use super::*;
 use ccd_core::glam::DVec3;
 
-fn ball(radius: f64) -> Form {
-    let mut form = Form::EMPTY;
+fn ball(radius: f64) -> ShapeGeometry {
+    let mut form = ShapeGeometry::EMPTY;
     form.push_points([DVec3::ZERO], radius, 0);
     form
 }
 
-fn strip(triangles: usize, last: f64) -> Form {
-    let mut form = Form::EMPTY;
+fn triangle_strip_form(triangles: usize, last: f64) -> ShapeGeometry {
+    let mut form = ShapeGeometry::EMPTY;
     for k in 0..triangles {
         let x = k as f64;
         let y = if k + 1 == triangles { last } else { 1.0 };
@@ -21,10 +21,14 @@ fn strip(triangles: usize, last: f64) -> Form {
 #[test]
 fn equal_forms_share_a_body_and_others_do_not() {
     let mut body_cache = BodyCache::default();
-    let first = body_cache.body(strip(100, 1.0)).expect("a body");
-    let again = body_cache.body(strip(100, 1.0)).expect("a body");
+    let first = body_cache
+        .body(triangle_strip_form(100, 1.0))
+        .expect("a body");
+    let again = body_cache
+        .body(triangle_strip_form(100, 1.0))
+        .expect("a body");
     let other = body_cache
-        .body(strip(100, 1.0f64.next_up()))
+        .body(triangle_strip_form(100, 1.0f64.next_up()))
         .expect("a body");
     assert!(Arc::ptr_eq(&first, &again) && !Arc::ptr_eq(&first, &other));
     assert_eq!(body_cache.len(), 2);
@@ -46,11 +50,13 @@ fn the_longest_unused_goes_first() {
 #[test]
 fn bodies_stay_within_the_memory() {
     let mut body_cache = BodyCache {
-        most_bytes: 1 << 20,
+        max_bytes: 1 << 20,
         ..BodyCache::default()
     };
     for k in 0..10 {
-        body_cache.body(strip(1000, f64::from(k))).expect("a body");
+        body_cache
+            .body(triangle_strip_form(1000, f64::from(k)))
+            .expect("a body");
         let held: usize = body_cache.bodies.iter().map(|kept| kept.bytes).sum();
         assert!(held <= 1 << 20 && body_cache.len() >= 1, "{held}");
     }
@@ -61,7 +67,9 @@ fn bodies_stay_within_the_memory() {
     );
     // A body that alone exceeds the limit is made, but not cached.
     let before = body_cache.len();
-    body_cache.body(strip(20_000, 1.0)).expect("a body");
+    body_cache
+        .body(triangle_strip_form(20_000, 1.0))
+        .expect("a body");
     assert!(body_cache.len() <= before);
 }
 
@@ -69,6 +77,6 @@ fn bodies_stay_within_the_memory() {
 fn refused_bodies_are_not_cached() {
     let mut body_cache = BodyCache::default();
     assert!(body_cache.body(ball(f64::NAN)).is_err());
-    assert!(body_cache.body(Form::EMPTY).is_err());
+    assert!(body_cache.body(ShapeGeometry::EMPTY).is_err());
     assert_eq!(body_cache.len(), 0);
 }

@@ -1,6 +1,6 @@
 use super::*;
 
-fn numbers_at(form: &Form) -> Vec<(u32, DVec3)> {
+fn sub_shapes_with_points(form: &ShapeGeometry) -> Vec<(u32, DVec3)> {
     let (body, numbers) = form.body().expect("a body");
     let pieces = body.pieces().iter().map(|piece| piece.points[0]);
     let mut at: Vec<(u32, DVec3)> = numbers.into_iter().zip(pieces).collect();
@@ -10,29 +10,29 @@ fn numbers_at(form: &Form) -> Vec<(u32, DVec3)> {
 
 #[test]
 fn pieces_keep_their_numbers_in_any_order() {
-    let mut parts = Form::EMPTY;
+    let mut parts = ShapeGeometry::EMPTY;
     for k in (0..50).rev() {
-        let mut inner = Form::EMPTY;
+        let mut inner = ShapeGeometry::EMPTY;
         inner.push_box(DVec3::ZERO, DVec3::ONE, 0.0);
         let pose = Pose::at([f64::from(k * 7 % 50), 0.0, 0.0]).expect("a pose");
-        parts.push_placed(&pose, &inner, k).expect("a part");
+        parts.push_at_pose(&pose, &inner, k).expect("a part");
     }
-    for (number, first) in numbers_at(&parts) {
+    for (number, first) in sub_shapes_with_points(&parts) {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
-    let mut mesh = Form::EMPTY;
+    let mut mesh = ShapeGeometry::EMPTY;
     for k in 0..50 {
         let x = f64::from(k * 7 % 50);
         let corners = [DVec3::ZERO, DVec3::Y, DVec3::Z].map(|v| DVec3::X * x + v);
         mesh.push_triangles(corners, &[[0, 1, 2]], [k]);
     }
-    assert_eq!(numbers_at(&mesh).len(), 50);
-    for (number, first) in numbers_at(&mesh) {
+    assert_eq!(sub_shapes_with_points(&mesh).len(), 50);
+    for (number, first) in sub_shapes_with_points(&mesh) {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
     // Triangles combined with other parts.
     mesh.push_points([DVec3::X * 100.0, DVec3::Y], 0.0, 50);
-    let at = numbers_at(&mesh);
+    let at = sub_shapes_with_points(&mesh);
     assert_eq!((at.len(), at[50]), (51, (50, DVec3::X * 100.0)));
     assert!(
         at[..50]
@@ -43,7 +43,7 @@ fn pieces_keep_their_numbers_in_any_order() {
 
 #[test]
 fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
-    let mut form = Form::EMPTY;
+    let mut form = ShapeGeometry::EMPTY;
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
     form.push_triangles(corners, &[[0, 1, 2], [0, 1, 3]], 0..);
     let error = form.body().expect_err("refused");
@@ -51,9 +51,9 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
         matches!(error, ShapeError::Piece { number: 1, .. }),
         "{error}"
     );
-    let mut beside = Form::EMPTY;
+    let mut beside = ShapeGeometry::EMPTY;
     beside
-        .push_placed(&Pose::IDENTITY, &form, 7)
+        .push_at_pose(&Pose::IDENTITY, &form, 7)
         .expect("not looked at yet");
     beside.push_points([DVec3::ZERO], 1.0, 0);
     let error = beside.body().expect_err("refused");
@@ -69,10 +69,10 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     let axis = DVec3::new(1.0, 2.0, 3.0);
     let far = 1e6 * DVec3::new(1.0, -3.0, 2.0);
     let pose = Pose::new(far, [axis.x, axis.y, axis.z, 0.0]).expect("a pose");
-    let mut inner = Form::EMPTY;
+    let mut inner = ShapeGeometry::EMPTY;
     inner.push_points([axis, 5.0 * DVec3::X], 0.0, 0);
-    let mut form = Form::EMPTY;
-    form.push_placed(&pose, &inner, 0).expect("a part");
+    let mut form = ShapeGeometry::EMPTY;
+    form.push_at_pose(&pose, &inner, 0).expect("a part");
     let (body, _) = form.body().expect("a body");
     // Points on the axis are fixed, and others are reflected: `2 a (a·x)/(a·a) − x`.
     let share = 2.0 * 5.0 * axis.x / axis.length_squared();
@@ -82,15 +82,15 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
         assert!(off <= form.slack, "{off:e} of {:e}", form.slack);
     }
     assert!(form.slack < 1e-7 && form.slack > 0.0);
-    let mut here = Form::EMPTY;
-    here.push_placed(&Pose::IDENTITY, &inner, 0)
+    let mut here = ShapeGeometry::EMPTY;
+    here.push_at_pose(&Pose::IDENTITY, &inner, 0)
         .expect("a part");
     assert_eq!(here.slack, 0.0);
 }
 
 #[test]
 fn a_ball_is_about_all_points() {
-    let mut form = Form::EMPTY;
+    let mut form = ShapeGeometry::EMPTY;
     form.push_box(DVec3::ONE, 3.0 * DVec3::ONE, 0.5);
     form.push_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
     let (middle, radius) = form.ball();
@@ -101,7 +101,7 @@ fn a_ball_is_about_all_points() {
 
 #[test]
 fn only_a_ball_is_a_point() {
-    let mut ball = Form::EMPTY;
+    let mut ball = ShapeGeometry::EMPTY;
     ball.push_points([DVec3::X], 2.0, 0);
     assert_eq!(ball.point(), Some(DVec3::X));
     ball.push_points([DVec3::X; 2], 0.0, 0);

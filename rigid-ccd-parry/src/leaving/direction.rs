@@ -7,7 +7,7 @@ use ccd_core::{Body, Outcome, Piece, Polytope, Pose};
 use rigid_ccd::Solver;
 
 /// The maximum number of cross products of edges that are tried.
-const MOST_EDGES: usize = 4096;
+const MAX_EDGE_CROSS_PRODUCTS: usize = 4096;
 
 /// Returns the unit vector from the first piece to the second along which they overlap least.
 ///
@@ -38,7 +38,7 @@ pub(super) fn direction(
         .iter()
         .chain(&b.normals)
         .for_each(|normal| consider(*normal));
-    if a.edges.len() * b.edges.len() <= MOST_EDGES {
+    if a.edges.len() * b.edges.len() <= MAX_EDGE_CROSS_PRODUCTS {
         for edge in &a.edges {
             b.edges
                 .iter()

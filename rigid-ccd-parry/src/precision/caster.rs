@@ -171,7 +171,7 @@ impl Caster {
             TypedShape::HalfSpace(plane) => PreparedShape::HalfSpace(half_space(plane)?),
             _ => PreparedShape::Body(Arc::new(body(&**shape, &self.options)?)),
         };
-        if self.shapes.len() >= 2 * self.bodies_after_removal + FEW_BODIES {
+        if self.shapes.len() >= 2 * self.bodies_after_removal + MIN_BODIES_FOR_REMOVAL {
             self.forget_unused();
         }
         self.shapes
@@ -190,7 +190,7 @@ impl Caster {
 }
 
 /// The number of cached bodies below which unused ones are not searched for.
-const FEW_BODIES: usize = 32;
+const MIN_BODIES_FOR_REMOVAL: usize = 32;
 
 fn address(shape: &SharedShape) -> usize {
     Arc::as_ptr(&shape.0).cast::<()>() as usize

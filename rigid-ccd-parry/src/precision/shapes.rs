@@ -6,7 +6,7 @@ use super::library::shape::{
     Compound, Cone, ConvexPolyhedron, Cuboid, Cylinder, HalfSpace as ParryHalfSpace, HeightField,
     Polyline, Shape, TriMeshFlags, TypedShape, Voxels,
 };
-use crate::form::Form;
+use crate::form::ShapeGeometry;
 use crate::half_space::HalfSpace;
 use crate::limits::{DEEPEST, FARTHEST_VOXEL};
 use crate::order::{greater, length};
@@ -39,8 +39,8 @@ pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError
 }
 
 /// Returns the geometry of a shape in double precision.
-pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<Form, ShapeError> {
-    let form = form_at_depth(shape, options, 0)?;
+pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<ShapeGeometry, ShapeError> {
+    let form = geometry_at_depth(shape, options, 0)?;
     let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
         return Ok(form);
     };
@@ -58,8 +58,12 @@ pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError
 }
 
 /// Returns the geometry of a shape that is nested in `depth` compounds.
-fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<Form, ShapeError> {
-    let mut form = Form::EMPTY;
+fn geometry_at_depth(
+    shape: &dyn Shape,
+    options: &Options,
+    depth: usize,
+) -> Result<ShapeGeometry, ShapeError> {
+    let mut form = ShapeGeometry::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
             form.push_points([DVec3::ZERO], size("radius", ball.radius)?, 0);
@@ -96,13 +100,13 @@ fn form_at_depth(shape: &dyn Shape, options: &Options, depth: usize) -> Result<F
         TypedShape::Compound(compound) => push_parts(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
         TypedShape::Custom(_) => return Err(ShapeError::Custom),
-        typed => return round_form(&typed, options),
+        typed => return round_geometry(&typed, options),
     }
     Ok(form)
 }
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
-fn round_form(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeError> {
+fn round_geometry(shape: &TypedShape<'_>, options: &Options) -> Result<ShapeGeometry, ShapeError> {
     let cylinder = |s: &Cylinder| round(Round::cylinder, s.half_height, s.radius);
     let cone = |s: &Cone| round(Round::cone, s.half_height, s.radius);
     let (made, grown) = match shape {
@@ -112,7 +116,11 @@ fn round_form(shape: &TypedShape<'_>, options: &Options) -> Result<Form, ShapeEr
         TypedShape::RoundCone(s) => (cone(&s.inner_shape), s.border_radius),
         _ => return Err(ShapeError::Custom),
     };
-    Ok(Form::of_round(made?, border_radius(grown)?, options.excess))
+    Ok(ShapeGeometry::from_round(
+        made?,
+        border_radius(grown)?,
+        options.excess,
+    ))
 }
 
 fn round(
@@ -124,7 +132,7 @@ fn round(
     make(size("radius", radius)?, half_height).map_err(ShapeError::Body)
 }
 
-fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
+fn push_cuboid(form: &mut ShapeGeometry, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
     let half = point(cuboid.half_extents);
     for length in half.to_array() {
         not_negative("half extent", length)?;
@@ -134,7 +142,7 @@ fn push_cuboid(form: &mut Form, cuboid: &Cuboid, radius: f64) -> Result<(), Shap
 }
 
 /// Adds the hull of a convex polyhedron's points to a form.
-fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) {
+fn push_polyhedron(form: &mut ShapeGeometry, polyhedron: &ConvexPolyhedron, radius: f64) {
     let corners = polyhedron.vertices_adj_to_face();
     let facets = polyhedron.faces().iter().map(|face| {
         let first = face.first_vertex_or_edge as usize;
@@ -148,7 +156,7 @@ fn push_polyhedron(form: &mut Form, polyhedron: &ConvexPolyhedron, radius: f64) 
 }
 
 /// Adds the segments of a polyline to a form.
-fn push_polyline(form: &mut Form, line: &Polyline) {
+fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
     for (number, ends) in (0..).zip(line.indices()) {
@@ -160,7 +168,7 @@ fn push_polyline(form: &mut Form, line: &Polyline) {
 const ONE: [[u32; 3]; 1] = [[0, 1, 2]];
 
 /// Adds the triangles of a height field to a form, with parry's numbers and corners.
-fn push_heights(form: &mut Form, field: &HeightField) {
+fn push_heights(form: &mut ShapeGeometry, field: &HeightField) {
     let (rows, columns) = (field.nrows(), field.ncols());
     for j in 0..columns {
         for i in 0..rows {
@@ -176,7 +184,7 @@ fn push_heights(form: &mut Form, field: &HeightField) {
 }
 
 /// Adds the cubes of filled voxels to a form.
-fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
+fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeError> {
     let edge = point(voxels.voxel_size());
     let [low, high] = voxels.domain();
     let near = |v: IVector| {
@@ -205,7 +213,7 @@ fn push_voxels(form: &mut Form, voxels: &Voxels) -> Result<(), ShapeError> {
 
 /// Adds the parts of a compound to a form, each at its pose.
 fn push_parts(
-    form: &mut Form,
+    form: &mut ShapeGeometry,
     compound: &Compound,
     options: &Options,
     depth: usize,
@@ -218,9 +226,9 @@ fn push_parts(
             part,
             error: Box::new(error),
         };
-        let inner = form_at_depth(&**shape, options, depth + 1).map_err(named)?;
+        let inner = geometry_at_depth(&**shape, options, depth + 1).map_err(named)?;
         let at = pose(at).map_err(|error| named(ShapeError::Body(error)))?;
-        form.push_placed(&at, &inner, part).map_err(named)?;
+        form.push_at_pose(&at, &inner, part).map_err(named)?;
     }
     Ok(())
 }

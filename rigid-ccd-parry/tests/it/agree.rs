@@ -1,30 +1,33 @@
 //! Tests that casts agree with the engine on bodies that are made in other ways.
 
 use crate::double::make;
-use crate::scenes::{Moves, Recipe, motions, number, random, shape, vector};
+use crate::scenes::{MotionSpec, ShapeSpec, motions, number, random, shape, vector};
 use rigid_ccd::body::{Pieces, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 use rigid_ccd_parry::f64::cast_shapes_nonlinear;
 
-fn wide(v: [f32; 3]) -> [f64; 3] {
+fn to_f64(v: [f32; 3]) -> [f64; 3] {
     v.map(f64::from)
 }
 
 /// Makes a body with the engine's own constructors.
-fn body(recipe: &Recipe) -> Body {
+fn body(recipe: &ShapeSpec) -> Body {
     let points = |points: &[[f32; 3]]| -> Vec<DVec3> {
-        points.iter().map(|p| DVec3::from_array(wide(*p))).collect()
+        points
+            .iter()
+            .map(|p| DVec3::from_array(to_f64(*p)))
+            .collect()
     };
     let made = match recipe {
-        Recipe::Ball(radius) => Body::sphere(f64::from(*radius)),
-        Recipe::Cuboid(half) => Body::cuboid(wide(*half)),
-        Recipe::Capsule(a, b, radius) => Body::polytope(rigid_ccd::body::Polytope {
+        ShapeSpec::Ball(radius) => Body::sphere(f64::from(*radius)),
+        ShapeSpec::Cuboid(half) => Body::cuboid(to_f64(*half)),
+        ShapeSpec::Capsule(a, b, radius) => Body::polytope(rigid_ccd::body::Polytope {
             points: points(&[*a, *b]),
             radius: f64::from(*radius),
             ..rigid_ccd::body::Polytope::default()
         }),
-        Recipe::Mesh(vertices, faces) => {
+        ShapeSpec::Mesh(vertices, faces) => {
             let ids: Vec<u32> = (0..faces.len() as u32).collect();
             let pieces = Pieces::triangles(&points(vertices), faces, &ids).expect("triangles");
             Body::new(&pieces, Volume::Surface)
@@ -34,13 +37,13 @@ fn body(recipe: &Recipe) -> Body {
     made.expect("a body")
 }
 
-fn motion(moves: &Moves) -> Motion {
-    let start = Pose::new(wide(moves.place), moves.turned.map(f64::from)).expect("a pose");
+fn motion(moves: &MotionSpec) -> Motion {
+    let start = Pose::new(to_f64(moves.place), moves.turned.map(f64::from)).expect("a pose");
     let about = Motion::about(
         start,
-        wide(moves.velocity),
-        wide(moves.spin),
-        wide(moves.centre),
+        to_f64(moves.velocity),
+        to_f64(moves.spin),
+        to_f64(moves.centre),
     );
     about.expect("a motion")
 }

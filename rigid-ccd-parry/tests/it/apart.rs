@@ -6,7 +6,7 @@ use crate::double::library::math::{Pose, Real};
 use crate::double::library::query::{NonlinearRigidMotion, ShapeCastOptions, distance};
 use crate::double::library::shape::TypedShape;
 use crate::double::make::SharedShape;
-use crate::scenes::{KINDS, Moves, Recipe, motions, number, random, shape};
+use crate::scenes::{KINDS, MotionSpec, ShapeSpec, motions, number, random, shape};
 use crate::{double, single};
 use ccd_core::order::{greater, lesser};
 use rand::RngExt;
@@ -14,8 +14,8 @@ use rigid_ccd_parry::{Options, f32 as ours32, f64 as ours64};
 
 /// A random scene with single-precision numbers.
 struct Scene {
-    recipes: [Recipe; 2],
-    moves: [Moves; 2],
+    shape_specs: [ShapeSpec; 2],
+    moves: [MotionSpec; 2],
     /// The factor on all lengths, a power of two.
     scale: f32,
     shapes: [SharedShape; 2],
@@ -40,7 +40,7 @@ impl Scene {
             parts: [0, 1].map(|k| parts(Pose::IDENTITY, &shapes[k])),
             motions: moves.map(|moves| double::make::motion(&moves)),
             shapes,
-            recipes,
+            shape_specs: recipes,
             moves,
             scale,
         }
@@ -53,14 +53,14 @@ impl Scene {
         [single::make::SharedShape; 2],
         [parry3d::query::NonlinearRigidMotion; 2],
     ) {
-        let shapes = [0, 1].map(|k| single::make::shape(&self.recipes[k]));
+        let shapes = [0, 1].map(|k| single::make::shape(&self.shape_specs[k]));
         (shapes, self.moves.map(|moves| single::make::motion(&moves)))
     }
 
     /// Returns parry's distance of the shapes at a time; it is 0 if they intersect.
     fn distance(&self, time: Real) -> Real {
         let [a, b] = &self.parts;
-        self.least_of_pairs(time, [a, b]).0
+        self.least_pair_distance(time, [a, b]).0
     }
 
     /// Returns the least distance at a time over all pairs of convex parts. parry's distance of many parts may be far
@@ -70,12 +70,12 @@ impl Scene {
             let of_part = |(at, shape): &Part| triangles(*at, shape);
             parts.iter().flat_map(of_part).collect::<Vec<Part>>()
         });
-        let (there, least) = self.least_of_pairs(time, [&a, &b]);
+        let (there, least) = self.least_pair_distance(time, [&a, &b]);
         (lesser(there, least), greater(there, least))
     }
 
     /// Returns the least distance over all pairs, in both orders of the shapes.
-    fn least_of_pairs(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
+    fn least_pair_distance(&self, time: Real, [a, b]: [&[Part]; 2]) -> (Real, Real) {
         let [p, q] = self.motions.map(|motion| motion.position_at_time(time));
         let mut least = (Real::INFINITY, Real::INFINITY);
         for (at, a) in a {
@@ -107,7 +107,7 @@ impl Scene {
     /// Bounds the error of parry's distances, for shapes of size 1 or less: the search for round shapes ends at that
     /// error.
     fn distance_error(&self) -> f64 {
-        let kinds = self.recipes.each_ref().map(Recipe::name);
+        let kinds = self.shape_specs.each_ref().map(ShapeSpec::name);
         let round = ["Round", "Capsule", "Cylinder", "Cone", "Compound"];
         let is_round = |kind: &String| round.iter().any(|round| kind.starts_with(round));
         let off = if kinds.iter().any(is_round) {
@@ -154,13 +154,13 @@ fn triangles(at: Pose, shape: &SharedShape) -> Vec<Part> {
 
 /// The numbers of hits and misses so far.
 #[derive(Debug, Default)]
-struct Count {
+struct HitCounts {
     hits: u64,
     misses: u64,
     starts: u64,
 }
 
-impl Count {
+impl HitCounts {
     /// Checks the hit of a cast, or its absence, for an interval and a target distance.
     fn check(
         &mut self,
@@ -203,7 +203,7 @@ fn cases(count: u64) -> u64 {
 
 #[test]
 fn nothing_touches_before_a_hit() {
-    let (mut count, all) = (Count::default(), cases(400));
+    let (mut count, all) = (HitCounts::default(), cases(400));
     for seed in 0..all {
         let scene = Scene::new(seed);
         let start = [0.0, 0.0, -0.25, 0.125f32][seed as usize % 4];
@@ -218,7 +218,7 @@ fn nothing_touches_before_a_hit() {
         let hit64 = hit64.expect("served").map(|hit| hit.time_of_impact);
         let name = format!(
             "seed {seed}: {:?}",
-            scene.recipes.each_ref().map(Recipe::name)
+            scene.shape_specs.each_ref().map(ShapeSpec::name)
         );
         // The single-precision time is rounded down, at speeds of up to 30.
         let rounded = 1e-5 * f64::from(scene.scale);
@@ -232,7 +232,7 @@ fn nothing_touches_before_a_hit() {
             );
         }
     }
-    let Count {
+    let HitCounts {
         hits,
         misses,
         starts,
@@ -245,7 +245,7 @@ fn nothing_touches_before_a_hit() {
 
 #[test]
 fn straight_casts_keep_the_target_distance() {
-    let (mut count, all) = (Count::default(), cases(400));
+    let (mut count, all) = (HitCounts::default(), cases(400));
     for seed in 0..all {
         let mut scene = Scene::new(seed);
         let mut rng = random(seed);
@@ -265,12 +265,12 @@ fn straight_casts_keep_the_target_distance() {
         let hit = ours64::cast_shapes(&p, v, &**a, &q, w, &**b, options).expect("served");
         let name = format!(
             "seed {seed}: {:?}",
-            scene.recipes.each_ref().map(Recipe::name)
+            scene.shape_specs.each_ref().map(ShapeSpec::name)
         );
         let found = hit.map(|hit| hit.time_of_impact);
         count.check(&scene, [0.0, 2.0], target, found, 1e-9, &name);
     }
-    let Count {
+    let HitCounts {
         hits,
         misses,
         starts,

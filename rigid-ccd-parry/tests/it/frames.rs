@@ -4,7 +4,7 @@ use crate::double::library::math::{Pose, Vector};
 use crate::double::library::query::{self, ShapeCastHit, ShapeCastOptions, ShapeCastStatus};
 use crate::double::library::shape::{Shape, TypedShape};
 use crate::double::make;
-use crate::scenes::{Moves, motions, random, shape};
+use crate::scenes::{MotionSpec, motions, random, shape};
 use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 /// The numbers of hits of both casts at about the same time, and of those with equal points, directions and sub-shapes.
@@ -73,7 +73,7 @@ fn distance_of(shape: &make::SharedShape, number: u32, point: Vector) -> f64 {
     found
 }
 
-fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [Moves; 2]) {
+fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [MotionSpec; 2]) {
     let mut rng = random(seed);
     let shapes = kinds.map(|kind| make::shape(&shape(&mut rng, kind)));
     (shapes, motions(&mut rng))
@@ -90,7 +90,7 @@ fn nonlinear_hits_are_in_the_frames_of_parry() {
         ];
         let ([a, b], moves) = pair(seed, kinds);
         // The rotations are slow: beyond half a turn parry's cast may be late.
-        let slow = moves.map(|moves| Moves {
+        let slow = moves.map(|moves| MotionSpec {
             spin: moves.spin.map(|w| 0.02 * w),
             ..moves
         });

@@ -1,7 +1,7 @@
 //! Tests that bodies have the extent of parry's shapes in every direction.
 
 use crate::double;
-use crate::scenes::{KINDS, Recipe, random, shape, turn};
+use crate::scenes::{KINDS, ShapeSpec, random, shape, turn};
 use ccd_core::order::greater;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::{Shape, SharedShape, TypedShape};
@@ -94,7 +94,7 @@ fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
         }
         let round = matches!(
             shape(&mut random(0), kind),
-            Recipe::Cylinder(..) | Recipe::Cone(..)
+            ShapeSpec::Cylinder(..) | ShapeSpec::Cone(..)
         );
         assert_eq!(
             exact && most < 1e-13,

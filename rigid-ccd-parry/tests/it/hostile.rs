@@ -14,7 +14,7 @@ fn resting(x: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::constant_position(Pose::translation(x, 0.0, 0.0))
 }
 
-fn flying(x: f32, speed: f32) -> NonlinearRigidMotion {
+fn linear_motion(x: f32, speed: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion {
         linvel: speed * Vector::X,
         ..resting(x)
@@ -41,12 +41,12 @@ fn shapes_without_size_meet() {
     for a in &shapes {
         for b in &shapes {
             let found =
-                time(&**a, &**b, [flying(-4.0, 2.0), resting(0.0)], 9.0).expect("they meet");
+                time(&**a, &**b, [linear_motion(-4.0, 2.0), resting(0.0)], 9.0).expect("they meet");
             assert!(found <= 2.0 && found > 1.999999, "{found}");
             let beside = resting(0.0);
             let past = NonlinearRigidMotion {
                 start: Pose::translation(-4.0, 0.001, 0.0),
-                ..flying(0.0, 2.0)
+                ..linear_motion(0.0, 2.0)
             };
             assert_eq!(time(&**a, &**b, [past, beside], 9.0), None);
         }
@@ -60,12 +60,12 @@ fn tiny_bodies_are_not_in_contact_at_their_own_size() {
         let found = time(
             &ball,
             &cube,
-            [flying(-4.0 * scale, scale), resting(0.0)],
+            [linear_motion(-4.0 * scale, scale), resting(0.0)],
             9.0,
         );
         let found = found.expect("they meet");
         assert!(found <= 2.0 && found > 1.99999, "{scale:e}: {found}");
-        let past = flying(-4.0 * scale, scale);
+        let past = linear_motion(-4.0 * scale, scale);
         let past = NonlinearRigidMotion {
             start: Pose::translation(-4.0 * scale, 2.01 * scale, 0.0),
             ..past
@@ -84,7 +84,12 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     for far in [0.0, 65536.0, 1e9, 68719476736.0f32] {
         let (ball, cube) = (Ball::new(1.0), Cuboid::new(Vector::splat(1.0)));
         let step = greater(far * 1e-6, 8.0).log2().ceil().exp2();
-        let found = time(&ball, &cube, [flying(far - step, 1.0), resting(far)], 1e6);
+        let found = time(
+            &ball,
+            &cube,
+            [linear_motion(far - step, 1.0), resting(far)],
+            1e6,
+        );
         let exact = step - 2.0;
         let found = found.expect("they meet");
         assert!(
@@ -94,8 +99,13 @@ fn large_scenes_and_far_origins_are_met_in_time() {
     }
     for size in [1e3, 1e6, 1e9f32] {
         let (ball, cube) = (Ball::new(size), Cuboid::new(Vector::splat(size)));
-        let found =
-            time(&ball, &cube, [flying(-4.0 * size, size), resting(0.0)], 9.0).expect("they meet");
+        let found = time(
+            &ball,
+            &cube,
+            [linear_motion(-4.0 * size, size), resting(0.0)],
+            9.0,
+        )
+        .expect("they meet");
         assert!(found <= 2.0 && found > 1.999999, "{size:e}: {found}");
     }
     let beyond = try_cast_shapes_nonlinear(
@@ -120,7 +130,7 @@ fn speeds_beyond_all_scales_are_met() {
         let found = time(
             &ball,
             &ball,
-            [flying(-4.0, speed), resting(0.0)],
+            [linear_motion(-4.0, speed), resting(0.0)],
             f32::INFINITY,
         );
         let (found, exact) = (found.expect("they meet"), 2.0 / f64::from(speed));
@@ -133,14 +143,14 @@ fn speeds_beyond_all_scales_are_met() {
             time(
                 &ball,
                 &ball,
-                [flying(-4.0, -speed), resting(0.0)],
+                [linear_motion(-4.0, -speed), resting(0.0)],
                 f32::INFINITY
             ),
             None
         );
     }
     // Two bodies that fly along each other, at any speed.
-    let along = [flying(-4.0, 1e30), flying(0.0, 1e30)];
+    let along = [linear_motion(-4.0, 1e30), linear_motion(0.0, 1e30)];
     assert_eq!(time(&ball, &ball, along, f32::INFINITY), None);
 }
 
@@ -149,7 +159,7 @@ fn spins_beyond_the_limit_end_as_a_limit() {
     let cube = Cuboid::new(Vector::splat(1.0));
     let spins = |rate: f32| NonlinearRigidMotion {
         angvel: rate * Vector::Z,
-        ..flying(-9.0, 1.0)
+        ..linear_motion(-9.0, 1.0)
     };
     let cast = |shape: &dyn Shape, rate| {
         let hit =

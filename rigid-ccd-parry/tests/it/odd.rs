@@ -10,7 +10,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
 /// Returns one of the numbers in `ODD` with probability `share`, otherwise a usual one.
-fn odd_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
+fn special_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
     if rng.random::<f32>() < share {
         ODD[rng.random_range(0..ODD.len())]
     } else {
@@ -18,57 +18,64 @@ fn odd_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
     }
 }
 
-fn odd_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
+fn special_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
     Vector::new(
-        odd_number(rng, share),
-        odd_number(rng, share),
-        odd_number(rng, share),
+        special_number(rng, share),
+        special_number(rng, share),
+        special_number(rng, share),
     )
 }
 
-fn odd_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
-    let [x, y, z, w] = std::array::from_fn(|_| odd_number(rng, share));
-    Pose::from_parts(odd_vector(rng, share), Rotation::from_xyzw(x, y, z, w))
+fn special_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
+    let [x, y, z, w] = std::array::from_fn(|_| special_number(rng, share));
+    Pose::from_parts(special_vector(rng, share), Rotation::from_xyzw(x, y, z, w))
 }
 
-fn odd_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
+fn special_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
-        odd_pose(rng, share),
-        odd_vector(rng, share),
-        odd_vector(rng, share),
-        odd_vector(rng, share),
+        special_pose(rng, share),
+        special_vector(rng, share),
+        special_vector(rng, share),
+        special_vector(rng, share),
     )
 }
 
 /// Returns a shape whose fields parry does not check.
-fn odd_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
-    let radius = odd_number(rng, share).abs();
+fn unchecked_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
+    let radius = special_number(rng, share).abs();
     match rng.random_range(0..9) {
-        0 => SharedShape::ball(odd_number(rng, share)),
+        0 => SharedShape::ball(special_number(rng, share)),
         1 => SharedShape::new(Cuboid {
-            half_extents: odd_vector(rng, share).abs(),
+            half_extents: special_vector(rng, share).abs(),
         }),
-        2 => SharedShape::capsule(odd_vector(rng, share), odd_vector(rng, share), radius),
-        3 => SharedShape::new(Segment::new(odd_vector(rng, share), odd_vector(rng, share))),
+        2 => SharedShape::capsule(
+            special_vector(rng, share),
+            special_vector(rng, share),
+            radius,
+        ),
+        3 => SharedShape::new(Segment::new(
+            special_vector(rng, share),
+            special_vector(rng, share),
+        )),
         4 => SharedShape::new(Triangle::new(
-            odd_vector(rng, share),
-            odd_vector(rng, share),
-            odd_vector(rng, share),
+            special_vector(rng, share),
+            special_vector(rng, share),
+            special_vector(rng, share),
         )),
         5 => SharedShape::new(Cylinder {
-            half_height: odd_number(rng, share),
-            radius: odd_number(rng, share),
+            half_height: special_number(rng, share),
+            radius: special_number(rng, share),
         }),
         6 => SharedShape::new(Cone {
-            half_height: odd_number(rng, share).abs(),
+            half_height: special_number(rng, share).abs(),
             radius,
         }),
         7 => {
-            let vertices = (0..4).map(|_| odd_vector(rng, 0.3 * share)).collect();
+            let vertices = (0..4).map(|_| special_vector(rng, 0.3 * share)).collect();
             let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3], [1, 1, 3]]);
             SharedShape::new(mesh.expect("triangles"))
         }
-        _ => SharedShape::halfspace(odd_vector(rng, share)),
+        _ => SharedShape::halfspace(special_vector(rng, share)),
     }
 }
 
@@ -91,10 +98,10 @@ fn odd_numbers_are_answered_or_refused() {
     for seed in 0..8_000 {
         let mut rng = random(seed);
         let share = [0.01, 0.05, 0.3][seed as usize % 3];
-        let [a, b] = [0, 1].map(|_| odd_shape(&mut rng, share));
+        let [a, b] = [0, 1].map(|_| unchecked_shape(&mut rng, share));
         let found = match seed % 2 {
             0 => {
-                let [m, n] = [0, 1].map(|_| odd_motion(&mut rng, share));
+                let [m, n] = [0, 1].map(|_| special_motion(&mut rng, share));
                 // Millions of turns take long; another test covers the limits.
                 let slow = |motion: NonlinearRigidMotion| NonlinearRigidMotion {
                     angvel: motion
@@ -102,7 +109,10 @@ fn odd_numbers_are_answered_or_refused() {
                         .clamp(Vector::splat(-20.0), Vector::splat(20.0)),
                     ..motion
                 };
-                let times = [odd_number(&mut rng, share), odd_number(&mut rng, share)];
+                let times = [
+                    special_number(&mut rng, share),
+                    special_number(&mut rng, share),
+                ];
                 let times = times.map(|time| if time.abs() > 1e3 { 2.0 } else { time });
                 let found =
                     try_cast_shapes_nonlinear(&slow(m), &*a, &slow(n), &*b, times, seed % 4 == 0);
@@ -111,11 +121,11 @@ fn odd_numbers_are_answered_or_refused() {
                 })
             }
             _ => {
-                let poses = [0, 1].map(|_| odd_pose(&mut rng, share));
-                let [v, w] = [0, 1].map(|_| odd_vector(&mut rng, share));
+                let poses = [0, 1].map(|_| special_pose(&mut rng, share));
+                let [v, w] = [0, 1].map(|_| special_vector(&mut rng, share));
                 let options = ShapeCastOptions {
-                    max_time_of_impact: odd_number(&mut rng, share),
-                    target_distance: odd_number(&mut rng, share).abs(),
+                    max_time_of_impact: special_number(&mut rng, share),
+                    target_distance: special_number(&mut rng, share).abs(),
                     stop_at_penetration: seed % 4 == 1,
                     compute_impact_geometry_on_penetration: true,
                 };

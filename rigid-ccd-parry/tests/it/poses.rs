@@ -1,12 +1,12 @@
 //! Tests that the engine's motions equal parry's.
 
-use crate::scenes::{Moves, motions, number, random, vector};
+use crate::scenes::{MotionSpec, motions, number, random, vector};
 use crate::{double, single};
 use ccd_core::order::greater;
 use rigid_ccd::{Motion, glam::DVec3};
 
 /// Returns the largest distance of the body's points from parry's positions, relative to all lengths.
-fn largest_error(rounds: u64, error: impl Fn(&Moves, f32, [f32; 3]) -> f64) -> f64 {
+fn largest_error(rounds: u64, error: impl Fn(&MotionSpec, f32, [f32; 3]) -> f64) -> f64 {
     let mut rng = random(1);
     let mut worst = 0.0;
     for _ in 0..rounds {

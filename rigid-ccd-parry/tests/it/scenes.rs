@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Mcg;
 
 /// The numbers from which a shape is made, in either precision.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Recipe {
+pub(crate) enum ShapeSpec {
     Ball(f32),
     Cuboid([f32; 3]),
     RoundCuboid([f32; 3], f32),
@@ -25,12 +25,12 @@ pub(crate) enum Recipe {
     Voxels([f32; 3], Vec<[i32; 3]>),
     Polyline(Vec<[f32; 3]>),
     /// The parts, each with its position and quaternion.
-    Compound(Vec<([f32; 3], [f32; 4], Recipe)>),
+    Compound(Vec<([f32; 3], [f32; 4], ShapeSpec)>),
 }
 
 /// The numbers from which a motion is made, in either precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Moves {
+pub(crate) struct MotionSpec {
     pub(crate) place: [f32; 3],
     /// The orientation, a unit quaternion up to rounding.
     pub(crate) turned: [f32; 4],
@@ -39,30 +39,38 @@ pub(crate) struct Moves {
     pub(crate) spin: [f32; 3],
 }
 
-impl Recipe {
+impl ShapeSpec {
     /// Returns the motion with all lengths multiplied by a power of two.
     pub(crate) fn scaled(self, by: f32) -> Self {
         let v = |v: [f32; 3]| v.map(|x| x * by);
         match self {
-            Recipe::Ball(r) => Recipe::Ball(r * by),
-            Recipe::Cuboid(half) => Recipe::Cuboid(v(half)),
-            Recipe::RoundCuboid(half, r) => Recipe::RoundCuboid(v(half), r * by),
-            Recipe::Capsule(a, b, r) => Recipe::Capsule(v(a), v(b), r * by),
-            Recipe::Segment(ends) => Recipe::Segment(ends.map(v)),
-            Recipe::Triangle(corners) => Recipe::Triangle(corners.map(v)),
-            Recipe::RoundTriangle(corners, r) => Recipe::RoundTriangle(corners.map(v), r * by),
-            Recipe::Hull(points, r) => Recipe::Hull(points.into_iter().map(v).collect(), r * by),
-            Recipe::Mesh(points, faces) => Recipe::Mesh(points.into_iter().map(v).collect(), faces),
-            Recipe::Heights(heights, rows, scale) => Recipe::Heights(heights, rows, v(scale)),
-            Recipe::Cylinder(half, r, border) => Recipe::Cylinder(half * by, r * by, border * by),
-            Recipe::Cone(half, r, border) => Recipe::Cone(half * by, r * by, border * by),
-            Recipe::Voxels(size, cells) => Recipe::Voxels(v(size), cells),
-            Recipe::Polyline(points) => Recipe::Polyline(points.into_iter().map(v).collect()),
-            Recipe::Compound(parts) => {
-                let part = |(place, turned, inner): ([f32; 3], [f32; 4], Recipe)| {
+            ShapeSpec::Ball(r) => ShapeSpec::Ball(r * by),
+            ShapeSpec::Cuboid(half) => ShapeSpec::Cuboid(v(half)),
+            ShapeSpec::RoundCuboid(half, r) => ShapeSpec::RoundCuboid(v(half), r * by),
+            ShapeSpec::Capsule(a, b, r) => ShapeSpec::Capsule(v(a), v(b), r * by),
+            ShapeSpec::Segment(ends) => ShapeSpec::Segment(ends.map(v)),
+            ShapeSpec::Triangle(corners) => ShapeSpec::Triangle(corners.map(v)),
+            ShapeSpec::RoundTriangle(corners, r) => {
+                ShapeSpec::RoundTriangle(corners.map(v), r * by)
+            }
+            ShapeSpec::Hull(points, r) => {
+                ShapeSpec::Hull(points.into_iter().map(v).collect(), r * by)
+            }
+            ShapeSpec::Mesh(points, faces) => {
+                ShapeSpec::Mesh(points.into_iter().map(v).collect(), faces)
+            }
+            ShapeSpec::Heights(heights, rows, scale) => ShapeSpec::Heights(heights, rows, v(scale)),
+            ShapeSpec::Cylinder(half, r, border) => {
+                ShapeSpec::Cylinder(half * by, r * by, border * by)
+            }
+            ShapeSpec::Cone(half, r, border) => ShapeSpec::Cone(half * by, r * by, border * by),
+            ShapeSpec::Voxels(size, cells) => ShapeSpec::Voxels(v(size), cells),
+            ShapeSpec::Polyline(points) => ShapeSpec::Polyline(points.into_iter().map(v).collect()),
+            ShapeSpec::Compound(parts) => {
+                let part = |(place, turned, inner): ([f32; 3], [f32; 4], ShapeSpec)| {
                     (v(place), turned, inner.scaled(by))
                 };
-                Recipe::Compound(parts.into_iter().map(part).collect())
+                ShapeSpec::Compound(parts.into_iter().map(part).collect())
             }
         }
     }
@@ -74,11 +82,11 @@ impl Recipe {
     }
 }
 
-impl Moves {
+impl MotionSpec {
     /// Returns the shape with all lengths multiplied by a power of two.
     pub(crate) fn scaled(self, by: f32) -> Self {
         let v = |v: [f32; 3]| v.map(|x| x * by);
-        Moves {
+        MotionSpec {
             place: v(self.place),
             centre: v(self.centre),
             velocity: v(self.velocity),
@@ -113,33 +121,33 @@ pub(crate) fn turn(rng: &mut impl Rng) -> [f32; 4] {
 pub(crate) const KINDS: u32 = 16;
 
 /// Returns a random shape of a kind, of size about 1.
-pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
+pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> ShapeSpec {
     let size = |rng: &mut _| number(rng, 0.1, 0.5);
     let points = |rng: &mut _| vector(rng, 0.5);
     match kind % KINDS {
-        0 => Recipe::Ball(size(rng)),
-        1 => Recipe::Cuboid([size(rng), size(rng), size(rng)]),
-        2 => Recipe::RoundCuboid([size(rng), size(rng), size(rng)], 0.3 * size(rng)),
-        3 => Recipe::Capsule(points(rng), points(rng), size(rng)),
-        4 => Recipe::Segment([points(rng), points(rng)]),
-        5 => Recipe::Triangle([points(rng), points(rng), points(rng)]),
-        6 => Recipe::RoundTriangle([points(rng), points(rng), points(rng)], 0.3 * size(rng)),
-        7 => Recipe::Hull((0..12).map(|_| points(rng)).collect(), 0.0),
-        8 => Recipe::Hull((0..12).map(|_| points(rng)).collect(), 0.3 * size(rng)),
+        0 => ShapeSpec::Ball(size(rng)),
+        1 => ShapeSpec::Cuboid([size(rng), size(rng), size(rng)]),
+        2 => ShapeSpec::RoundCuboid([size(rng), size(rng), size(rng)], 0.3 * size(rng)),
+        3 => ShapeSpec::Capsule(points(rng), points(rng), size(rng)),
+        4 => ShapeSpec::Segment([points(rng), points(rng)]),
+        5 => ShapeSpec::Triangle([points(rng), points(rng), points(rng)]),
+        6 => ShapeSpec::RoundTriangle([points(rng), points(rng), points(rng)], 0.3 * size(rng)),
+        7 => ShapeSpec::Hull((0..12).map(|_| points(rng)).collect(), 0.0),
+        8 => ShapeSpec::Hull((0..12).map(|_| points(rng)).collect(), 0.3 * size(rng)),
         9 => mesh(rng),
         10 => {
             let heights = (0..20).map(|_| number(rng, -0.2, 0.2)).collect();
-            Recipe::Heights(heights, 5, [1.5, 1.0, 1.0])
+            ShapeSpec::Heights(heights, 5, [1.5, 1.0, 1.0])
         }
-        11 => Recipe::Cylinder(size(rng), size(rng), [0.0, 0.1][rng.random_range(0..2)]),
-        12 => Recipe::Cone(size(rng), size(rng), [0.0, 0.1][rng.random_range(0..2)]),
+        11 => ShapeSpec::Cylinder(size(rng), size(rng), [0.0, 0.1][rng.random_range(0..2)]),
+        12 => ShapeSpec::Cone(size(rng), size(rng), [0.0, 0.1][rng.random_range(0..2)]),
         13 => {
             let cells = (0..9).map(|_| std::array::from_fn(|_| rng.random_range(-2..2)));
-            Recipe::Voxels([0.2, 0.3, 0.25], cells.collect())
+            ShapeSpec::Voxels([0.2, 0.3, 0.25], cells.collect())
         }
         14 => {
             let points = (0..5).map(|_| points(rng));
-            Recipe::Polyline(points.collect())
+            ShapeSpec::Polyline(points.collect())
         }
         _ => {
             let part = |rng: &mut _| {
@@ -148,13 +156,13 @@ pub(crate) fn shape(rng: &mut impl Rng, kind: u32) -> Recipe {
                     [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13][number(rng, 0.0, 11.99) as usize];
                 (vector(rng, 0.5), turn(rng), shape(rng, kind))
             };
-            Recipe::Compound((0..3).map(|_| part(rng)).collect())
+            ShapeSpec::Compound((0..3).map(|_| part(rng)).collect())
         }
     }
 }
 
 /// Returns a torus of a few triangles; one in four is not closed.
-fn mesh(rng: &mut impl Rng) -> Recipe {
+fn mesh(rng: &mut impl Rng) -> ShapeSpec {
     let (rings, sides) = (7, 5);
     let thick = number(rng, 0.1, 0.25);
     let vertex = |k: u32| {
@@ -172,14 +180,14 @@ fn mesh(rng: &mut impl Rng) -> Recipe {
     if rng.random_range(0..4) == 0 {
         faces.truncate(50);
     }
-    Recipe::Mesh((0..rings * sides).map(vertex).collect(), faces)
+    ShapeSpec::Mesh((0..rings * sides).map(vertex).collect(), faces)
 }
 
 /// Returns two motions of bodies that start apart; in most cases the first one is aimed at the second one.
-pub(crate) fn motions(rng: &mut impl Rng) -> [Moves; 2] {
+pub(crate) fn motions(rng: &mut impl Rng) -> [MotionSpec; 2] {
     let moves = |rng: &mut _, place, velocity| {
         let fast = [0.0, 3.0, 12.0][number(rng, 0.0, 2.99) as usize];
-        Moves {
+        MotionSpec {
             place,
             turned: turn(rng),
             centre: vector(rng, 0.3),

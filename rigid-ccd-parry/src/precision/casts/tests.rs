@@ -11,23 +11,23 @@ fn cast(radius: Real) -> Option<Real> {
 }
 
 /// A thread-local value that casts when its thread ends, after the thread's memory is dropped.
-struct AtTheEnd;
+struct CastOnDrop;
 
-impl Drop for AtTheEnd {
+impl Drop for CastOnDrop {
     fn drop(&mut self) {
         assert!(cast(1.0).is_some_and(|time| time <= 1.0));
     }
 }
 
 thread_local! {
-    static LAST: AtTheEnd = const { AtTheEnd };
+    static CAST_ON_DROP: CastOnDrop = const { CastOnDrop };
 }
 
 #[test]
 fn casts_work_when_a_thread_ends() {
     let thread = std::thread::spawn(|| {
         // Thread-local values are dropped in the reverse order of their creation.
-        LAST.with(|_| ());
+        CAST_ON_DROP.with(|_| ());
         cast(0.5)
     });
     assert!(thread.join().expect("no panic").is_some());
