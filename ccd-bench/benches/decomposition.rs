@@ -7,7 +7,7 @@
 mod settings;
 
 use ccd_bench::scene::model::Model;
-use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh, decompose};
+use ccd_decomp::{Detail, PatchOrder, TriangleMesh, body_from_mesh, decompose};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -36,9 +36,9 @@ fn benchmark_decompositions(criterion: &mut Criterion) {
     for (name, mesh) in &meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (order, id) in [
-            (Order::Cresting, "cresting"),
-            (Order::BreadthFirst, "breadth-first"),
-            (Order::DepthFirst, "depth-first"),
+            (PatchOrder::Cresting, "cresting"),
+            (PatchOrder::BreadthFirst, "breadth-first"),
+            (PatchOrder::DepthFirst, "depth-first"),
         ] {
             assert_covered(mesh, order);
             group.bench_with_input(BenchmarkId::new(id, name), mesh, |bencher, mesh| {
@@ -50,7 +50,7 @@ fn benchmark_decompositions(criterion: &mut Criterion) {
 }
 
 /// Asserts that every triangle is in exactly one patch before anything is timed.
-fn assert_covered(mesh: &TriangleMesh, order: Order) {
+fn assert_covered(mesh: &TriangleMesh, order: PatchOrder) {
     let patches = decompose(mesh, order)
         .expect("a knot bounds a solid")
         .patches;
@@ -71,7 +71,7 @@ fn benchmark_body_creation(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (detail, id) in [
             (Detail::Triangles, "triangles"),
-            (Detail::Patches(Order::Cresting), "patches"),
+            (Detail::Patches(PatchOrder::Cresting), "patches"),
             (Detail::Auto, "auto"),
         ] {
             group.bench_with_input(BenchmarkId::new(id, name), mesh, |bencher, mesh| {

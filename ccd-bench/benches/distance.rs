@@ -137,8 +137,8 @@ impl PoseSequence {
         let distance = |&pose: &Frame| {
             let pair = self.pair(pose);
             let claim = oracle.separation(&pair, &mut cache).expect("no give-up");
-            let on_a = claim.a.of(pair.a.points).expect("a point of A");
-            let on_b = claim.b.of(pair.b.points).expect("a point of B");
+            let on_a = claim.a.position(pair.a.points).expect("a point of A");
+            let on_b = claim.b.position(pair.b.points).expect("a point of B");
             on_a.distance(pose.point(on_b))
         };
         self.poses.iter().map(distance).collect()

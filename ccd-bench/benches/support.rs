@@ -1,5 +1,5 @@
 //! Benchmarks the search for extremal corners, by the size of the piece: a scan of all corners, and climbing from a
-//! cold and a warm start. The result decides `ccd_core::tuning::CLIMBED_POINTS`.
+//! cold and a warm start. The result decides `ccd_core::tuning::MAX_SCANNED_POINTS`.
 //!
 //! `cargo bench -p ccd-bench --bench support`
 

@@ -238,7 +238,7 @@ impl Solver for Ours<'_> {
             Outcome::Unresolved(known) => Claim::Unresolved {
                 safe_until: known.safe_until,
             },
-            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+            Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a first contact")
             }
         };

@@ -10,7 +10,7 @@ pub use listing::{Listing, listings};
 use crate::scene::model::Model;
 use anyhow::{Context, Result};
 use ccd_core::Body;
-use ccd_decomp::{Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
+use ccd_decomp::{Detail, PatchOrder, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::batch::Bodies;
 use rigid_ccd::table::motions::Motions;
 use std::collections::HashMap;
@@ -83,7 +83,7 @@ impl PieceKind {
         let detail = match self {
             PieceKind::Least => Detail::Auto,
             PieceKind::Triangles => Detail::Triangles,
-            PieceKind::Patches => Detail::Patches(Order::Cresting),
+            PieceKind::Patches => Detail::Patches(PatchOrder::Cresting),
             PieceKind::ApproximateHulls => Detail::Vhacd { hulls: MAX_HULLS },
         };
         let model = prepare(mesh, detail)?;

@@ -93,7 +93,7 @@ pub enum Outcome {
         last: Hit,
     },
     /// The least distance is between a lower bound and the distance of the nearest pieces.
-    Measured {
+    LeastDistance {
         /// A lower bound of the least distance.
         lower: f64,
         /// The time at which the bodies are nearest, as far as known.
@@ -173,7 +173,7 @@ impl Outcome {
             Outcome::Overlapping { overlap, .. } => at(0.0, HitKind::Overlapping(overlap)),
             Outcome::Interval { first, .. } => Ok(Some(first)),
             // Bodies that may touch count as in contact.
-            Outcome::Measured {
+            Outcome::LeastDistance {
                 lower,
                 time,
                 contact,
@@ -194,7 +194,7 @@ impl Outcome {
     pub fn lower(&self) -> f64 {
         match *self {
             Outcome::Free { proven_gap } => proven_gap,
-            Outcome::Measured { lower, .. } => lower,
+            Outcome::LeastDistance { lower, .. } => lower,
             Outcome::Unresolved(known) => known.lower,
             Outcome::Contact { .. }
             | Outcome::Touching { .. }
@@ -210,7 +210,7 @@ impl Outcome {
             Outcome::Free { .. } => f64::INFINITY,
             Outcome::Contact { contact, .. }
             | Outcome::Touching { contact }
-            | Outcome::Measured { contact, .. } => contact.separation.upper,
+            | Outcome::LeastDistance { contact, .. } => contact.separation.upper,
             Outcome::Overlapping { upper, .. } => upper,
             Outcome::Interval { first, .. } => first
                 .contact()
@@ -223,7 +223,7 @@ impl Outcome {
     /// or measured.
     pub fn time(&self) -> Option<f64> {
         match *self {
-            Outcome::Contact { time, .. } | Outcome::Measured { time, .. } => Some(time),
+            Outcome::Contact { time, .. } | Outcome::LeastDistance { time, .. } => Some(time),
             Outcome::Touching { .. } | Outcome::Overlapping { .. } => Some(0.0),
             Outcome::Interval { first, .. } => Some(first.time),
             Outcome::Free { .. } => None,
@@ -234,7 +234,7 @@ impl Outcome {
     /// Returns the pieces in contact, or those between which a distance was measured, with the time.
     pub fn nearest(&self) -> Option<(f64, Contact)> {
         match *self {
-            Outcome::Contact { time, contact } | Outcome::Measured { time, contact, .. } => {
+            Outcome::Contact { time, contact } | Outcome::LeastDistance { time, contact, .. } => {
                 Some((time, contact))
             }
             Outcome::Touching { contact } => Some((0.0, contact)),
@@ -276,13 +276,13 @@ impl Outcome {
 
     /// Creates the outcome of a query about contacts that a limit ended.
     pub(crate) fn unresolved(safe_until: f64, limit: Limit) -> Self {
-        Outcome::Unresolved(Unresolved::until(safe_until, limit))
+        Outcome::Unresolved(Unresolved::from_safe_until(safe_until, limit))
     }
 
     /// Returns the difference of the measured bounds; 0 if nothing was measured.
     pub(crate) fn width(&self) -> f64 {
         match *self {
-            Outcome::Measured { lower, contact, .. } => contact.separation.upper - lower,
+            Outcome::LeastDistance { lower, contact, .. } => contact.separation.upper - lower,
             _ => 0.0,
         }
     }
@@ -305,11 +305,11 @@ impl Outcome {
                 overlap: Overlap::Pieces(map(contact, 0.0)),
                 upper,
             },
-            Outcome::Measured {
+            Outcome::LeastDistance {
                 lower,
                 time,
                 contact,
-            } => Outcome::Measured {
+            } => Outcome::LeastDistance {
                 lower,
                 time,
                 contact: map(contact, time),
@@ -378,7 +378,7 @@ pub struct Stats {
     /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
     /// The approximate number of evaluations of piece points, in the oracle's searches and in bounds of future gaps.
-    pub point_looks: u64,
+    pub point_evaluations: u64,
     /// The number of calls of the oracle.
     pub oracle_calls: u64,
     /// The number of oracle calls that returned no result.
@@ -397,13 +397,13 @@ impl Stats {
     /// [`EVALUATIONS_PER_VISIT`] evaluations of points.
     #[inline]
     pub fn work(&self) -> u64 {
-        self.iterations + self.point_looks / EVALUATIONS_PER_VISIT
+        self.iterations + self.point_evaluations / EVALUATIONS_PER_VISIT
     }
 
     /// Adds the counters of another answer.
     pub(crate) fn add(&mut self, other: &Stats) {
         self.iterations += other.iterations;
-        self.point_looks += other.point_looks;
+        self.point_evaluations += other.point_evaluations;
         self.oracle_calls += other.oracle_calls;
         self.give_ups += other.give_ups;
         self.peak_front = self.peak_front.max(other.peak_front);

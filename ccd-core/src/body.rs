@@ -246,13 +246,13 @@ impl Body {
     }
 
     /// Returns the approximate memory use in bytes.
-    pub fn bytes(&self) -> usize {
+    pub fn memory_usage(&self) -> usize {
         #[cfg(feature = "hull-tree")]
         let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
         #[cfg(not(feature = "hull-tree"))]
         let hulls = 0;
         let surface = self.surface.as_ref();
-        let surface = surface.map_or(0, |surface| surface.triangles.bytes());
+        let surface = surface.map_or(0, |surface| surface.triangles.memory_usage());
         self.pieces.bytes() + self.tree.bytes() + hulls + surface
     }
 
@@ -265,7 +265,7 @@ impl Body {
         let Feature::Piece(_) = feature else {
             return feature;
         };
-        let at = point.of(self.pieces.get(piece as usize).points);
+        let at = point.position(self.pieces.get(piece as usize).points);
         at.and_then(|at| {
             let mut faces =
                 pieces_at(&self.tree, at).map(|k| face_at(&self.pieces.get(k as usize), at));

@@ -36,7 +36,7 @@ pub enum ContactsError {
     },
     /// More pairs are near than the [budget](crate::Settings::budget) allows. Either the bodies are small for the
     /// margin and the tolerance, or one is deep in the other.
-    TooMany {
+    TooManyPairs {
         /// The largest amount of work that the query allows.
         budget: u64,
     },
@@ -53,7 +53,7 @@ impl Problem<'_> {
             NearSurface::new(self.b.body, b_to_a),
         ];
         let budget = self.budget;
-        let too_many = || ContactsError::TooMany { budget };
+        let too_many = || ContactsError::TooManyPairs { budget };
         // Two measured distances may be off in either direction: that of the boxes, and that of the features.
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
@@ -79,7 +79,7 @@ impl fmt::Display for ContactsError {
             Self::NotInDuration { time, duration } => {
                 write!(f, "time is {time}, but must be from 0 to {duration}")
             }
-            Self::TooMany { budget } => write!(
+            Self::TooManyPairs { budget } => write!(
                 f,
                 "more pairs of features are near than a budget of {budget} allows"
             ),

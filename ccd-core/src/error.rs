@@ -10,7 +10,7 @@ pub enum InputError {
     /// A quantity is NaN or infinite.
     NotFinite {
         /// The name of the quantity that is not finite.
-        what: &'static str,
+        quantity: &'static str,
     },
     /// A quaternion has length zero, and represents no orientation.
     ZeroQuaternion,
@@ -24,7 +24,7 @@ pub enum InputError {
         allowed: &'static str,
     },
     /// The position of a joint is outside of the joint's limits.
-    JointPosition {
+    JointOutOfLimits {
         /// The index of the joint in its chain, if it is in one.
         joint: Option<usize>,
         /// The requested position of the joint.
@@ -40,7 +40,7 @@ pub enum InputError {
         joints: usize,
     },
     /// A link's motion was requested relative to a link that is farther from the base.
-    NotSeenFrom {
+    ReferenceLinkTooFar {
         /// The number of the link that serves as reference.
         from: usize,
         /// The number of the link whose motion was requested.
@@ -123,7 +123,7 @@ pub enum InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { what } => write!(f, "{what} is NaN or infinite"),
+            Self::NotFinite { quantity: what } => write!(f, "{what} is NaN or infinite"),
             Self::ZeroQuaternion => write!(f, "a quaternion of length zero names no orientation"),
             Self::OutOfRange {
                 what,
@@ -134,7 +134,7 @@ impl fmt::Display for InputError {
                 "{what} is {}, but must be {allowed}",
                 ShortNumber(*value)
             ),
-            Self::JointPosition {
+            Self::JointOutOfLimits {
                 joint,
                 position,
                 limits: [least, greatest],
@@ -157,7 +157,7 @@ impl fmt::Display for InputError {
                 f,
                 "there is no link {link}: a chain of {joints} joints has the links 0 to {joints}"
             ),
-            Self::NotSeenFrom { from, link } => write!(
+            Self::ReferenceLinkTooFar { from, link } => write!(
                 f,
                 "link {link} cannot be seen from link {from}, which is farther from the base: see link {from} from \
                  link {link}"

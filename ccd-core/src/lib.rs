@@ -17,7 +17,7 @@
 //!
 //! impl DistanceOracle for Balls {
 //!     type Cache = ();
-//!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+//!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 //!         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
 //!         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
 //!     }
@@ -110,16 +110,18 @@ pub use body::facets::Facets;
 pub use body::feature::Feature;
 pub use body::hierarchy::{Hierarchy, HierarchyNode};
 #[cfg(feature = "hull-tree")]
-pub use body::hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, Loops};
+pub use body::hull_tree::{
+    FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, PolygonList,
+};
 pub use body::piece::Combination;
 pub use body::piece::Piece;
 pub use body::pieces::Pieces;
-pub use body::polytope::{Face, Facet, Origin, Polytope};
-pub use body::round::{Enclosure, Round};
+pub use body::polytope::{Face, Facet, FacetOrigin, Polytope};
+pub use body::round::{Enclosure, SolidOfRevolution};
 pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
 pub use body::{Body, Volume};
 pub use contacts::{ContactsError, FeaturePair};
-pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
+pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;
 #[doc(hidden)]
 pub use fearless_simd;
@@ -128,10 +130,12 @@ pub use glam;
 pub use math::exact;
 pub use math::{order, point_tree, vector};
 pub use motion::Motion;
-pub use motion::bound::Bound;
+pub use motion::bound::VelocityBound;
 pub use motion::pose::{Frame, Pose};
-pub use motion::trajectory::{Acceleration, Accelerations, Smooth, Stray, Stretch, Trajectory};
-pub use query::{Movement, Moving, Query};
+pub use motion::trajectory::{
+    Acceleration, AccelerationBounds, DeviationBound, SmoothTrajectory, Stretch, Trajectory,
+};
+pub use query::{Movement, MovingBody, Query};
 pub use schedule::Schedule;
 pub use settings::{Instructions, Settings, StartPolicy};
 pub use swept_box::SweptBox;

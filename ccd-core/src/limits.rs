@@ -12,7 +12,7 @@ pub const DEFAULT_BUDGET: u64 = 1 << 22;
 pub const LEAST_TOLERANCE: f64 = 1e-100;
 
 /// The largest coordinate of points, positions and centres, and the largest travel, margin and tolerance, in the
-/// scene's unit of length. Squares of distances, and of speeds after the [largest turn](MAX_TURN), stay below the
+/// scene's unit of length. Squares of distances, and of speeds after the [largest turn](MAX_ROTATION_ANGLE), stay below the
 /// overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;
 
@@ -20,7 +20,7 @@ pub const MAX_COORDINATE: f64 = 1e12;
 ///
 /// The last bit of a coordinate c is at least 2⁻⁵³ |c|. The error terms of a determinant are
 /// multiples of the product of three such bits, which must not underflow: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
-pub const LEAST_COORDINATE: f64 = 1e-90;
+pub const LEAST_NONZERO_COORDINATE: f64 = 1e-90;
 
 /// The longest duration of a query about trajectories, in the scene's unit of time.
 ///
@@ -30,12 +30,12 @@ pub const MAX_DURATION: f64 = 1e50;
 
 /// The largest rotation of one motion, in radians. Beyond it the rounding of the angle alone moves a point by 1e-10 of
 /// its arm.
-pub const MAX_TURN: f64 = 1e6;
+pub const MAX_ROTATION_ANGLE: f64 = 1e6;
 
 /// The default excess of polytopes around cylinders and cones, as a share of the radius. It takes 144 corners around
 /// the circle, and makes contacts early by at most a quarter of a thousandth of the radius.
-pub const EXCESS_SHARE: f64 = 1.0 / 4096.0;
+pub const DEFAULT_EXCESS_SHARE: f64 = 1.0 / 4096.0;
 
 /// The largest number of corners of a polygon around a circle. Such a polygon exceeds the circle by 1.84e-8 of its
 /// radius.
-pub const MOST_CORNERS: f64 = 16384.0;
+pub const MAX_CIRCLE_CORNERS: f64 = 16384.0;

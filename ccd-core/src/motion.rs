@@ -86,7 +86,7 @@ impl Motion {
             ("centre", centre),
         ] {
             if !part.is_finite() {
-                return Err(InputError::NotFinite { what });
+                return Err(InputError::NotFinite { quantity: what });
             }
         }
         Ok(Motion {

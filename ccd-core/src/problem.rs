@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::body::excess::Excess;
 use crate::body::piece::Piece;
 use crate::error::{InputError, check};
-use crate::limits::{MAX_COORDINATE, MAX_TURN};
+use crate::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
@@ -354,7 +354,12 @@ impl BodyWithPath<'_> {
             "at most 1e12 from the other body",
         )?;
         let turn = self.path.rate;
-        check("turn", turn, turn <= MAX_TURN, "at most 1e6 radians")
+        check(
+            "turn",
+            turn,
+            turn <= MAX_ROTATION_ANGLE,
+            "at most 1e6 radians",
+        )
     }
 }
 

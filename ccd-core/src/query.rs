@@ -16,13 +16,13 @@ use std::time::Duration;
 /// A body and how it moves.
 ///
 /// ```
-/// use ccd_core::{Body, Motion, Moving};
+/// use ccd_core::{Body, Motion, MovingBody};
 /// let ball = Body::sphere(0.5)?;
-/// let resting: Moving = (&ball, Motion::STILL).into();
+/// let resting: MovingBody = (&ball, Motion::STILL).into();
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Moving<'a> {
+pub struct MovingBody<'a> {
     /// The body that moves.
     pub body: &'a Body,
     /// How the body moves during the query.
@@ -38,36 +38,36 @@ pub enum Movement<'a> {
     Trajectory(&'a dyn Trajectory),
 }
 
-impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
+impl<'a> From<(&'a Body, Motion)> for MovingBody<'a> {
     fn from((body, motion): (&'a Body, Motion)) -> Self {
-        Moving {
+        MovingBody {
             body,
             movement: Movement::Motion(motion),
         }
     }
 }
 
-impl<'a> From<(&'a Body, Pose)> for Moving<'a> {
+impl<'a> From<(&'a Body, Pose)> for MovingBody<'a> {
     fn from((body, pose): (&'a Body, Pose)) -> Self {
         (body, Motion::still(pose)).into()
     }
 }
 
-impl<'a, T: Trajectory> From<(&'a Body, &'a T)> for Moving<'a> {
+impl<'a, T: Trajectory> From<(&'a Body, &'a T)> for MovingBody<'a> {
     fn from((body, trajectory): (&'a Body, &'a T)) -> Self {
         (body, Movement::from(trajectory)).into()
     }
 }
 
-impl<'a> From<(&'a Body, &'a dyn Trajectory)> for Moving<'a> {
+impl<'a> From<(&'a Body, &'a dyn Trajectory)> for MovingBody<'a> {
     fn from((body, trajectory): (&'a Body, &'a dyn Trajectory)) -> Self {
         (body, Movement::from(trajectory)).into()
     }
 }
 
-impl<'a> From<(&'a Body, Movement<'a>)> for Moving<'a> {
+impl<'a> From<(&'a Body, Movement<'a>)> for MovingBody<'a> {
     fn from((body, movement): (&'a Body, Movement<'a>)) -> Self {
-        Moving { body, movement }
+        MovingBody { body, movement }
     }
 }
 
@@ -151,8 +151,8 @@ impl fmt::Debug for Movement<'_> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Query<'a> {
-    pub(crate) a: Moving<'a>,
-    pub(crate) b: Moving<'a>,
+    pub(crate) a: MovingBody<'a>,
+    pub(crate) b: MovingBody<'a>,
     pub(crate) duration: f64,
     pub(crate) terms: QuerySettings<'a>,
     /// The normalised problem, if both bodies move at constant velocities.
@@ -165,13 +165,13 @@ impl<'a> Query<'a> {
     /// # Errors
     /// [`InputError::OutOfRange`] for
     /// - a negative duration, margin or clearance, and a tolerance that is not positive;
-    /// - a turn beyond [`MAX_TURN`](crate::limits::MAX_TURN), and lengths beyond
+    /// - a turn beyond [`MAX_ROTATION_ANGLE`](crate::limits::MAX_ROTATION_ANGLE), and lengths beyond
     ///   [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE): the tolerance, the margin, and for motions each body's
     ///   position at the start, its centre, and the distance from B's position to that centre at all times;
     /// - along trajectories, a duration above [`MAX_DURATION`].
     pub fn new(
-        a: impl Into<Moving<'a>>,
-        b: impl Into<Moving<'a>>,
+        a: impl Into<MovingBody<'a>>,
+        b: impl Into<MovingBody<'a>>,
         duration: f64,
         settings: &'a Settings,
     ) -> Result<Self, InputError> {
@@ -280,7 +280,7 @@ impl<'a> Query<'a> {
         if let Some(problem) = &self.problem {
             return problem.contacts_at(problem.clock(time));
         }
-        let still = |moving: &Moving<'a>| {
+        let still = |moving: &MovingBody<'a>| {
             let stretch = moving.movement.stretch(time, time)?;
             Ok::<_, InputError>((moving.body, Motion::still(stretch.motion.start())))
         };

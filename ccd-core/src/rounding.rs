@@ -1,7 +1,7 @@
 //! All error bounds that proofs rely on, each with its unit, its derivation, and the consequence of leaving it out. A
 //! wrong one breaks the guarantee. Numbers that only cost time are in `tuning.rs`.
 //!
-//! `u` is half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation rounds with a relative
+//! `u` is half a unit in the last place of 1: [`UNIT_ROUNDOFF_F64`] in f64, [`UNIT_ROUNDOFF_F32`] in f32. An operation rounds with a relative
 //! error of at most `u`. The counts below add up the worst error of every operation. Tests compare each allowance
 //! with exact references, in the worst cases that a search finds. `docs/allowances.md` says how tight each allowance
 //! is.
@@ -9,13 +9,13 @@
 use glam::DVec3;
 
 /// The relative rounding error of one operation in f64.
-pub const U64: f64 = f64::EPSILON / 2.0;
+pub const UNIT_ROUNDOFF_F64: f64 = f64::EPSILON / 2.0;
 
 /// The relative rounding error of one operation in f32.
-pub const U32: f32 = f32::EPSILON / 2.0;
+pub const UNIT_ROUNDOFF_F32: f32 = f32::EPSILON / 2.0;
 
 /// The share of its distance by which a skipped pair may be nearer than the nearest measured pair of pieces. Bounds of
-/// nodes are rounded by at most this share ([`CLOCK_F32`]). With it, one pair suffices if many pairs share a corner, or
+/// nodes are rounded by at most this share ([`FREE_TIME_FACTOR_F32`]). With it, one pair suffices if many pairs share a corner, or
 /// lie in two planes.
 pub const SKIPPED_NEARER_SHARE: f64 = 1.0 / 65536.0;
 
@@ -27,7 +27,7 @@ pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 ///
 /// It takes the least number, 4.9e-324, to 2.6e-113, whose square is exact enough, and 1e-100 to
 /// 5.3e110. Its inverse takes the greatest, 1.8e308, to 3.4e97, and 1e100 to 1.9e-111.
-pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
+pub const EXTREME_VECTOR_SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 
 /// Returns a bound of the rounding of distances computed in f64: the difference of a support gap or witness distance
 /// from the exact one. The exact distance is that of the bodies as posed: the given points, poses, centres and
@@ -75,19 +75,19 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
         _ => [300.0, 96.0],
     };
     let body = |k: usize| (of_span + 5.0 * turns[k]) * spans[k];
-    U64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
+    UNIT_ROUNDOFF_F64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
 }
 
 /// Returns the contribution of one body to [`distance_rounding`], whatever the other body does. The sum of the shares
 /// of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
 /// distance.
 pub fn share_of_rounding(span: f64, turn: f64, way: f64) -> f64 {
-    U64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
+    UNIT_ROUNDOFF_F64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
 }
 
 /// Returns the contribution of a margin to [`distance_rounding`]. The margin counts as a part of `way`.
 pub fn margin_rounding(margin: f64) -> f64 {
-    96.0 * U64 * margin
+    96.0 * UNIT_ROUNDOFF_F64 * margin
 }
 
 /// The relative error of a pose that is computed for another time of a motion. It is relative to the lengths of its
@@ -97,7 +97,7 @@ pub fn margin_rounding(margin: f64) -> f64 {
 /// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the centre
 /// takes 18 of it, twice, and the sums 3 of all lengths: 39. As much again is left for the rounding of the
 /// pose that it is computed from: 80 are taken.
-pub const STRETCH_F64: f64 = 80.0 * U64;
+pub const RETIMED_POSE_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns a bound of the error of positions on a part of a path, in addition to [`distance_rounding`]. It also bounds
 /// the error of bounds that are taken over from one period to others.
@@ -110,8 +110,8 @@ pub const STRETCH_F64: f64 = 80.0 * U64;
 ///
 /// That is `9 + 28ω`. The centre begins with an error of 4 of its place and of its travel; the time takes 17 of the
 /// latter, products 2, and the difference of two velocities 4: 27 of this `way`. 32 are taken of each.
-pub fn place_rounding(reach: f64, turn: f64, way: f64) -> f64 {
-    32.0 * U64 * ((1.0 + turn) * reach + way)
+pub fn position_rounding(reach: f64, turn: f64, way: f64) -> f64 {
+    32.0 * UNIT_ROUNDOFF_F64 * ((1.0 + turn) * reach + way)
 }
 
 /// The absolute error of lengths whose squares underflow, in the scene's unit of length: see [`distance_rounding`].
@@ -131,7 +131,7 @@ pub fn least_tolerance(rounding: f64) -> f64 {
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
 /// projected by three operations (3), the reaches subtracted (2), and the gap divided by the axis's
 /// length: a root and a quotient (3), and a product (1). That is 11u; 12u are taken.
-pub const WAY_F32: f32 = 12.0 * U32;
+pub const GAP_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of a support gap computed in f32, relative to the radii of the split group and the other node.
 ///
@@ -140,7 +140,7 @@ pub const WAY_F32: f32 = 12.0 * U32;
 /// (3 + 3)u`. The other node's axes are rotated by a matrix rounded once, with five operations,
 /// which adds `√3 · 7u`. Together with the vector to a child (6u) that is 20u of the split side,
 /// 28u of the other one; 32u are taken. Triangles need less.
-pub const REACH_F32: f32 = 32.0 * U32;
+pub const GAP_PER_RADIUS_F32: f32 = 32.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of a rate of approach computed in f32, relative to the largest speed in it.
 ///
@@ -151,20 +151,20 @@ pub const RATE_F32: f32 = 2e-6;
 /// The share of a distance from the split group's origin that is added to an arm when the largest speed is computed.
 /// The arm is the difference of two positions, a node's and that of its body's centre of rotation, each rounded by 1u.
 /// The share is 4u of the 33u of [`RATE_F32`].
-pub const PLACES: f64 = 1.0 / 8.0;
+pub const ARM_DISTANCE_SHARE: f64 = 1.0 / 8.0;
 
 /// The factor that lowers a free time computed in f32, from a gap and a rate that are conservative already.
 ///
 /// Square, product, sum, root, sum and quotient: at most 8u; 32u are taken.
-pub const CLOCK_F32: f32 = 1.0 - 32.0 * U32;
+pub const FREE_TIME_FACTOR_F32: f32 = 1.0 - 32.0 * UNIT_ROUNDOFF_F32;
 
 /// The factor that raises a second derivative computed in f32. It covers two lengths of vectors whose components are
 /// off by up to `8u` each.
-pub const BEND_F32: f32 = 1.0 + 64.0 * U32;
+pub const SECOND_DERIVATIVE_FACTOR_F32: f32 = 1.0 + 64.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of `|n × ω|` in f32, in units of `|ω|`: both vectors are rounded (1u each) and crossed (3u). For parallel
 /// vectors the computed product is nothing but this error.
-pub const ACROSS_F32: f32 = 8.0 * U32;
+pub const CROSS_PRODUCT_F32: f32 = 8.0 * UNIT_ROUNDOFF_F32;
 
 /// The least length of a vector that is used as an axis in f32. Above it, squares that underflow, each by at most
 /// 7e-46, are less than `u` of their sum; below 1e-22 they would leave a vector that is off by a fifth. Half sizes'
@@ -178,11 +178,11 @@ pub const LEAST_GAP_F32: f32 = 1e-15;
 
 /// The least second derivative of a path that is used, in units of length over time squared. It keeps a division by the
 /// second derivative finite for a straight path, and can only increase it.
-pub const LEAST_BEND_F32: f32 = 1e-30;
+pub const LEAST_SECOND_DERIVATIVE_F32: f32 = 1e-30;
 
 /// The error of speeds and free times computed in f64, relative to them: the axis is off by 2u, the arm by 5u, products
 /// and sums add 7u. The quotient and the root of a free time need less.
-pub const RATE_F64: f64 = 16.0 * U64;
+pub const RATE_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns the error of heights and rates along an axis that turns with one body, computed in f64 for points of the
 /// other body. It comes in addition to the error of their positions. It is relative to the farthest distance from the
@@ -193,32 +193,32 @@ pub const RATE_F64: f64 = 16.0 * U64;
 /// back with the other one adds `24 + 4 turns`, the change to that body's frame 4, the displacement
 /// 6, and the products with the axis and their sum 5. Differences of two heights take twice as
 /// much, at most `78 + 8 turns`; `96 + 8 turns` is taken.
-pub fn attached_rounding(turns: f64) -> f64 {
-    U64 * (96.0 + 8.0 * turns)
+pub fn turning_axis_rounding(turns: f64) -> f64 {
+    UNIT_ROUNDOFF_F64 * (96.0 + 8.0 * turns)
 }
 
 /// The decrease of a pair's distance below that at the start at which the pair counts as approaching, in units of the
 /// distance's rounding. It is for pairs in contact at the start. Four units cover the rounding of both distances, and
 /// the rounding that a rate of zero accumulates over the whole duration.
-pub const RESTING: f64 = 4.0;
+pub const RESTING_DECREASE: f64 = 4.0;
 
 /// The height up to which the surface around a point counts as level, in units of the distance's rounding: one for the
 /// point, and one for the corners around it.
-pub const LEVEL: f64 = 2.0;
+pub const LEVEL_HEIGHT: f64 = 2.0;
 
 /// The distance from a point up to which faces count as adjacent to it, in units of the distance's rounding. They are
 /// the faces across an edge that contains the point, and faces that bridge cracks.
-pub const AROUND: f64 = 256.0;
+pub const ADJACENCY_DISTANCE: f64 = 256.0;
 
 /// Returns whether rounding may turn the direction between two points by more than a millionth of a radian. Such a
 /// direction is not used as a normal. More exact directions are kept to the bit.
-pub fn is_blurred(distance: f64, rounding: f64) -> bool {
+pub fn is_direction_uncertain(distance: f64, rounding: f64) -> bool {
     // Written so that NaN is blurred.
     !(1e-6 * distance > rounding)
 }
 
 /// The least length of a component perpendicular to other vectors for which its direction is used, for a unit vector.
-/// Rounding turns it by the inverse of the length, in units of [`U64`].
+/// Rounding turns it by the inverse of the length, in units of [`UNIT_ROUNDOFF_F64`].
 pub const LEAST_SHARE: f64 = 1e-6;
 
 /// The error of the determinant of three vectors, relative to the product of their 1-norms, if at least two of them are
@@ -226,15 +226,15 @@ pub const LEAST_SHARE: f64 = 1e-6;
 ///
 /// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
 /// summed in 3: at most 8u; 16u are taken.
-pub const SIGN_F64: f64 = 16.0 * U64;
+pub const DETERMINANT_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
 /// The deviation of a computed orthonormal frame from unit lengths and right angles, in f64: twelve rotations of
-/// [`U64`] each come to less, and f32, to which a box's axes are rounded, is far above.
+/// [`UNIT_ROUNDOFF_F64`] each come to less, and f32, to which a box's axes are rounded, is far above.
 pub const FRAME_F64: f64 = 1e-13;
 
 /// The widening of a node's box for tests against rays, relative to its radius: the box's axes are rounded to f32, and
 /// rays are not counted by the bit.
-pub const BOX_F64: f64 = 1e-5;
+pub const RAY_BOX_WIDENING_F64: f64 = 1e-5;
 
 /// The gap beyond the margin that the clocks of pairs of nodes keep, in units of the tolerance. It takes up the
 /// rounding of nodes that are not too large, so that all of them stop at the same gap. With a slack that grows with the
@@ -256,7 +256,7 @@ pub const BESIDE_EDGE: f64 = 1e-3;
 
 /// The error of a height `n·x`, relative to `|n|₁` and the largest coordinate: three products and two sums, at most 3u;
 /// 4u are taken.
-pub const HEIGHT_F64: f64 = 4.0 * U64;
+pub const HEIGHT_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 
 /// The error of the height of a disc around points computed in f32, in units of the piece's size, along a direction
 /// whose largest component is 1.
@@ -265,12 +265,12 @@ pub const HEIGHT_F64: f64 = 4.0 * U64;
 /// rounded (3u); the centre is projected by five operations (12u); radius and thickness are
 /// multiplied by lengths of at most √3 (6u and 12u); the normal is not exactly perpendicular to the
 /// part across it (12u); the sums add 14u. That is 59u; 96u are taken.
-pub const DISC_F32: f32 = 96.0 * U32;
+pub const DISC_F32: f32 = 96.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the squared component of a direction perpendicular to a disc's normal, relative to the direction's own
 /// square. The square (9u), that of its component along the normal (27u), the normal's length (6u), and the difference
 /// (3u) add up to 45u; 64u are taken.
-pub const DISC_TILT_F32: f32 = 64.0 * U32;
+pub const DISC_TILT_F32: f32 = 64.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the least height of many points along an axis while their body turns. Its unit is the sum of their
 /// farthest distances from the centre of rotation and from the body's origin.
@@ -279,7 +279,7 @@ pub const DISC_TILT_F32: f32 = 64.0 * U32;
 /// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
 /// 23u. Two points see it with opposite signs: 46u. The search itself adds the rounding of two
 /// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
-pub const TURNED_SUPPORT: f64 = 64.0 * U64;
+pub const TURNED_SUPPORT: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns a bound of the error of the height `n·x − n·a` of a point above a plane, with `n = u × v`. All three vectors
 /// are rounded differences of points, and no coordinate of `x` or `a` exceeds `reach`.
@@ -291,7 +291,7 @@ pub const TURNED_SUPPORT: f64 = 64.0 * U64;
 /// 108u; 128u are taken, plus an allowance for underflow.
 pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
     let [u, v] = sides.map(|side| side.abs().max_element());
-    128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
+    128.0 * UNIT_ROUNDOFF_F64 * u * v * reach + f64::MIN_POSITIVE
 }
 
 /// The error of the extent of a box along an axis computed in f64, relative to the box's radius: the box's axes are
@@ -299,19 +299,19 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
 ///
 /// Half sizes are measured along the rounded axes. With `U` the matrix of these, `UᵀU` differs from
 /// 1 by at most `2√3 u`, as each axis is off by `u` in length: 3.5u; 4u are taken.
-pub const BOX_AXES_F32: f64 = 4.0 * U32 as f64;
+pub const BOX_AXES_F32: f64 = 4.0 * UNIT_ROUNDOFF_F32 as f64;
 
 /// The thickness of a box, relative to its radius, up to which a node counts as flat: its axis is rounded to f32
 /// ([`BOX_AXES_F32`]), its size outward.
-pub const THIN_F32: f32 = 16.0 * U32;
+pub const FLAT_THICKNESS_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the velocity along a screw axis, relative to the whole velocity: the axis is off by 4.5u, twice, and
 /// products, sums and differences by 9u; 32u are taken.
-pub const ADVANCE_F64: f64 = 32.0 * U64;
+pub const ADVANCE_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
 
 /// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and relative to them.
 /// It is far above the rounding of a quotient, a few units in the last place.
-pub const TURNS_F64: f64 = 1e-9;
+pub const TURN_COUNT_WIDENING: f64 = 1e-9;
 
 /// Returns a bound of the rounding of `f = a r + b ζ` for a node, together with the rounding of its extent, computed in
 /// f64. `shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the
@@ -326,7 +326,7 @@ pub const TURNS_F64: f64 = 1e-9;
 /// That is below 64 of each.
 pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 {
     let [a, b] = n;
-    64.0 * U64 * ((a + b) + b * tilt.abs()) * (arm + radius)
+    64.0 * UNIT_ROUNDOFF_F64 * ((a + b) + b * tilt.abs()) * (arm + radius)
 }
 
 /// The factor that moves the corners of a polygon around a circle outward, to compensate for their rounding.
@@ -334,7 +334,7 @@ pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 
 /// In units of `u`: a corner's angle is off by 9 (a product with 2π, rounded twice), which brings an edge nearer by
 /// 6.4 at most; sine and cosine are off by 2, the product by 1, and the radius of the corners, a quotient by a cosine,
 /// by 4. That is 13.4, for which 16 are taken.
-pub(crate) const OUTWARD_FACTOR: f64 = 1.0 + 16.0 * U64;
+pub(crate) const OUTWARD_FACTOR: f64 = 1.0 + 16.0 * UNIT_ROUNDOFF_F64;
 
 /// The least positive f64, which bounds the rounding of a product that underflows.
 pub(crate) const LEAST_F64: f64 = f64::from_bits(1);

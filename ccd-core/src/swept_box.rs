@@ -8,8 +8,8 @@ use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::problem::{BodyWithPath, check_coordinates};
-use crate::query::{Movement, Moving};
-use crate::rounding::{STRETCH_F64, least_tolerance, share_of_rounding};
+use crate::query::{Movement, MovingBody};
+use crate::rounding::{RETIMED_POSE_F64, least_tolerance, share_of_rounding};
 use crate::settings::{QuerySettings, Settings};
 use glam::DVec3;
 
@@ -19,14 +19,14 @@ use glam::DVec3;
 /// Two bodies are free, over the same duration and with the same settings, if their boxes have no point in common.
 ///
 /// ```
-/// use ccd_core::{Body, Motion, Moving, Pose, Settings};
+/// use ccd_core::{Body, Motion, MovingBody, Pose, Settings};
 /// let ball = Body::sphere(0.5)?;
 /// let flies = Motion::new(Pose::IDENTITY, [3.0, 0.0, 0.0], [0.0; 3])?;
-/// let swept = Moving::from((&ball, flies)).swept_box(1.0, &Settings::DEFAULT)?;
+/// let swept = MovingBody::from((&ball, flies)).swept_box(1.0, &Settings::DEFAULT)?;
 /// assert!((swept.max.x - 3.5).abs() < 1e-3 && (swept.max.y - 0.5).abs() < 1e-3);
 ///
 /// let beside = Motion::still(Pose::at([2.0, 1.1, 0.0])?);
-/// let other = Moving::from((&ball, beside)).swept_box(1.0, &Settings::DEFAULT)?;
+/// let other = MovingBody::from((&ball, beside)).swept_box(1.0, &Settings::DEFAULT)?;
 /// assert!(!swept.meets(&other));
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
@@ -45,7 +45,7 @@ impl SweptBox {
     }
 }
 
-impl Moving<'_> {
+impl MovingBody<'_> {
     /// Computes a box that contains the body from time 0 to `duration`.
     ///
     /// The box contains all poses. It is the box at the start, moved along the path and grown by the displacement due
@@ -111,7 +111,7 @@ fn of_stretch(
     let (centre, radius) = body.tree().bounding_ball();
     let reach = centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius;
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
-    let room = (moved + stretch.stray.at(reach)) * (1.0 + STRETCH_F64);
+    let room = (moved + stretch.deviation.at(reach)) * (1.0 + RETIMED_POSE_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
     let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
     let rounding =

@@ -87,9 +87,9 @@ pub const FOLLOW_ACCURACY: f64 = 1.0 / 8.0;
 pub const MIN_NEWTON_GROWTH: f64 = 1.0 / 64.0;
 
 /// The slack that a pair in contact at the start must have to be advanced further, in units of the distance's rounding.
-/// It is a part of [`RESTING`](crate::rounding::RESTING). Below it is the rounding of heights: each visit would find
+/// It is a part of [`RESTING_DECREASE`](crate::rounding::RESTING_DECREASE). Below it is the rounding of heights: each visit would find
 /// some of it again, and a slowly approaching pair would be visited a million times before it is in contact.
-pub const RESTED: f64 = 1.0 / 16.0;
+pub const RESTED_SLACK: f64 = 1.0 / 16.0;
 
 /// The distance of two nodes, in units of their radii, beyond which a second visit is worth more than a split.
 /// Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A smaller value makes large nodes creep
@@ -124,7 +124,7 @@ pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 /// The largest number of corners of the polytope inside the difference of two pieces, which is grown to decide whether
 /// the pieces intersect. Each corner improves the least depth found. A few tens were enough for pieces of a thousand
 /// corners that begin to overlap.
-pub const MAX_CORNERS: usize = 256;
+pub const MAX_INNER_POLYTOPE_CORNERS: usize = 256;
 
 /// The depths below a flat piece at which a point inside its solid is sought, in this order, in units of the piece's
 /// size. The first is far above the distance at which a point counts as off the surface; the others reach inside
@@ -148,7 +148,7 @@ pub const SPLIT_OVERLAP: f64 = 0.5;
 /// 46 ns against 40 ns for 16 corners, 56 against 48 for 32, 90 against 51 for 64, 255 against 50 for 256, 4,400
 /// against 116 for 4,096. Climbing from the last corner takes 30 to 47 ns throughout. Up to 32 a table is not worth its
 /// memory.
-pub const CLIMBED_POINTS: usize = 32;
+pub const MAX_SCANNED_POINTS: usize = 32;
 
 /// The share of its bounding box that a convex body has to fill for it to be searched as one piece, rather than as the
 /// triangles of its surface. Measured: a board of 8 corners under 38,000 triangles takes 29 visits as one box and 41 as
@@ -162,7 +162,7 @@ pub const MAX_PLATEAU_POINTS: usize = 32;
 
 /// The distance from a facet up to which a nearest point counts as on it, in units of the piece's size. It only decides
 /// which feature a contact names. Nearest points are combinations of corners, off by a few
-/// [`U64`](crate::rounding::U64) of that size, which a flat piece magnifies.
+/// [`UNIT_ROUNDOFF_F64`](crate::rounding::UNIT_ROUNDOFF_F64) of that size, which a flat piece magnifies.
 pub const FACET_DISTANCE: f64 = 1e-9;
 
 /// The angle below which a Jacobi rotation is skipped when principal axes are computed, in radians.

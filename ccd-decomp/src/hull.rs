@@ -13,7 +13,7 @@ use crate::exact::predicates::{first_out_of_range, lexicographic, too_fine};
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
 use ccd_core::glam::DVec3;
-use ccd_core::{Hull, Loops};
+use ccd_core::{Hull, PolygonList};
 
 /// A hull cannot be computed: a coordinate of a point is too near to 0 for exact predicates, not finite, or too
 /// large.
@@ -47,7 +47,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
 }
 
 /// Creates a hull from its facets, and from the points that are corners of them.
-fn hull_from_facets(points: &[DVec3], mut facets: Loops) -> Hull {
+fn hull_from_facets(points: &[DVec3], mut facets: PolygonList) -> Hull {
     let mut corners: Vec<u32> = facets.corners().to_vec();
     corners.sort_unstable();
     corners.dedup();

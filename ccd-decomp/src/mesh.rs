@@ -83,7 +83,7 @@ impl TriangleMesh {
     /// ```
     ///
     /// # Errors
-    /// [`MeshFault::NotFinite`], [`MeshFault::TooLarge`], [`MeshFault::NoSuchVertex`],
+    /// [`MeshFault::NotFinite`], [`MeshFault::CoordinateTooLarge`], [`MeshFault::NoSuchVertex`],
     /// [`MeshFault::NoVertices`], [`MeshFault::NoFaces`], [`MeshFault::TooMany`].
     pub fn new(vertices: Vec<impl Into<[f64; 3]>>, faces: &[[u32; 3]]) -> Result<Self, MeshError> {
         let vertices = vertices.into_iter().map(|point| DVec3::from(point.into()));
@@ -127,9 +127,9 @@ impl TriangleMesh {
         face_ids.reserve_exact(all_faces.len());
         for (k, (face, id)) in all_faces.into_iter().zip(all_ids).enumerate() {
             if drop_duplicate[k] {
-                repairs.duplicates.add(id);
+                repairs.duplicate_faces.add(id);
             } else if drop_collapsed[k] {
-                repairs.collapsed.add(id);
+                repairs.collapsed_faces.add(id);
             } else {
                 let [a, b, c] = face.map(|v| vertices[v as usize]);
                 if is_without_area([a, b, c]) {

@@ -8,7 +8,7 @@ pub(crate) mod report;
 
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
-use crate::pieces::patches::{Order, decompose};
+use crate::pieces::patches::{PatchOrder, decompose};
 use crate::pieces::vhacd::approximate;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
@@ -16,9 +16,9 @@ use crate::tolerance::AUTO_WORK;
 use crate::work::Work;
 use ccd_core::Volume;
 use error::PrepareError;
-use model::{Model, Prepared};
+use model::{Model, PreparedBody};
 use parts::{Choice, Parts, triangle_tree};
-use report::Why;
+use report::PieceReason;
 
 /// The kind of pieces that a body is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub enum Detail {
     /// Makes one piece of every triangle, without volume: a closed mesh is a hollow surface.
     Surface,
     /// Makes convex patches of the surface, which are exact for meshes that bound a solid.
-    Patches(Order),
+    Patches(PatchOrder),
     /// Makes one piece of the whole solid, which is exact for convex solids.
     Hull,
     /// Makes approximate hulls, which cover any mesh and exceed it by a certified bound.
@@ -76,7 +76,7 @@ pub enum Detail {
 /// # Errors
 /// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
 /// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
-pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, PrepareError> {
+pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBody, PrepareError> {
     prepare(mesh, detail)?.into_prepared()
 }
 
@@ -107,15 +107,18 @@ impl Choice {
         let mesh = turned.as_ref().unwrap_or(mesh);
         let (parts, why) = match detail {
             Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK)),
-            Detail::Triangles | Detail::Surface => (Parts::Triangles, Why::Asked),
-            Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
+            Detail::Triangles | Detail::Surface => (Parts::Triangles, PieceReason::Requested),
+            Detail::Patches(order) => (
+                Parts::Patches(decompose(mesh, order)?),
+                PieceReason::Requested,
+            ),
             Detail::Hull => {
                 let polytope = convex_polytope(&solid_surface(mesh)?)?;
-                (Parts::Hull(Box::new(polytope)), Why::Asked)
+                (Parts::Hull(Box::new(polytope)), PieceReason::Requested)
             }
             Detail::Vhacd { hulls } => {
                 let approximation = approximate(mesh, &topology, hulls)?;
-                (Parts::Vhacd(approximation), Why::Asked)
+                (Parts::Vhacd(approximation), PieceReason::Requested)
             }
         };
         let volume = if topology.is_solid() && detail != Detail::Surface {

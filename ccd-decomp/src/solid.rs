@@ -41,7 +41,7 @@ pub(crate) fn solid_surface(mesh: &TriangleMesh) -> Result<Manifold<'_>, Decompo
 /// do not decide this.
 ///
 /// # Errors
-/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) if the work does not suffice.
+/// [`DecomposeError`]; [`WorkBudgetExceeded`](DecomposeError::WorkBudgetExceeded) if the work does not suffice.
 pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
     if is_star_shaped(manifold) {
         return Ok(());

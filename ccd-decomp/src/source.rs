@@ -8,11 +8,11 @@ use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::source_paths;
 use crate::mesh::unit::Unit;
 use crate::prepare::error::PrepareError;
-use crate::prepare::model::{Model, Prepared};
+use crate::prepare::model::{Model, PreparedBody};
 use crate::prepare::{Detail, body_from_mesh};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
-use ccd_core::{Body, Round};
+use ccd_core::{Body, SolidOfRevolution};
 use error::{BodyError, SourceError};
 use mesh_source::MeshSource;
 use std::path::{Path, PathBuf};
@@ -50,22 +50,22 @@ pub enum BodySource {
         /// The half length of the segment along z that the capsule surrounds.
         half_height: f64,
     },
-    /// A cylinder along z, `cylinder:r,h` or `cylinder:r,h,excess`; see [`Body::cylinder`] and [`Round::enclosed`].
+    /// A cylinder along z, `cylinder:r,h` or `cylinder:r,h,excess`; see [`Body::cylinder`] and [`SolidOfRevolution::enclose`].
     Cylinder {
         /// The radius of the cylinder.
         radius: f64,
         /// The half length of the cylinder along z.
         half_height: f64,
-        /// The maximum excess of the cylinder's polytope; `None` for the [usual](Round::usual_excess) one.
+        /// The maximum excess of the cylinder's polytope; `None` for the [usual](SolidOfRevolution::usual_excess) one.
         excess: Option<f64>,
     },
-    /// A cone along z, `cone:r,h` or `cone:r,h,excess`; see [`Body::cone`] and [`Round::enclosed`].
+    /// A cone along z, `cone:r,h` or `cone:r,h,excess`; see [`Body::cone`] and [`SolidOfRevolution::enclose`].
     Cone {
         /// The radius of the cone's base.
         radius: f64,
         /// The half length of the cone along z; the apex is up.
         half_height: f64,
-        /// The maximum excess of the cone's polytope; `None` for the [usual](Round::usual_excess) one.
+        /// The maximum excess of the cone's polytope; `None` for the [usual](SolidOfRevolution::usual_excess) one.
         excess: Option<f64>,
     },
     /// A [stored](crate::Model::save) body, by the path of a file that ends in `.ccd`.
@@ -78,7 +78,7 @@ pub enum BodySource {
 ///
 /// # Errors
 /// [`BodyError`]: it names the file and the element, or shows examples.
-pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
+pub fn parse_body(text: &str, detail: Detail) -> Result<PreparedBody, BodyError> {
     text.parse::<BodySource>()?.load(detail)
 }
 
@@ -89,7 +89,7 @@ impl BodySource {
     /// # Errors
     /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::InFile`] if its content
     /// cannot be made into a body, [`BodyError::Input`] if a length is out of range.
-    pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
+    pub fn load(&self, detail: Detail) -> Result<PreparedBody, BodyError> {
         self.load_adjusted(&Adjustments::NONE, detail)
     }
 
@@ -99,7 +99,7 @@ impl BodySource {
     ///
     /// # Errors
     /// Those of [`BodySource::load`].
-    pub fn load_in(&self, unit: Unit, detail: Detail) -> Result<Prepared, BodyError> {
+    pub fn load_in(&self, unit: Unit, detail: Detail) -> Result<PreparedBody, BodyError> {
         self.load_adjusted(&Adjustments::NONE.converted_to(unit), detail)
     }
 
@@ -111,45 +111,50 @@ impl BodySource {
         &self,
         adjustments: &Adjustments,
         detail: Detail,
-    ) -> Result<Prepared, BodyError> {
+    ) -> Result<PreparedBody, BodyError> {
         let prepared = match *self {
-            BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
-            BodySource::Sphere { radius } => Prepared::primitive(Body::sphere(radius)?),
+            BodySource::Box { half_extents } => {
+                PreparedBody::primitive(Body::cuboid(half_extents)?)
+            }
+            BodySource::Sphere { radius } => PreparedBody::primitive(Body::sphere(radius)?),
             BodySource::Capsule {
                 radius,
                 half_height,
-            } => Prepared::primitive(Body::capsule(radius, half_height)?),
+            } => PreparedBody::primitive(Body::capsule(radius, half_height)?),
             BodySource::Cylinder {
                 radius,
                 half_height,
                 excess,
-            } => Prepared::from_round(&Round::cylinder(radius, half_height)?, excess)?,
+            } => PreparedBody::from_round(
+                &SolidOfRevolution::cylinder(radius, half_height)?,
+                excess,
+            )?,
             BodySource::Cone {
                 radius,
                 half_height,
                 excess,
-            } => Prepared::from_round(&Round::cone(radius, half_height)?, excess)?,
+            } => PreparedBody::from_round(&SolidOfRevolution::cone(radius, half_height)?, excess)?,
             BodySource::Stored(ref path) if adjustments.apply_to_meshes_only() => {
                 return Err(SourceError::Prepared { file: path.clone() }.into());
             }
             BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
             BodySource::Mesh(ref source) => {
                 let source = MeshSource {
-                    adjustments: source.adjustments.and(adjustments)?,
+                    adjustments: source.adjustments.combined_with(adjustments)?,
                     ..source.clone()
                 };
                 let (mesh, unit) = source.read()?;
                 let made = body_from_mesh(&mesh, source.detail(detail));
                 let prepared = in_file(source.to_string().as_ref(), made)?;
-                return Ok(Prepared { unit, ..prepared });
+                return Ok(PreparedBody { unit, ..prepared });
             }
         };
         let unit = adjustments.target_unit;
-        Ok(Prepared { unit, ..prepared })
+        Ok(PreparedBody { unit, ..prepared })
     }
 
     /// Describes the body in a file. The extension decides whether it is a stored body or a mesh.
-    pub fn of_file(path: PathBuf) -> Self {
+    pub fn from_file(path: PathBuf) -> Self {
         if is_stored(&path) {
             BodySource::Stored(path)
         } else {

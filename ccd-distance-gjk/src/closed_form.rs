@@ -11,7 +11,7 @@ use axis::Candidates;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Claim, Combination, DistanceOracle, GiveUp, Instructions, Piece, PiecePair, vectorize,
+    Claim, Combination, DistanceOracle, GiveUpReason, Instructions, Piece, PiecePair, vectorize,
 };
 use nearest::{Corners, Nearest, nearest, support_gap};
 
@@ -27,7 +27,7 @@ use nearest::{Corners, Nearest, nearest, support_gap};
 /// larger than that.
 ///
 /// # Errors
-/// [`GiveUp::TooManyPoints`] for pieces of more than three points, or none.
+/// [`GiveUpReason::TooManyPoints`] for pieces of more than three points, or none.
 ///
 /// # Complexity
 /// Constant, without allocation.
@@ -70,8 +70,8 @@ impl DistanceOracle for ClosedForm {
     type Cache = ();
 
     #[inline]
-    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
-        let (p, q) = transform_to_local(pair).ok_or(GiveUp::TooManyPoints)?;
+    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
+        let (p, q) = transform_to_local(pair).ok_or(GiveUpReason::TooManyPoints)?;
         let near = nearest(self.level, &p, &q);
         let w = near.difference(&p, &q);
         let separated = support_gap(&p, &q, w) >= MIN_CERTIFIED_SHARE * w.length_squared();

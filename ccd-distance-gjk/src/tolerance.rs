@@ -51,4 +51,4 @@ pub(crate) const WEIGHT_CORRECTIONS: u32 = 2;
 
 /// The largest number of points that are scanned for the farthest one. For more, [`ccd_core::Piece::extremal`] is used,
 /// which need not scan all.
-pub(crate) const MAX_SCANNED_POINTS: usize = ccd_core::tuning::CLIMBED_POINTS;
+pub(crate) const MAX_SCANNED_POINTS: usize = ccd_core::tuning::MAX_SCANNED_POINTS;

@@ -12,7 +12,7 @@ use crate::tolerance::{CERTAIN_DISTANCE, MAX_RESTARTS};
 use crate::touching;
 use crate::witness::Witness;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, GiveUp};
+use ccd_core::{Claim, GiveUpReason};
 
 /// A claim, after the pair of features from which the next call starts.
 type Certified = (Pair, Claim);
@@ -21,15 +21,15 @@ type Certified = (Pair, Claim);
 /// restarts at the corners that are extremal along the best axis.
 ///
 /// # Errors
-/// If no restart succeeds: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] if the last march ended so, else
-/// [`GiveUp::Uncertified`].
+/// If no restart succeeds: [`GiveUpReason::Cycle`] or [`GiveUpReason::StepCap`] if the last march ended so, else
+/// [`GiveUpReason::Uncertified`].
 #[cold]
 #[inline(never)]
 pub(crate) fn certify(
     placed: &PlacedPair<'_>,
     first: End,
     counters: &mut Counters,
-) -> Result<Certified, GiveUp> {
+) -> Result<Certified, GiveUpReason> {
     let mut end = first;
     for restarts in 0..=MAX_RESTARTS {
         let axis = match check(placed, end, counters) {
@@ -43,9 +43,9 @@ pub(crate) fn certify(
     }
     let found = search_common_point(placed, extremal(placed, placed.b.origin()), counters);
     found.ok_or(match end {
-        End::Cycle(_) => GiveUp::Cycle,
-        End::StepLimit(_) => GiveUp::StepCap,
-        End::Nearest(..) | End::CommonPoint(..) | End::Unclear(_) => GiveUp::Uncertified,
+        End::Cycle(_) => GiveUpReason::Cycle,
+        End::StepLimit(_) => GiveUpReason::StepCap,
+        End::Nearest(..) | End::CommonPoint(..) | End::Unclear(_) => GiveUpReason::Uncertified,
     })
 }
 

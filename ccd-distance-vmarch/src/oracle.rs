@@ -9,7 +9,7 @@ use crate::polytope::Polytope;
 use crate::start::Cache;
 use crate::termination::End;
 use crate::witness::Witness;
-use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
+use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUpReason, Piece, PiecePair};
 
 /// An oracle for the distance of convex polytopes with known facets, by Voronoi marching `[LINCANNY91, VCLIP98]`.
 ///
@@ -19,9 +19,9 @@ use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 /// facets.
 ///
 /// # Guarantee
-/// The guarantee of the crate. It gives up with [`GiveUp::BadFacets`] on pieces whose facets are missing, or are not
-/// those of a convex polytope. In rare cases, rounding leads it in circles from several starts ([`GiveUp::Cycle`],
-/// [`GiveUp::StepCap`]), or prevents certification ([`GiveUp::Uncertified`]): in a few of a million pairs of this crate's
+/// The guarantee of the crate. It gives up with [`GiveUpReason::BadFacets`] on pieces whose facets are missing, or are not
+/// those of a convex polytope. In rare cases, rounding leads it in circles from several starts ([`GiveUpReason::Cycle`],
+/// [`GiveUpReason::StepCap`]), or prevents certification ([`GiveUpReason::Uncertified`]): in a few of a million pairs of this crate's
 /// own tests, and in 4 of 38,334 others. Combine it with [another oracle](DistanceOracle::or_else).
 ///
 /// # Complexity
@@ -30,10 +30,10 @@ use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 /// for a common point inside visits all faces.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, DistanceOracle, Facet, Frame, Origin, PiecePair, Pieces, Polytope};
+/// use ccd_core::{glam::DVec3, DistanceOracle, Facet, Frame, FacetOrigin, PiecePair, Pieces, Polytope};
 /// use ccd_distance_vmarch::{Cache, Vmarch};
 /// let corner = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-/// let facet = |corners: [u32; 3]| Facet { origin: Origin::Virtual, corners: corners.to_vec() };
+/// let facet = |corners: [u32; 3]| Facet { origin: FacetOrigin::Virtual, corners: corners.to_vec() };
 /// let tetrahedron = Polytope {
 ///     points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
 ///     facets: corner.map(facet).to_vec(),
@@ -69,7 +69,11 @@ impl DistanceOracle for Vmarch {
     type Cache = Cache;
 
     #[inline]
-    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Cache,
+    ) -> Result<Claim, GiveUpReason> {
         self.counters.calls += 1;
         let (mut own_a, mut own_b) = (None, None);
         let a = prepared_polytope(&pair.a, &mut own_a)?;
@@ -128,7 +132,7 @@ impl DistanceOracle for Vmarch {
 }
 
 /// A prepared piece, or the reason why its preparation failed.
-type Prepared = Box<Result<Polytope, GiveUp>>;
+type Prepared = Box<Result<Polytope, GiveUpReason>>;
 
 fn prepare(piece: &Piece<'_>) -> Prepared {
     Box::new(Polytope::new(piece))
@@ -139,7 +143,7 @@ fn prepare(piece: &Piece<'_>) -> Prepared {
 fn prepared_polytope<'p>(
     piece: &Piece<'p>,
     own: &'p mut Option<Prepared>,
-) -> Result<&'p Polytope, GiveUp> {
+) -> Result<&'p Polytope, GiveUpReason> {
     let prepared = match piece.cached(prepare) {
         Some(kept) => kept,
         None => own.insert(prepare(piece)),

@@ -13,7 +13,7 @@ pub(crate) mod twin;
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Body, Claim, DistanceOracle, Frame, GiveUp, PiecePair};
+use ccd_core::{Body, Claim, DistanceOracle, Frame, GiveUpReason, PiecePair};
 use rstest::rstest;
 use scene::{Kind, Scene};
 use shape::{Pcg64, SeedableRng, direction, magnitude};
@@ -50,7 +50,7 @@ struct Tally {
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 impl Tally {
-    fn add(&mut self, scene: &Scene<'_>, answer: Result<Claim, GiveUp>) {
+    fn add(&mut self, scene: &Scene<'_>, answer: Result<Claim, GiveUpReason>) {
         let claim = match answer {
             Ok(claim) => claim,
             Err(_) => {
@@ -60,10 +60,13 @@ impl Tally {
         };
         self.claims += 1;
         let place = |p: DVec3| scene.b_to_a.point(p);
-        let on_a = claim.a.of(&scene.a.shape.points).expect("a point of A");
+        let on_a = claim
+            .a
+            .position(&scene.a.shape.points)
+            .expect("a point of A");
         let on_b = claim
             .b
-            .of(&scene.b.shape.points)
+            .position(&scene.b.shape.points)
             .map(place)
             .expect("a point of B");
         let distance = on_a.distance(on_b);

@@ -66,4 +66,4 @@ pub(crate) const MAX_AXIS_EDGES: usize = 12;
 pub(crate) const MAX_PIERCED_PAIRS: usize = 1 << 17;
 
 /// The number of corners above which a polytope has a [search tree](ccd_core::SupportTree); fewer are scanned.
-pub(crate) const MAX_SCANNED_CORNERS: usize = ccd_core::tuning::CLIMBED_POINTS;
+pub(crate) const MAX_SCANNED_CORNERS: usize = ccd_core::tuning::MAX_SCANNED_POINTS;

@@ -6,7 +6,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// The extension that is appended to the name of a claimed file.
-pub const PARTIAL: &str = ".partial";
+pub const PARTIAL_EXTENSION: &str = ".partial";
 
 /// A file that only this process writes, under a temporary name beside its target.
 ///
@@ -32,7 +32,7 @@ impl Claim {
     /// # Errors
     /// [`io::ErrorKind::ResourceBusy`] if another process has it, and errors of the operating system.
     pub fn new(target: PathBuf) -> io::Result<Self> {
-        let partial = sibling(&target, PARTIAL);
+        let partial = sibling(&target, PARTIAL_EXTENSION);
         for _ in 0..MAX_LOCK_ATTEMPTS {
             let options = File::options()
                 .read(true)

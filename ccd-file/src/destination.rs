@@ -34,7 +34,7 @@ impl Destination {
                 Ok(Destination::File(fs::canonicalize(path)?))
             }
             Err(_) => {
-                let target = end_of_links(path)?;
+                let target = resolve_links(path)?;
                 check_folder(&target)?;
                 if target.file_name().is_none() {
                     let problem = "it is not a file name";
@@ -86,7 +86,7 @@ fn is_open_file(path: &Path) -> bool {
 ///
 /// # Errors
 /// The links form a cycle.
-pub fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+pub fn resolve_links(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
         match fs::read_link(&target) {

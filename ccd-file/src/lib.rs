@@ -15,8 +15,8 @@ mod claim;
 mod destination;
 mod temp_file;
 
-pub use claim::{Claim, PARTIAL};
-pub use destination::{Destination, check_folder, end_of_links};
+pub use claim::{Claim, PARTIAL_EXTENSION};
+pub use destination::{Destination, check_folder, resolve_links};
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -37,5 +37,5 @@ pub use mesh::{DrawnMesh, Meshes};
 pub use page::{
     HTML, Page, PageError, STYLE, data, drawing_scripts, escape, fill_template, json, scripts,
 };
-pub use shown_motion::{Key, ShownMotion};
+pub use shown_motion::{Keyframe, ShownMotion};
 pub use view::{Gap, GapPoint, Group, ShownBody, ShownContact, View};

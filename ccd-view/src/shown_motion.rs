@@ -9,7 +9,7 @@ use serde::Serialize;
 #[serde(untagged)]
 pub enum ShownMotion {
     /// The body moves at constant velocities, by the formula of [`Motion`].
-    Steady {
+    ConstantVelocity {
         /// The centre of rotation, in the body's frame.
         centre: [f64; 3],
         /// The position of the centre at time 0, in the world frame.
@@ -22,17 +22,17 @@ pub enum ShownMotion {
         rotation: [f64; 9],
     },
     /// The body moves from pose to pose: its centre in straight lines, its rotation as the keys say.
-    Keys {
+    Keyframes {
         /// The point that moves along straight lines, in the body's frame.
         centre: [f64; 3],
         /// The poses, by increasing times.
-        keys: Vec<Key>,
+        keys: Vec<Keyframe>,
     },
 }
 
 /// The pose of a body at a time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Key {
+pub struct Keyframe {
     time: f64,
     /// The position of the centre, in the world frame.
     place: [f64; 3],
@@ -42,10 +42,10 @@ pub struct Key {
     turn: [f64; 3],
 }
 
-impl Key {
+impl Keyframe {
     /// Creates a key from a pose, the position of the centre, and the rotation vector to the next key.
     pub fn new(time: f64, pose: &Pose, place: DVec3, turn: DVec3) -> Self {
-        Key {
+        Keyframe {
             time,
             place: place.to_array(),
             rotation: rows(pose),
@@ -57,7 +57,7 @@ impl Key {
 impl From<&Motion> for ShownMotion {
     fn from(motion: &Motion) -> Self {
         let from: DVec3 = motion.start().transform_point(motion.centre());
-        ShownMotion::Steady {
+        ShownMotion::ConstantVelocity {
             centre: motion.centre().to_array(),
             from: from.to_array(),
             velocity: motion.velocity().to_array(),

@@ -26,4 +26,4 @@ mod shapes;
 mod throw;
 
 pub use part::{Part, WebError};
-pub use throw::{Throw, Thrown};
+pub use throw::{Throw, ThrowResult};

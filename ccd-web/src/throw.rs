@@ -23,7 +23,7 @@ pub struct Throw {
 /// The certified result of a throw, as the page shows it.
 #[wasm_bindgen(getter_with_clone)]
 #[derive(Clone, Debug, PartialEq)]
-pub struct Thrown {
+pub struct ThrowResult {
     /// The kind of the result: contact, free, touching, overlapping or unresolved.
     pub verdict: String,
     /// The time in seconds before which nothing touches.
@@ -64,7 +64,7 @@ impl Throw {
     ///
     /// # Errors
     /// [`WebError`] for numbers out of range.
-    pub fn first_contact(&self, part: &Part, target: &Part) -> Result<Thrown, WebError> {
+    pub fn first_contact(&self, part: &Part, target: &Part) -> Result<ThrowResult, WebError> {
         let outcome = ask(part, self.motion()?, target, Throw::DURATION)?;
         let (verdict, time) = match outcome {
             Outcome::Contact { time, .. } => ("contact", time),
@@ -72,11 +72,11 @@ impl Throw {
             Outcome::Overlapping { .. } => ("overlapping", 0.0),
             Outcome::Unresolved(known) => ("unresolved", known.safe_until),
             // A first contact has no other outcomes.
-            Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::Measured { .. } => {
+            Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 ("free", Throw::DURATION)
             }
         };
-        Ok(Thrown {
+        Ok(ThrowResult {
             verdict: verdict.to_owned(),
             time,
             points: outcome.hit().ok().flatten().map_or(Vec::new(), points),

@@ -10,7 +10,7 @@ pub(crate) fn rows<const N: usize>(
     what: &str,
 ) -> PyResult<Vec<[f64; N]>> {
     let array = floats(values, what)?;
-    let array: PyReadonlyArray2<'_, f64> = of_shape(&array, N, what)?;
+    let array: PyReadonlyArray2<'_, f64> = readonly_with_columns(&array, N, what)?;
     let rows = array.as_array();
     Ok(rows
         .rows()
@@ -21,7 +21,7 @@ pub(crate) fn rows<const N: usize>(
 
 /// Reads rows of three vertex indices.
 pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
-    let given = plain(values, "faces")?;
+    let given = numpy_array(values, "faces")?;
     let size: usize = given.getattr("size")?.extract()?;
     if size > 0 && !matches!(kind(&given)?, 'i' | 'u') {
         let dtype = given.getattr("dtype")?;
@@ -30,7 +30,7 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
         )));
     }
     let array = as_array(&given, "int64", "faces")?;
-    let array: PyReadonlyArray2<'_, i64> = of_shape(&array, 3, "faces")?;
+    let array: PyReadonlyArray2<'_, i64> = readonly_with_columns(&array, 3, "faces")?;
     let rows = array.as_array();
     let rows = rows.rows().into_iter().enumerate();
     rows.map(|(face, row)| {
@@ -44,7 +44,10 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
 }
 
 /// Reads `N` finite numbers.
-pub(crate) fn finite<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> PyResult<[f64; N]> {
+pub(crate) fn finite_numbers<const N: usize>(
+    values: &Bound<'_, PyAny>,
+    what: &str,
+) -> PyResult<[f64; N]> {
     let found = numbers(values, what)?;
     match found.iter().position(|number| !number.is_finite()) {
         Some(entry) => {
@@ -72,7 +75,7 @@ pub(crate) fn any_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec
 
 /// Reads a list of whole numbers of any length.
 pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
-    let given = plain(values, what)?;
+    let given = numpy_array(values, what)?;
     let (kind, size) = (kind(&given)?, given.getattr("size")?.extract::<usize>()?);
     if size > 0 && !matches!(kind, 'i' | 'u') {
         return Err(input_error(format!("{what}: whole numbers are needed")));
@@ -87,7 +90,7 @@ fn flat_list<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
 
 /// Reads row indices, or a boolean array with one element per row.
 pub(crate) fn row_numbers(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
-    let given = plain(rows, "rows")?;
+    let given = numpy_array(rows, "rows")?;
     if kind(&given)? != 'b' {
         return indices(&given, "rows");
     }
@@ -110,11 +113,14 @@ pub(crate) fn index(value: i64, what: &str) -> PyResult<usize> {
 
 /// Returns the shape of the array that NumPy makes of some values.
 pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize>> {
-    plain(values, what)?.getattr("shape")?.extract()
+    numpy_array(values, what)?.getattr("shape")?.extract()
 }
 
 /// Makes an array of values, whose element type NumPy chooses.
-pub(crate) fn plain<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn numpy_array<'py>(
+    values: &Bound<'py, PyAny>,
+    what: &str,
+) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
     let masked = numpy.getattr("ma")?.call_method1("is_masked", (values,))?;
@@ -134,7 +140,7 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
 
 /// Makes an array of float64 elements.
 fn floats<'py>(values: &Bound<'py, PyAny>, what: &str) -> PyResult<Bound<'py, PyAny>> {
-    let given = plain(values, what)?;
+    let given = numpy_array(values, what)?;
     match kind(&given)? {
         // Arrays of objects contain other kinds of numbers, such as fractions.
         'f' | 'i' | 'u' | 'O' => as_array(&given, "float64", what),
@@ -157,7 +163,7 @@ fn as_array<'py>(
     array.map_err(|error| input_error_from(py, what, error))
 }
 
-fn of_shape<'py, T: numpy::Element>(
+fn readonly_with_columns<'py, T: numpy::Element>(
     array: &Bound<'py, PyAny>,
     columns: usize,
     what: &str,

@@ -4,7 +4,7 @@ use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, file_error, input_error, warn, wrong_type};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
-use rigid_ccd::body::{Round, Volume};
+use rigid_ccd::body::{SolidOfRevolution, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
     Adjustments, Axis, Detail, MeshSource, Model, STORED_EXTENSION, SourceError, StoreFault,
@@ -134,7 +134,7 @@ impl PyBody {
             adjustments = adjustments.scaled(scale).map_err(input_error)?;
         }
         if let Some(axis) = mirror {
-            adjustments = adjustments.mirrored(named_axis(axis)?);
+            adjustments = adjustments.mirrored(parse_axis(axis)?);
         }
         let as_prepared = adjustments == Adjustments::NONE && !surface;
         if let Some(unit) = named_unit("unit", unit)? {
@@ -224,7 +224,7 @@ impl PyBody {
         half_height: f64,
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let round = Round::cylinder(radius, half_height).map_err(input_error)?;
+        let round = SolidOfRevolution::cylinder(radius, half_height).map_err(input_error)?;
         PyBody::round("cylinder", &round, [radius, half_height], excess)
     }
 
@@ -242,7 +242,7 @@ impl PyBody {
         half_height: f64,
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let round = Round::cone(radius, half_height).map_err(input_error)?;
+        let round = SolidOfRevolution::cone(radius, half_height).map_err(input_error)?;
         PyBody::round("cone", &round, [radius, half_height], excess)
     }
 
@@ -312,7 +312,7 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn new_of(body: Body, made: PickleData, report: String) -> Self {
+    fn from_parts(body: Body, made: PickleData, report: String) -> Self {
         let size = Remark::size(&body);
         PyBody {
             body,
@@ -324,7 +324,7 @@ impl PyBody {
 
     fn from_model(model: Model) -> PyResult<Self> {
         let (body, report) = (model.body().map_err(input_error)?, model.report.to_string());
-        Ok(PyBody::new_of(
+        Ok(PyBody::from_parts(
             body,
             PickleData::Mesh(Box::new(model)),
             report,
@@ -338,16 +338,16 @@ impl PyBody {
         report: String,
     ) -> PyResult<Self> {
         let made = PickleData::Shape(name, sizes.map(Some).to_vec());
-        Ok(PyBody::new_of(body.map_err(input_error)?, made, report))
+        Ok(PyBody::from_parts(body.map_err(input_error)?, made, report))
     }
 
     fn round(
         name: &'static str,
-        round: &Round,
+        round: &SolidOfRevolution,
         [radius, half_height]: [f64; 2],
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()));
+        let enclosure = round.enclose(excess.unwrap_or(round.usual_excess()));
         let body = enclosure.and_then(|enclosure| enclosure.body());
         let body = body.map_err(input_error)?;
         let report = format!(
@@ -355,15 +355,19 @@ impl PyBody {
             body.excess()
         );
         let sizes = vec![Some(radius), Some(half_height), excess];
-        Ok(PyBody::new_of(body, PickleData::Shape(name, sizes), report))
+        Ok(PyBody::from_parts(
+            body,
+            PickleData::Shape(name, sizes),
+            report,
+        ))
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
         match &self.made {
             PickleData::Mesh(model) => Ok(Cow::Borrowed(model)),
-            PickleData::Shape(..) => {
-                Ok(Cow::Owned(Model::of_body(&self.body).map_err(input_error)?))
-            }
+            PickleData::Shape(..) => Ok(Cow::Owned(
+                Model::from_body(&self.body).map_err(input_error)?,
+            )),
         }
     }
 }
@@ -379,7 +383,7 @@ fn named_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
     unit.map_err(|error| input_error(format!("{argument}: {error}")))
 }
 
-fn named_axis(name: &str) -> PyResult<Axis> {
+fn parse_axis(name: &str) -> PyResult<Axis> {
     match name {
         "x" => Ok(Axis::X),
         "y" => Ok(Axis::Y),

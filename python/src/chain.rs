@@ -1,6 +1,6 @@
 //! The Python classes of serial chains, such as robot arms.
 
-use crate::arrays::{any_numbers, finite, index, numbers};
+use crate::arrays::{any_numbers, finite_numbers, index, numbers};
 use crate::errors::{input_error, warn};
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use crate::pickle::{Recipe, Reduced};
@@ -41,7 +41,11 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::new(Kind::Revolute(finite(axis, "axis")?), origin, limits)
+        PyJoint::new(
+            Kind::Revolute(finite_numbers(axis, "axis")?),
+            origin,
+            limits,
+        )
     }
 
     /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
@@ -53,7 +57,11 @@ impl PyJoint {
         axis: &Bound<'_, PyAny>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        PyJoint::new(Kind::Prismatic(finite(axis, "axis")?), origin, limits)
+        PyJoint::new(
+            Kind::Prismatic(finite_numbers(axis, "axis")?),
+            origin,
+            limits,
+        )
     }
 
     /// Makes a joint without a degree of freedom. It has a position all the same, which does not matter.

@@ -31,7 +31,7 @@ pyo3::create_exception!(
 );
 
 /// Adds the exceptions to the module, with the missing attributes of some.
-pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     let classes = [
         ("InputError", py.get_type::<InputError>(), &["results"][..]),
@@ -166,7 +166,7 @@ pub(crate) fn warn(
     calls_up: i32,
 ) -> PyResult<()> {
     for remark in remarks {
-        let text = CString::new(remark.in_general())?;
+        let text = CString::new(remark.general_text())?;
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, calls_up)?;
     }
     Ok(())

@@ -28,7 +28,7 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<chain::PyChain>()?;
     module.add_class::<chain::PyLink>()?;
     module.add_class::<table::PyTable>()?;
-    errors::add_to(module)?;
+    errors::add_exceptions(module)?;
     module.add_function(wrap_pyfunction!(queries::first_contact, module)?)?;
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;

@@ -1,6 +1,6 @@
 //! The Python class `Motion`, and the accepted forms of poses and rotations.
 
-use crate::arrays::{finite, shape};
+use crate::arrays::{finite_numbers, shape};
 use crate::errors::{input_error, warn};
 use crate::pickle::{Recipe, Reduced};
 use pyo3::prelude::*;
@@ -10,7 +10,7 @@ use rigid_ccd::{Motion, Pose, Remark};
 
 /// The allowed deviation of a rotation matrix from an orthonormal one: a few products in float32 reach it. The rotation
 /// is that of the quaternion that fits it.
-const ORTHONORMAL: f64 = 1e-5;
+const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
 ///
@@ -43,7 +43,7 @@ impl PyMotion {
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let given = |values: Option<&Bound<'_, PyAny>>, what| match values {
-            Some(values) => finite(values, what),
+            Some(values) => finite_numbers(values, what),
             None => Ok([0.0; 3]),
         };
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), rotation_of)?;
@@ -74,7 +74,7 @@ impl PyMotion {
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let (start, end) = (given_pose(start, "start")?, given_pose(end, "end")?);
-        let center = center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?;
+        let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
         let motion = Motion::between(start.pose("start")?, end.pose("end")?, center, duration);
         let parts = (start, end, duration, center);
         Ok(PyMotion {
@@ -174,7 +174,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     }
     match shape(value, "rotation")?[..] {
         [4] => {
-            let [w, x, y, z] = finite(value, "rotation")?;
+            let [w, x, y, z] = finite_numbers(value, "rotation")?;
             let is_zero = [w, x, y, z] == [0.0; 4];
             let remark = Remark::of_quaternion([w, x, y, z]).filter(|_| !is_zero);
             warn(value.py(), remark, 1)?;
@@ -188,7 +188,7 @@ fn rotation_of(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
 }
 
 fn matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
-    rotation(finite(value, what)?, what)
+    rotation(finite_numbers(value, what)?, what)
 }
 
 fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
@@ -196,7 +196,8 @@ fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
     let error = off.iter().map(|entry| entry.abs());
     // Written so that NaN is refused.
-    let is_rotation = error.clone().all(|error| error <= ORTHONORMAL) && matrix.determinant() > 0.0;
+    let is_rotation =
+        error.clone().all(|error| error <= ORTHONORMALITY_TOLERANCE) && matrix.determinant() > 0.0;
     if is_rotation {
         Ok(DQuat::from_mat3(&matrix))
     } else {
@@ -217,14 +218,17 @@ pub(crate) fn pose_of(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
 /// Reads a pose as given, without normalising it.
 pub(crate) fn given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
-        return Ok(GivenPose(finite(&place, what)?, rotation_of(&turned)?));
+        return Ok(GivenPose(
+            finite_numbers(&place, what)?,
+            rotation_of(&turned)?,
+        ));
     }
     if shape(value, what)?[..] != [4, 4] {
         return Err(input_error(format!(
             "{what}: a matrix of shape (4, 4), or a pair of a position and a rotation is needed"
         )));
     }
-    let m: [f64; 16] = finite(value, what)?;
+    let m: [f64; 16] = finite_numbers(value, what)?;
     if m[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(input_error(format!(
             "{what}: the last row of the matrix is not 0, 0, 0, 1"

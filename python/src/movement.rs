@@ -5,7 +5,7 @@ use crate::errors::{input_error, wrong_type};
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
-use rigid_ccd::trajectory::{Link, Moving, Poses, Trajectory};
+use rigid_ccd::trajectory::{Link, MovingBody, Poses, Trajectory};
 use rigid_ccd::{Body, Motion, Remark};
 
 /// The movement of a body as a Python argument gives it.
@@ -105,7 +105,7 @@ impl Pair<'_> {
         })
     }
 
-    pub(crate) fn moving(&self) -> [Moving<'_>; 2] {
+    pub(crate) fn moving(&self) -> [MovingBody<'_>; 2] {
         [&self.a, &self.b].map(|(body, course)| (*body, course.trajectory()).into())
     }
 }

@@ -1,6 +1,6 @@
 //! The Python class of paths through poses.
 
-use crate::arrays::{any_numbers, finite, rows};
+use crate::arrays::{any_numbers, finite_numbers, rows};
 use crate::errors::input_error;
 use crate::motion::{GivenPose, given_pose, matrix_of};
 use crate::pickle::{Recipe, Reduced};
@@ -56,7 +56,7 @@ impl PyPath {
                 times.len()
             )));
         }
-        let center = center.map_or(Ok([0.0; 3]), |center| finite(center, "center"))?;
+        let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
         let timed = times.iter().zip(&given).enumerate();
         let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
         let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input_error)?;

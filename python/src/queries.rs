@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::answer::{Limit, Unresolved};
 use rigid_ccd::batch::Question;
-use rigid_ccd::trajectory::Moving;
+use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Answer, Hit, InputError, Outcome, Query, Settings, Solver};
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 const FIRST_BUDGET: u64 = 100_000;
 
 /// The time limit of a first attempt, needed because a path has a work limit for each of its segments.
-const FIRST_DEADLINE: Duration = Duration::from_millis(200);
+const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(200);
 
 thread_local! {
     /// The solver of this thread, whose memory is reused from query to query. A panic leaves a new one.
@@ -33,7 +33,7 @@ thread_local! {
 /// Two moving bodies, and the question about them.
 struct Asked<'a> {
     question: Question,
-    bodies: [Moving<'a>; 2],
+    bodies: [MovingBody<'a>; 2],
     duration: f64,
 }
 
@@ -58,9 +58,9 @@ impl Asked<'_> {
         let deadline = settings.deadline;
         let short = Settings {
             budget: settings.budget.min(FIRST_BUDGET),
-            deadline: Some(
-                deadline.map_or(FIRST_DEADLINE, |deadline| deadline.min(FIRST_DEADLINE)),
-            ),
+            deadline: Some(deadline.map_or(FIRST_ATTEMPT_TIME_LIMIT, |deadline| {
+                deadline.min(FIRST_ATTEMPT_TIME_LIMIT)
+            })),
             ..settings.clone()
         };
         let first = py.detach(|| {
@@ -78,7 +78,7 @@ impl Asked<'_> {
             Outcome::Unresolved(known)
                 if known.limit == Limit::Budget && settings.budget > FIRST_BUDGET
                     || known.limit == Limit::Deadline
-                        && deadline.is_none_or(|deadline| deadline > FIRST_DEADLINE) =>
+                        && deadline.is_none_or(|deadline| deadline > FIRST_ATTEMPT_TIME_LIMIT) =>
             {
                 self.proven(known)
             }

@@ -20,7 +20,7 @@ pub(crate) const APPROACH_SETTINGS: &[&str] = &["tolerance", "clearance", "budge
 pub(crate) const TABLE_SETTINGS: &[&str] = &["threads", "progress", "micros"];
 
 /// The maximum number of threads, the same as in the command.
-const MOST_THREADS: u16 = 1024;
+const MAX_THREADS: u16 = 1024;
 
 /// Reads the settings of a query; a keyword that is not in `known` is an error.
 pub(crate) fn read(
@@ -32,14 +32,14 @@ pub(crate) fn read(
         let name: String = name.extract()?;
         match name.as_str() {
             _ if !known.contains(&name.as_str()) => return Err(unknown_setting(&name, known)),
-            "tolerance" => settings.tolerance = value_of(&name, &value)?,
-            "margin" => settings.margin = value_of(&name, &value)?,
-            "clearance" => settings.clearance = value_of(&name, &value)?,
+            "tolerance" => settings.tolerance = extract_setting(&name, &value)?,
+            "margin" => settings.margin = extract_setting(&name, &value)?,
+            "clearance" => settings.clearance = extract_setting(&name, &value)?,
             "budget" => {
                 settings.budget =
-                    value_of::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
+                    extract_setting::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
             }
-            "deadline" => settings.deadline = deadline(value_of(&name, &value)?)?,
+            "deadline" => settings.deadline = deadline(extract_setting(&name, &value)?)?,
             _ => return Err(unknown_setting(&name, known)),
         }
     }
@@ -48,16 +48,16 @@ pub(crate) fn read(
 
 /// Reads a number of threads; `None` is one for each core.
 pub(crate) fn threads(given: Option<i64>) -> PyResult<Option<u16>> {
-    let in_range = |&threads: &u16| (1..=MOST_THREADS).contains(&threads);
+    let in_range = |&threads: &u16| (1..=MAX_THREADS).contains(&threads);
     let threads = |given: i64| {
         let threads = u16::try_from(given).ok().filter(in_range);
         threads
-            .ok_or_else(|| input_error(format!("threads: {given} is not from 1 to {MOST_THREADS}")))
+            .ok_or_else(|| input_error(format!("threads: {given} is not from 1 to {MAX_THREADS}")))
     };
     given.map(threads).transpose()
 }
 
-fn value_of<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
+fn extract_setting<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py, Error = PyErr>,
 {

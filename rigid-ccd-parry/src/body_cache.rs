@@ -1,7 +1,7 @@
 //! Caches bodies by their geometry.
 
 use crate::form::ShapeGeometry;
-use crate::limits::{KEPT_BODIES, KEPT_BYTES};
+use crate::limits::{MAX_CACHED_BODIES, MAX_CACHED_BYTES};
 use crate::{Prepared, ShapeError};
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ impl Default for BodyCache {
     fn default() -> Self {
         BodyCache {
             bodies: Vec::new(),
-            max_bytes: KEPT_BYTES,
+            max_bytes: MAX_CACHED_BYTES,
         }
     }
 }
@@ -58,7 +58,7 @@ impl BodyCache {
         let mut held: usize = self.bodies.iter().map(|kept| kept.bytes).sum();
         let mut gone = 0;
         while gone < self.bodies.len()
-            && (held + bytes > self.max_bytes || self.bodies.len() - gone >= KEPT_BODIES)
+            && (held + bytes > self.max_bytes || self.bodies.len() - gone >= MAX_CACHED_BODIES)
         {
             held -= self.bodies[gone].bytes;
             gone += 1;

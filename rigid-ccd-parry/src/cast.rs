@@ -10,7 +10,7 @@ use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDING_FACTOR, MAX_TOLERANCE_S
 use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
-use ccd_core::{InputError, Motion, Settings, StartPolicy, Stray, Stretch, Trajectory};
+use ccd_core::{DeviationBound, InputError, Motion, Settings, StartPolicy, Stretch, Trajectory};
 use rigid_ccd::Solver;
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ pub(crate) enum PreparedShape {
 struct ShiftedMotion {
     motion: Motion,
     /// A bound on the motion's deviation due to rounding.
-    stray: Stray,
+    stray: DeviationBound,
 }
 
 impl Cast {
@@ -129,7 +129,10 @@ impl Cast {
         let settings = self.settings(&[body], slack)?;
         let stand_in = plane.box_within(of_plane, 2.0 * reach).map_err(|error| {
             let which = index as u8 + 1;
-            CastError::Shape { which, error }
+            CastError::Shape {
+                shape_number: which,
+                error,
+            }
         })?;
         let (mut bodies, mut motions) = ([&stand_in, body], [of_plane.motion, side.motion]);
         if index == 1 {
@@ -220,7 +223,11 @@ impl ShiftedMotion {
             motion.centre()
         };
         let motion = Motion::about(motion.start(), motion.velocity(), motion.spin(), centre)?;
-        let Stretch { motion, stray, .. } = motion.stretch(start, start)?;
+        let Stretch {
+            motion,
+            deviation: stray,
+            ..
+        } = motion.stretch(start, start)?;
         let velocity = motion.velocity() - along;
         Ok(ShiftedMotion {
             motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
@@ -273,7 +280,7 @@ impl ShiftedMotion {
 }
 
 /// Bounds the deviation of all points of a body, as a length.
-fn point_deviation(stray: Stray, side: &MotionWithExtent) -> f64 {
+fn point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
     stray.at(side.reach + length(side.about - side.motion.centre()))
 }
 

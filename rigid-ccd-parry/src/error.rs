@@ -9,10 +9,10 @@ use ccd_core::InputError;
 #[non_exhaustive]
 pub enum CastError {
     /// A shape is refused.
-    #[error("shape {which}: {error}")]
+    #[error("shape {shape_number}: {error}")]
     Shape {
         /// The number of the shape: 1 or 2.
-        which: u8,
+        shape_number: u8,
         /// The reason why the shape is refused.
         #[source]
         error: ShapeError,
@@ -41,7 +41,7 @@ pub enum CastError {
     HalfSpaces,
     /// The interval contains no time, so that no cast can be recorded.
     #[error("the interval holds no time: its end is before its start")]
-    NoTime,
+    EmptyInterval,
     /// The engine refuses the scene, for example because it is too large.
     #[error(transparent)]
     Scene(#[from] InputError),
@@ -57,7 +57,12 @@ impl CastError {
 
     /// Returns what was made of both shapes; an error says which shape it is about.
     pub(crate) fn of_shapes<T>(made: [Result<T, ShapeError>; 2]) -> Result<[T; 2], CastError> {
-        let named = |which| move |error| CastError::Shape { which, error };
+        let named = |which| {
+            move |error| CastError::Shape {
+                shape_number: which,
+                error,
+            }
+        };
         let [a, b] = made;
         Ok([a.map_err(named(1))?, b.map_err(named(2))?])
     }
@@ -83,11 +88,11 @@ pub enum ShapeError {
     },
     /// A polytope around a round shape would need too many corners.
     #[error(
-        "a polytope about it that exceeds it by only {asked} would have too many corners; {least} can be had"
+        "a polytope about it that exceeds it by only {requested} would have too many corners; {least} can be had"
     )]
     Excess {
         /// The excess that the options allow, in the scene's unit of length.
-        asked: f64,
+        requested: f64,
         /// The least possible excess for this shape, in the same unit.
         least: f64,
     },
@@ -108,7 +113,10 @@ pub enum ShapeError {
     #[error("its voxels are too far from the origin, or of a size that is not positive")]
     Grid,
     /// The shape is a compound of compounds that is nested too deeply.
-    #[error("its parts are nested more than {} deep", crate::limits::DEEPEST)]
+    #[error(
+        "its parts are nested more than {} deep",
+        crate::limits::MAX_NESTING_DEPTH
+    )]
     Nested,
     /// A part of the compound is refused.
     #[error("part {part}: {error}")]

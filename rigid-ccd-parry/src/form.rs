@@ -6,8 +6,8 @@ use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, Combination, Enclosure, Facet, Feature, InputError, Origin, Pieces, Polytope, Pose,
-    Round, Volume,
+    Body, Combination, Enclosure, Facet, FacetOrigin, Feature, InputError, Pieces, Polytope, Pose,
+    SolidOfRevolution, Volume,
 };
 use std::borrow::Cow;
 use std::iter::repeat;
@@ -23,7 +23,7 @@ pub(crate) struct ShapeGeometry {
     triangle_sub_shapes: Vec<u32>,
     parts: Vec<Part>,
     /// A cylinder or a cone, grown by a radius, if the form consists of it alone.
-    round: Option<(Round, f64, Excess)>,
+    round: Option<(SolidOfRevolution, f64, Excess)>,
     volume: Volume,
     /// A bound on the rounding error of points, as a length.
     pub(crate) slack: f64,
@@ -56,7 +56,7 @@ impl ShapeGeometry {
     };
 
     /// Returns the form of a cylinder or a cone, grown by a radius; its polytope is made with the body.
-    pub(crate) fn from_round(round: Round, radius: f64, excess: Excess) -> Self {
+    pub(crate) fn from_round(round: SolidOfRevolution, radius: f64, excess: Excess) -> Self {
         ShapeGeometry {
             round: Some((round, radius, excess)),
             ..ShapeGeometry::EMPTY
@@ -98,7 +98,7 @@ impl ShapeGeometry {
         number: u32,
     ) {
         let facet = |(id, corners): (u32, L)| Facet {
-            origin: Origin::Face(id),
+            origin: FacetOrigin::Face(id),
             corners: corners.as_ref().to_vec(),
         };
         let polytope = Polytope {
@@ -335,7 +335,7 @@ impl ShapeGeometry {
 }
 
 /// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
-fn polytope_around(round: &Round, excess: Excess) -> Result<Enclosure, ShapeError> {
+fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
         Excess::Fine => round.usual_excess(),
         Excess::Length(length) => length,
@@ -350,9 +350,12 @@ fn polytope_around(round: &Round, excess: Excess) -> Result<Enclosure, ShapeErro
     }
     let least = round.least_excess();
     if asked < least {
-        Err(ShapeError::Excess { asked, least })
+        Err(ShapeError::Excess {
+            requested: asked,
+            least,
+        })
     } else {
-        round.enclosed(asked).map_err(ShapeError::Body)
+        round.enclose(asked).map_err(ShapeError::Body)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::order::{greater, length, lesser};
 use crate::tolerance::{END_ROUNDING_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
-use ccd_core::limits::{MAX_COORDINATE, MAX_TURN};
+use ccd_core::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
 use std::f64::consts::TAU;
 
 /// A body's motion, and a ball that contains the body and whose centre moves straight.
@@ -112,7 +112,7 @@ fn longest_duration(bodies: [MotionWithExtent; 2]) -> f64 {
             LONGEST_DURATION
         };
         let turn = if rate > 0.0 {
-            MAX_TURN * USED_SHARE_OF_LIMITS / rate
+            MAX_ROTATION_ANGLE * USED_SHARE_OF_LIMITS / rate
         } else {
             LONGEST_DURATION
         };

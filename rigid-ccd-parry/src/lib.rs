@@ -85,7 +85,7 @@
 //! # What is kept
 //! A body takes longer to make than most casts: 80,000 triangles take 60 to 160 ms, and a cast at them 0.02 to 0.3 ms. The functions with
 //! parry's signatures get no more than a reference to a shape, so that they keep bodies by their numbers: in each thread the
-//! [64](limits::KEPT_BODIES) asked for last, in at most [256 MiB](limits::KEPT_BYTES). A call compares all numbers of both
+//! [64](limits::MAX_CACHED_BODIES) asked for last, in at most [256 MiB](limits::MAX_CACHED_BYTES). A call compares all numbers of both
 //! shapes with those, which takes 0.3 ms for 80,000 triangles. A `Caster` keeps bodies by the address of a `SharedShape`,
 //! which it holds, and compares nothing. The example `switch` measures all of it.
 //!

@@ -1,16 +1,16 @@
 //! The limits on input and memory.
 
 /// The maximum nesting depth of compounds.
-pub const DEEPEST: usize = 16;
+pub const MAX_NESTING_DEPTH: usize = 16;
 
 /// The maximum coordinate of a voxel, in voxels: parry rounds their positions.
-pub const FARTHEST_VOXEL: i64 = 1 << 20;
+pub const MAX_VOXEL_COORDINATE: i64 = 1 << 20;
 
 /// The maximum memory of cached bodies per thread, in bytes, for the functions with parry's signatures.
-pub const KEPT_BYTES: usize = 256 << 20;
+pub const MAX_CACHED_BYTES: usize = 256 << 20;
 
 /// The maximum number of cached bodies per thread, for the functions with parry's signatures.
-pub const KEPT_BODIES: usize = 64;
+pub const MAX_CACHED_BODIES: usize = 64;
 
 /// The default limit of a cast's work: about a second.
 pub const DEFAULT_BUDGET: u64 = 1 << 20;

@@ -71,6 +71,6 @@ impl Prepared {
 
     /// Returns the approximate memory use in bytes.
     pub fn bytes(&self) -> usize {
-        self.body.bytes() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
+        self.body.memory_usage() + size_of_val(self.numbers.as_slice()) + size_of::<Self>()
     }
 }

@@ -65,8 +65,8 @@ impl Recording {
         };
         fs::create_dir_all(folder).map_err(failed(folder))?;
         let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
-        Model::of_body(&self.bodies[0])?.save(&a)?;
-        Model::of_body(&self.bodies[1])?.save(&b)?;
+        Model::from_body(&self.bodies[0])?.save(&a)?;
+        Model::from_body(&self.bodies[1])?.save(&b)?;
         let table = self.table();
         ccd_file::write(&motions, |out| out.write_all(table.as_bytes()))
             .map_err(failed(&motions))?;

@@ -93,7 +93,7 @@ impl Scene<'_> {
             }),
             Outcome::Unresolved(known) => Some(self.hit_at_limit(known.safe_until, solver)),
             // A first contact has no other outcomes.
-            Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::Measured { .. } => {
+            Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 match self.horizon {
                     Horizon::Whole(_) => None,
                     Horizon::Part(duration) => Some(self.hit_at_limit(duration, solver)),

@@ -2,7 +2,7 @@
 //!
 //! `u` is half a unit in the last place of 1.
 
-use ccd_core::rounding::U64;
+use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 
 /// The default contact distance in single precision, in the scene's unit of length.
 ///
@@ -27,18 +27,18 @@ pub(crate) const MAX_TOLERANCE_SHARE: f64 = 1.0 / (1 << 20) as f64;
 /// In units of `u`: the given quaternion is normalised with an error of 2 in direction, which turns by 4, and of 4.5
 /// in length, which scales by up to 9; products and sums of the rotation add 15, the translation 1. That is 29; 64
 /// are taken.
-pub(crate) const POSE_ROUNDING: f64 = 64.0 * U64;
+pub(crate) const POSE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// A bound on the rounding error of a voxel's corner, relative to its coordinates: one product, and two of it in sums
 /// that bound it.
-pub(crate) const VOXEL_ROUNDING: f64 = 4.0 * U64;
+pub(crate) const VOXEL_ROUNDING: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 
 /// A bound on two rounding errors: the distance of a half-space's box corners from the plane, relative to the corners'
 /// distances, and that of heights, relative to their summands.
 ///
 /// In units of `u`: a normal made a unit is off by 3, an axis across it by 6 and not at a right angle by 6, the other one
 /// by 10; products and sums add 8. That is 33; 64 are taken.
-pub(crate) const PLANE_ROUNDING: f64 = 64.0 * U64;
+pub(crate) const PLANE_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// The maximum extent of the box that stands for a half-space, in units of the body's size and of its distance at the
 /// start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
@@ -46,11 +46,11 @@ pub(crate) const LARGEST_PLANE_EXTENT: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
 /// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
-pub(crate) const DIFFERENCE_ROUNDING: f64 = 2.0 * U64;
+pub(crate) const DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
 
 /// The factor on lengths and times at the end of an interval that covers their rounding: the sums and quotients that
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
-pub(crate) const END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * U64;
+pub(crate) const END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
 
 /// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;

@@ -3,7 +3,7 @@
 //! The engine checks each result: with a wrong backend, a query is slow or unresolved, never late.
 
 use rigid_ccd::body::Combination;
-use rigid_ccd::oracle::{Claim, DistanceOracle, GiveUp, Gjk, PiecePair};
+use rigid_ccd::oracle::{Claim, DistanceOracle, GiveUpReason, Gjk, PiecePair};
 use rigid_ccd::{Body, Motion, Pose, Solver};
 use std::error::Error;
 
@@ -13,10 +13,10 @@ struct SegmentOracle;
 impl DistanceOracle for SegmentOracle {
     type Cache = ();
 
-    fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+    fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
         let (a, b) = (pair.a.points, pair.b.points);
         if a.len() > 2 || b.len() > 2 {
-            return Err(GiveUp::TooManyPoints);
+            return Err(GiveUpReason::TooManyPoints);
         }
         let last = [a.len() - 1, b.len() - 1];
         let (p, q) = (a[0], pair.b_to_a.point(b[0]));

@@ -18,9 +18,9 @@ pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 pub(crate) use timed::{Timing, time};
 
 use crate::ParallelSolver;
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
-use crate::table::results::{Compared, ResultRow};
+use crate::table::results::{ClearanceComparison, ResultRow};
 use ccd_core::{Answer, Body, InputError, Query, Settings};
 use std::num::NonZeroUsize;
 
@@ -41,7 +41,7 @@ impl<'q> Bodies<'q> {
     pub fn query(
         self,
         question: Question,
-        course: &'q Course,
+        course: &'q Movements,
         settings: &'q Settings,
     ) -> Result<Query<'q>, InputError> {
         let Bodies { a, b } = self;
@@ -58,10 +58,10 @@ impl<'q> Bodies<'q> {
         self,
         question: Question,
         settings: &Settings,
-        course: &Course,
+        course: &Movements,
         answer: &Result<TimedAnswer, RowProblem>,
     ) -> ResultRow {
-        let compared = self.compared(settings.clearance);
+        let compared = self.clearance_comparison(settings.clearance);
         match answer {
             Ok(timed) => ResultRow::new(course, (question, &timed.answer), timed.micros, compared),
             Err(problem) => ResultRow::error(course.id(), problem),
@@ -69,8 +69,8 @@ impl<'q> Bodies<'q> {
     }
 
     /// Returns the clearance and the bodies' excess, against which the table of results compares distances.
-    pub fn compared(self, clearance: Option<f64>) -> Compared {
-        Compared {
+    pub fn clearance_comparison(self, clearance: Option<f64>) -> ClearanceComparison {
+        ClearanceComparison {
             clearance,
             excess: self.a.excess() + self.b.excess(),
         }
@@ -87,7 +87,7 @@ pub struct TimedAnswer {
 }
 
 /// Creates one solver for each of `threads`, by default one for each core.
-pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
+pub fn parallel_solver<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
     match threads.and_then(|threads| NonZeroUsize::new(threads.into())) {
         Some(threads) => ParallelSolver::with_threads(threads, solver),
         None => ParallelSolver::new(solver),

@@ -122,7 +122,7 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
             // The reader closed the pipe, which is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
-                complain(&causes::message(&error));
+                print_error(&causes::message(&error));
                 // Another run holds the output, so this run must not start.
                 let busy = |f: &CannotWrite| f.source.kind() == io::ErrorKind::ResourceBusy;
                 ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
@@ -132,7 +132,7 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
 }
 
 /// Writes a message to standard error, after the program's name.
-pub fn complain(message: &str) {
+pub fn print_error(message: &str) {
     print_line(&format!("{}: {message}", program_name()));
 }
 
@@ -146,7 +146,7 @@ pub(crate) fn print_line(line: &str) {
 /// Prints the remarks about a question, one line for each.
 fn print_remarks(remarks: impl IntoIterator<Item = Remark>) {
     for remark in remarks {
-        complain(&remark.to_string());
+        print_error(&remark.to_string());
     }
 }
 

@@ -23,7 +23,7 @@ use std::path::Path;
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
-    let source = BodySource::of_file(path.as_ref().into());
+    let source = BodySource::from_file(path.as_ref().into());
     Ok(source.load(Detail::Auto)?.body)
 }
 
@@ -40,7 +40,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
-    let source = BodySource::of_file(path.as_ref().into());
+    let source = BodySource::from_file(path.as_ref().into());
     Ok(source.load_in(unit, Detail::Auto)?.body)
 }
 
@@ -59,7 +59,7 @@ pub fn load_in(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Result<Body, BodyError> {
-    let source = BodySource::of_file(path.as_ref().into());
+    let source = BodySource::from_file(path.as_ref().into());
     Ok(source.load_adjusted(adjustments, Detail::Auto)?.body)
 }
 

@@ -1,7 +1,7 @@
 //! Answers many queries on all cores.
 
 use crate::Solver;
-use ccd_core::{Answer, DistanceOracle, InputError, Moving};
+use ccd_core::{Answer, DistanceOracle, InputError, MovingBody};
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -35,8 +35,8 @@ use std::thread::{self, Builder, available_parallelism};
 /// ```
 pub fn first_contacts<'b, A, B>(queries: &[(A, B, f64)]) -> Vec<Result<Answer, QueryError>>
 where
-    A: Into<Moving<'b>> + Copy + Sync,
-    B: Into<Moving<'b>> + Copy + Sync,
+    A: Into<MovingBody<'b>> + Copy + Sync,
+    B: Into<MovingBody<'b>> + Copy + Sync,
 {
     ParallelSolver::new(Solver::new).first_contacts(queries)
 }
@@ -130,8 +130,8 @@ where
         queries: &[(A, B, f64)],
     ) -> Vec<Result<Answer, QueryError>>
     where
-        A: Into<Moving<'b>> + Copy + Sync,
-        B: Into<Moving<'b>> + Copy + Sync,
+        A: Into<MovingBody<'b>> + Copy + Sync,
+        B: Into<MovingBody<'b>> + Copy + Sync,
     {
         let found = self.map(queries, |solver, &(a, b, duration)| {
             solver.first_contact(a, b, duration)

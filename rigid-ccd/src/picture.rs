@@ -14,7 +14,7 @@ mod verdict;
 
 pub use ccd_view::{Group, Page, PageError};
 pub use course::course;
-pub use drawn::drawn;
+pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, gap};
 pub use pages::{Pages, PagesError};
 #[cfg(feature = "scenes")]
@@ -23,7 +23,7 @@ pub use verdict::{Asked, Claim};
 
 use crate::Solver;
 use crate::batch::Bodies;
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::results::{ResultRow, Status};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, InputError, Pose};
@@ -50,7 +50,7 @@ pub enum ViewError {
     Input(#[from] InputError),
     /// The bodies are farther apart than the row says, so that the row must be about others.
     #[error(
-        "at {time} the bodies are at least {measured} apart, but the row says at most {told}: it is the answer about \
+        "at {time} the bodies are at least {measured} apart, but the row says at most {reported}: it is the answer about \
          other bodies, or other motions"
     )]
     OtherBodies {
@@ -59,7 +59,7 @@ pub enum ViewError {
         /// The distance of the given bodies at that time.
         measured: f64,
         /// The upper bound of the distance according to the row.
-        told: f64,
+        reported: f64,
     },
 }
 
@@ -67,7 +67,7 @@ impl<'a> Painter<'a> {
     /// Creates a painter of two bodies, for answers to a question.
     pub fn new(bodies: Bodies<'a>, asked: Asked) -> Self {
         let mut meshes = Meshes::default();
-        let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn(body)));
+        let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
         Painter {
             bodies,
             asked,
@@ -91,18 +91,18 @@ impl<'a> Painter<'a> {
     ///
     /// # Errors
     /// [`ViewError`].
-    pub fn view(&mut self, query: &Course, row: &ResultRow) -> Result<View, ViewError> {
+    pub fn view(&mut self, query: &Movements, row: &ResultRow) -> Result<View, ViewError> {
         let start = query.start();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
-        if self.asked.claim == Claim::Told {
+        if self.asked.claim == Claim::FromTable {
             self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
         let name = match (self.asked.claim, row.time) {
             // A path has one row for each of its poses.
-            (Claim::Then, Some(time)) => {
+            (Claim::MeasurementTime, Some(time)) => {
                 format!(
                     "{} at {} ({})",
                     row.id,
@@ -157,7 +157,7 @@ impl<'a> Painter<'a> {
             return Err(ViewError::OtherBodies {
                 time,
                 measured,
-                told,
+                reported: told,
             });
         }
         Ok(())

@@ -33,7 +33,7 @@ pub enum Remark {
         size: f64,
     },
     /// An angular velocity seems to be in degrees.
-    SpinInDegrees {
+    AngularVelocityInDegrees {
         /// The angular velocity, in radians per unit of time.
         spin: DVec3,
         /// The angle of the rotation over the duration, in radians.
@@ -103,7 +103,8 @@ impl Remark {
         let is_round = [spin, spin * duration]
             .into_iter()
             .any(|rate| rate.to_array().into_iter().all(is_round_degrees));
-        (may_be_degrees(turn) && is_round).then_some(Remark::SpinInDegrees { spin, turn })
+        (may_be_degrees(turn) && is_round)
+            .then_some(Remark::AngularVelocityInDegrees { spin, turn })
     }
 
     /// Returns a remark if a joint's position is many turns and a round number of degrees.
@@ -121,13 +122,13 @@ impl Remark {
     }
 
     /// Returns the remark's text without numbers, the same for remarks of one kind.
-    pub fn in_general(&self) -> &'static str {
+    pub fn general_text(&self) -> &'static str {
         match self {
             Remark::CoarseTolerance { .. } => {
                 "the tolerance is large against the smaller body, and what is called a contact may be as far away; is it \
                  in the bodies' unit of length?"
             }
-            Remark::SpinInDegrees { .. } => {
+            Remark::AngularVelocityInDegrees { .. } => {
                 "an angular velocity is a round number of degrees and makes many turns; angular velocities are in radians"
             }
             Remark::JointInDegrees { .. } => {
@@ -177,12 +178,12 @@ fn is_round_degrees(angle: f64) -> bool {
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.in_general())?;
+        write!(f, "{}: ", self.general_text())?;
         match *self {
             Remark::CoarseTolerance { tolerance, size } => {
                 write!(f, "{tolerance}, and the body is {size} long")
             }
-            Remark::SpinInDegrees { spin, turn } => write!(
+            Remark::AngularVelocityInDegrees { spin, turn } => write!(
                 f,
                 "({}, {}, {}) makes {:.1} turns",
                 spin.x,

@@ -12,7 +12,7 @@ mod stops;
 
 use crate::ParallelSolver;
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, InputError, Motion, Movement, Moving, Pose, Query, Settings, SweptBox};
+use ccd_core::{Body, InputError, Motion, Movement, MovingBody, Pose, Query, Settings, SweptBox};
 use clock::Clock;
 use event::Event;
 pub use event::{Impact, PairError};
@@ -75,7 +75,7 @@ enum Mobility {
 #[error(
     "body {index} is fixed and cannot move; add it with Scene::add, or give it a motion at rest"
 )]
-pub struct FixedBody {
+pub struct FixedBodyError {
     /// The index of the fixed body.
     pub index: usize,
 }
@@ -154,7 +154,7 @@ impl<'a> Scene<'a> {
     /// elsewhere.
     ///
     /// # Errors
-    /// [`FixedBody`] for a fixed body that would move: pairs of two fixed bodies are not looked at.
+    /// [`FixedBodyError`] for a fixed body that would move: pairs of two fixed bodies are not looked at.
     ///
     /// # Panics
     /// No body has the index.
@@ -162,14 +162,14 @@ impl<'a> Scene<'a> {
         &mut self,
         index: usize,
         movement: impl Into<Movement<'a>>,
-    ) -> Result<(), FixedBody> {
+    ) -> Result<(), FixedBodyError> {
         let (member, movement) = (&mut self.members[index], movement.into());
         let rests = match movement {
             Movement::Motion(motion) => [motion.velocity(), motion.spin()] == [DVec3::ZERO; 2],
             Movement::Trajectory(_) => false,
         };
         if member.mobility == Mobility::Fixed && !rests {
-            return Err(FixedBody { index });
+            return Err(FixedBodyError { index });
         }
         member.movement = movement;
         Ok(())
@@ -299,7 +299,7 @@ impl Default for Scene<'_> {
 }
 
 impl<'a> Member<'a> {
-    fn moving(&self) -> Moving<'a> {
+    fn moving(&self) -> MovingBody<'a> {
         (self.body, self.movement).into()
     }
 }

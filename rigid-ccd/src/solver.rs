@@ -2,7 +2,7 @@
 
 use crate::Error;
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
-use ccd_core::{Answer, Body, DistanceOracle, InputError, Moving, Pose, Query, Settings};
+use ccd_core::{Answer, Body, DistanceOracle, InputError, MovingBody, Pose, Query, Settings};
 use ccd_distance_gjk::Direct;
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`.
@@ -28,8 +28,8 @@ use ccd_distance_gjk::Direct;
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn first_contact<'b>(
-    a: impl Into<Moving<'b>>,
-    b: impl Into<Moving<'b>>,
+    a: impl Into<MovingBody<'b>>,
+    b: impl Into<MovingBody<'b>>,
     duration: f64,
 ) -> Result<Answer, InputError> {
     Solver::new().first_contact(a, b, duration)
@@ -117,8 +117,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// ```
     pub fn first_contact<'b>(
         &mut self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
+        a: impl Into<MovingBody<'b>>,
+        b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = query_with_settings(a, b, duration, &self.settings)?;
@@ -145,8 +145,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// ```
     pub fn is_free<'b>(
         &mut self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
+        a: impl Into<MovingBody<'b>>,
+        b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<bool, Error> {
         Ok(self.any_contact(a, b, duration)?.hit()?.is_none())
@@ -158,8 +158,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// Those of [`Solver::first_contact`].
     pub fn any_contact<'b>(
         &mut self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
+        a: impl Into<MovingBody<'b>>,
+        b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = query_with_settings(a, b, duration, &self.settings)?;
@@ -185,8 +185,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// ```
     pub fn contact_interval<'b>(
         &mut self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
+        a: impl Into<MovingBody<'b>>,
+        b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = query_with_settings(a, b, duration, &self.settings)?;
@@ -223,8 +223,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// ```
     pub fn closest_approach<'b>(
         &mut self,
-        a: impl Into<Moving<'b>>,
-        b: impl Into<Moving<'b>>,
+        a: impl Into<MovingBody<'b>>,
+        b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = query_with_settings(a, b, duration, &self.settings)?;
@@ -273,12 +273,12 @@ impl<O: DistanceOracle> Solver<O> {
 
 /// Builds the query of two moving bodies, which borrows the solver's settings.
 fn query_with_settings<'s, 'b: 's>(
-    a: impl Into<Moving<'b>>,
-    b: impl Into<Moving<'b>>,
+    a: impl Into<MovingBody<'b>>,
+    b: impl Into<MovingBody<'b>>,
     duration: f64,
     settings: &'s Settings,
 ) -> Result<Query<'s>, InputError> {
-    let (a, b): (Moving<'b>, Moving<'b>) = (a.into(), b.into());
+    let (a, b): (MovingBody<'b>, MovingBody<'b>) = (a.into(), b.into());
     Query::new(a, b, duration, settings)
 }
 

@@ -19,4 +19,4 @@ mod remark_collector;
 pub mod results;
 
 pub use lines::Lines;
-pub use quotes::Quotes;
+pub use quotes::QuoteTracker;

@@ -9,12 +9,12 @@
 //! | hangs on a joint | [`Joint::motion`], exact |
 //! | follows the poses of a planner or of a simulator's log | [`Poses`], exact between two poses |
 //! | is thrown | [`Ballistic`] |
-//! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`Turns`] |
+//! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`OrientationCurve`] |
 //! | is the link of an arm whose joints all move | [`Link`] of a [`Chain`] |
-//! | moves in a way of your own | [`Smooth`], or [`Trajectory`] |
+//! | moves in a way of your own | [`SmoothTrajectory`], or [`Trajectory`] |
 //!
-//! [`worst_stray`] tests a trajectory of your own: it seeks the times and points at which it strays farther than
-//! it says.
+//! [`worst_deviation`] tests a trajectory of your own: it seeks the times and points at which it deviates by more than
+//! its bound.
 
 mod ballistic;
 mod chain;
@@ -32,7 +32,8 @@ mod worst_stray;
 
 pub use ballistic::Ballistic;
 pub use ccd_core::{
-    Acceleration, Accelerations, Motion, Movement, Moving, Smooth, Stray, Stretch, Trajectory,
+    Acceleration, AccelerationBounds, DeviationBound, Motion, Movement, MovingBody,
+    SmoothTrajectory, Stretch, Trajectory,
 };
 pub use chain::Chain;
 pub use curve::Curve;
@@ -41,8 +42,8 @@ pub use link::Link;
 pub use poses::Poses;
 pub use screw::screw;
 pub use spline::Spline;
-pub use turns::Turns;
-pub use worst_stray::{Worst, worst_stray};
+pub use turns::OrientationCurve;
+pub use worst_stray::{Worst, worst_deviation};
 
 /// The unit roundoff: the relative error of one operation.
 const U: f64 = f64::EPSILON / 2.0;

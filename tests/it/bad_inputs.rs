@@ -4,7 +4,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
-use ccd_core::{Body, InputError, Motion, Moving, Pieces, Pose, Settings};
+use ccd_core::{Body, InputError, Motion, MovingBody, Pieces, Pose, Settings};
 
 const NON_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
@@ -24,7 +24,7 @@ fn cube() -> Body {
 #[test]
 fn durations_tolerances_and_margins_have_their_range() {
     let body = cube();
-    let still = Moving::from((&body, Motion::still(Pose::IDENTITY)));
+    let still = MovingBody::from((&body, Motion::still(Pose::IDENTITY)));
     let good = Settings::DEFAULT;
     let refused = |duration: f64, config: Settings, message: &str| {
         let error = ccd_core::Query::new(still, still, duration, &config).expect_err("bad input");
@@ -69,8 +69,8 @@ fn motions_have_a_range() {
     let body = cube();
     let problem = |velocity: DVec3, spin: DVec3| {
         let far = Pose::at(10.0 * DVec3::X).expect("finite");
-        let fast = Moving::from((&body, Motion::new(far, velocity, spin).expect("finite")));
-        let still = Moving::from((&body, Motion::still(Pose::IDENTITY)));
+        let fast = MovingBody::from((&body, Motion::new(far, velocity, spin).expect("finite")));
+        let still = MovingBody::from((&body, Motion::still(Pose::IDENTITY)));
         ccd_core::Query::new(fast, still, 1.0, &Settings::DEFAULT)
     };
     for (speed, text) in [

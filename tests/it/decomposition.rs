@@ -1,7 +1,7 @@
 //! Tests that convex patches lie exactly within the solid and exactly on its surface, or that there is a typed error.
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_decomp::{DecomposeError, Decomposition, Order, decompose};
+use ccd_decomp::{DecomposeError, Decomposition, PatchOrder, decompose};
 use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{
     Mesh, Model, Shape, boulder, convex_solids, cuboid, dented_cube, flat_solids, hollow, pile,
@@ -12,9 +12,13 @@ use ccd_tests::strategies::{rotation, runner};
 use proptest::prelude::*;
 use std::cell::Cell;
 
-const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
+const ORDERS: [PatchOrder; 3] = [
+    PatchOrder::Cresting,
+    PatchOrder::BreadthFirst,
+    PatchOrder::DepthFirst,
+];
 
-fn decompose_shape(shape: &Shape, order: Order) -> Result<Decomposition, DecomposeError> {
+fn decompose_shape(shape: &Shape, order: PatchOrder) -> Result<Decomposition, DecomposeError> {
     decompose(&shape.mesh.for_decomposition(), order)
 }
 
@@ -45,13 +49,13 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
 /// Checks the decomposition of a model in every order: with the given effort in the default order, quickly in the
 /// others.
 fn check_model(model: &Model, effort: Effort) {
-    check_order(Order::Cresting, model, effort);
-    for order in [Order::BreadthFirst, Order::DepthFirst] {
+    check_order(PatchOrder::Cresting, model, effort);
+    for order in [PatchOrder::BreadthFirst, PatchOrder::DepthFirst] {
         check_order(order, model, Effort::QUICK);
     }
 }
 
-fn check_order(order: Order, model: &Model, effort: Effort) {
+fn check_order(order: PatchOrder, model: &Model, effort: Effort) {
     let name = &model.name;
     decompose_shape(&model.shape, order)
         .map_err(|error| error.to_string())
@@ -69,7 +73,7 @@ fn patches_of_solids() {
 #[test]
 fn patches_of_solids_in_general_position() {
     for model in solids() {
-        check_order(Order::Cresting, &model.turned(), Effort::THOROUGH);
+        check_order(PatchOrder::Cresting, &model.turned(), Effort::THOROUGH);
     }
 }
 
@@ -110,27 +114,30 @@ fn patches_of_random_solids() {
     let turn = prop_oneof![1 => Just(DQuat::IDENTITY), 1 => rotation()];
     let order = prop::sample::select(&ORDERS[..]);
     let (whole, faulty) = (Cell::new(0), Cell::new(0));
-    let law = |((shape, sound), turn, grid, order): ((Shape, bool), DQuat, Option<f64>, Order)| {
-        let mut shape = shape.placed(turn, DVec3::ZERO);
-        if let Some(cells) = grid {
-            let snap = |p: &mut DVec3| *p = (cells * *p).round() / cells;
-            shape.mesh.vertices.iter_mut().for_each(snap);
-        }
-        // Faces that rounding has reduced to a segment or a point are dropped.
-        shape.mesh.faces = shape.mesh.for_decomposition().faces().to_vec();
-        match decompose_shape(&shape, order) {
-            Ok(it) => {
-                whole.set(whole.get() + 1);
-                let law = check(&shape.mesh, &it, Effort::THOROUGH);
-                law.map(drop).map_err(TestCaseError::fail)
+    let law =
+        |((shape, sound), turn, grid, order): ((Shape, bool), DQuat, Option<f64>, PatchOrder)| {
+            let mut shape = shape.placed(turn, DVec3::ZERO);
+            if let Some(cells) = grid {
+                let snap = |p: &mut DVec3| *p = (cells * *p).round() / cells;
+                shape.mesh.vertices.iter_mut().for_each(snap);
             }
-            Err(error) if sound && grid.is_none() => Err(TestCaseError::fail(error.to_string())),
-            Err(_) => {
-                faulty.set(faulty.get() + 1);
-                Ok(())
+            // Faces that rounding has reduced to a segment or a point are dropped.
+            shape.mesh.faces = shape.mesh.for_decomposition().faces().to_vec();
+            match decompose_shape(&shape, order) {
+                Ok(it) => {
+                    whole.set(whole.get() + 1);
+                    let law = check(&shape.mesh, &it, Effort::THOROUGH);
+                    law.map(drop).map_err(TestCaseError::fail)
+                }
+                Err(error) if sound && grid.is_none() => {
+                    Err(TestCaseError::fail(error.to_string()))
+                }
+                Err(_) => {
+                    faulty.set(faulty.get() + 1);
+                    Ok(())
+                }
             }
-        }
-    };
+        };
     runner(120)
         .run(&(shapes, turn, grid, order), law)
         .unwrap_or_else(|error| panic!("{error}"));
@@ -209,7 +216,7 @@ fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
                 "{}, {order:?}",
                 model.name
             );
-            if order != Order::Cresting {
+            if order != PatchOrder::Cresting {
                 continue;
             }
             check(&flipped.mesh, &there, Effort::QUICK)

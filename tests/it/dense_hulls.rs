@@ -3,7 +3,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
-use ccd_core::{Answer, Body, Motion, Moving, Outcome, Pose, Schedule, Settings};
+use ccd_core::{Answer, Body, Motion, MovingBody, Outcome, Pose, Schedule, Settings};
 use ccd_decomp::{Detail, body_from_mesh};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_tests::models::{Mesh, icosphere, torus};
@@ -16,8 +16,8 @@ fn body(mesh: &Mesh, detail: Detail) -> Body {
 
 fn answer(a: &Body, b: &Body, velocity: DVec3, spin: DVec3) -> Answer {
     let start = Pose::at(DVec3::new(-4.0, 0.2, 0.1)).unwrap();
-    let a = Moving::from((a, Motion::new(start, velocity, spin).unwrap()));
-    let b = Moving::from((b, Motion::still(Pose::IDENTITY)));
+    let a = MovingBody::from((a, Motion::new(start, velocity, spin).unwrap()));
+    let b = MovingBody::from((b, Motion::still(Pose::IDENTITY)));
     let problem = ccd_core::Query::new(a, b, 1.0, &Settings::DEFAULT).unwrap();
     let answers = [
         BestFirst::default()

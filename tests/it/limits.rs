@@ -2,7 +2,9 @@
 
 use ccd_core::Unresolved;
 use ccd_core::schedule::BestFirst;
-use ccd_core::{Claim, DistanceOracle, GiveUp, Limit, Outcome, PiecePair, Schedule, Settings};
+use ccd_core::{
+    Claim, DistanceOracle, GiveUpReason, Limit, Outcome, PiecePair, Schedule, Settings,
+};
 use ccd_distance_gjk::Gjk;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;
@@ -89,7 +91,7 @@ impl DistanceOracle for StoppingOracle {
         &mut self,
         pair: &PiecePair<'_>,
         cache: &mut Self::Cache,
-    ) -> Result<Claim, GiveUp> {
+    ) -> Result<Claim, GiveUpReason> {
         if self.calls == 0 {
             self.stop.store(true, Ordering::Relaxed);
         }

@@ -6,7 +6,7 @@ use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Body, Motion, Outcome, Pose, Settings};
 use ccd_distance_gjk::Gjk;
 use rigid_ccd::Solver;
-use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, Spline, Trajectory, Turns};
+use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, OrientationCurve, Spline, Trajectory};
 use std::f64::consts::PI;
 
 /// Tests T6, a rod that rotates past a wall that its corners just do not reach. When a corner is nearest, the whole
@@ -46,7 +46,7 @@ fn a_ball_past_a_box_takes_few_steps() {
     let curve = |heights: [f64; 4]| {
         let points: [[f64; 3]; 4] =
             std::array::from_fn(|k| [2.0 * k as f64 - 3.0, 0.0, heights[k]]);
-        Spline::new(Curve::bezier(&points, 1.0).unwrap(), Turns::NONE)
+        Spline::new(Curve::bezier(&points, 1.0).unwrap(), OrientationCurve::NONE)
     };
     let (parabola, cubic) = (curve([2.0, -1.0, -1.0, 2.0]), curve([2.0, -2.0, 1.0, 2.0]));
     let joint = |z: f64| Joint::revolute(at(z), [0.0, 1.0, 0.0]).unwrap();

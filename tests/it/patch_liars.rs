@@ -2,7 +2,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{Facet, Origin, Polytope};
+use ccd_core::{Facet, FacetOrigin, Polytope};
 use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
 use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
@@ -64,11 +64,14 @@ fn lies_about_a_polytope_are_found() {
     assert_refused(|it| it.faces.push(it.faces[0]), "but named are");
     assert_refused(|it| it.faces[3].id = 12, "no face 12");
     let hide = |it: &mut Polytope| {
-        it.facets[0].origin = Origin::Virtual;
+        it.facets[0].origin = FacetOrigin::Virtual;
         it.faces.drain(..2);
     };
     assert_refused(hide, "but named are");
-    assert_refused(|it| it.facets[0].origin = Origin::Face(1), "is not face 1");
+    assert_refused(
+        |it| it.facets[0].origin = FacetOrigin::Face(1),
+        "is not face 1",
+    );
     assert_refused(|it| it.faces.truncate(11), "is on no face");
     assert_refused(|it| it.facets.clear(), "too few");
 }
@@ -173,7 +176,7 @@ fn a_hull_a_rounding_out_of_the_solid_is_found() {
         points: [4, 5, 7, 6].map(|v: usize| mesh.vertices[v]).to_vec(),
         vertex_ids: vec![4, 5, 7, 6],
         facets: vec![Facet {
-            origin: Origin::Virtual,
+            origin: FacetOrigin::Virtual,
             corners: vec![0, 1, 2, 3],
         }],
         ..Polytope::default()

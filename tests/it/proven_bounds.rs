@@ -205,7 +205,7 @@ impl<'s> Case<'s> {
     fn check_closest_approach(&self, closest: &Outcome, tally: &mut Tally) -> CheckResult {
         self.samples
             .check_lower_bound(closest.lower(), |_| true, "closest")?;
-        if let Outcome::Measured { time, contact, .. } = closest {
+        if let Outcome::LeastDistance { time, contact, .. } = closest {
             tally.measured += 1;
             let distance = self.scene.distance(*time);
             let upper = contact.separation.upper;

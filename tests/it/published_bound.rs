@@ -1,7 +1,7 @@
 //! Tests the paper's bound, which uses only the current pose: it is late for rotating arms, and the sound bound is
 //! not.
 
-use ccd_core::Bound;
+use ccd_core::VelocityBound;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{Answer, Motion, Outcome, Pose, Schedule, Settings};
@@ -14,11 +14,11 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// Returns the two schedules that divide a distance by a bound on the rate, with the given bound.
-fn schedules(bound: Bound) -> [Box<dyn Schedule<Gjk>>; 2] {
+fn schedules(bound: VelocityBound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
 
-fn answers(problem: &ccd_core::Query<'_>, bound: Bound) -> [Answer; 2] {
+fn answers(problem: &ccd_core::Query<'_>, bound: VelocityBound) -> [Answer; 2] {
     schedules(bound).map(|mut schedule| schedule.first_contact(problem, &mut Gjk).unwrap())
 }
 
@@ -50,10 +50,10 @@ fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_on
     };
     let bodies = bodies(&scenes[0].query);
     let problem = scenes[0].query.problem(&bodies, &Settings::DEFAULT);
-    for answer in answers(&problem, Bound::Published) {
+    for answer in answers(&problem, VelocityBound::Published) {
         assert!(delay_after_contact(&answer, latest) > 0.1, "{answer:?}");
     }
-    for answer in answers(&problem, Bound::Sound) {
+    for answer in answers(&problem, VelocityBound::Sound) {
         let late = delay_after_contact(&answer, latest);
         assert!((-1e-3..=1e-12).contains(&late), "{late}: {answer:?}");
     }
@@ -92,13 +92,16 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
         hits += 1;
         let bodies = bodies(&query);
         let problem = query.problem(&bodies, &Settings::DEFAULT);
-        for answer in answers(&problem, Bound::Sound) {
+        for answer in answers(&problem, VelocityBound::Sound) {
             assert!(
                 delay_after_contact(&answer, hi) <= 1e-9,
                 "{answer:?}: {query:?}"
             );
         }
-        for (late, answer) in late.iter_mut().zip(answers(&problem, Bound::Published)) {
+        for (late, answer) in late
+            .iter_mut()
+            .zip(answers(&problem, VelocityBound::Published))
+        {
             *late += usize::from(delay_after_contact(&answer, hi) > 1e-4);
         }
     }

@@ -2,8 +2,8 @@
 
 use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Feature, Motion, Moving, Pose, Settings};
-use ccd_decomp::{Detail, Order, Prepared, TriangleMesh, body_from_mesh};
+use ccd_core::{Feature, Motion, MovingBody, Pose, Settings};
+use ccd_decomp::{Detail, PatchOrder, PreparedBody, TriangleMesh, body_from_mesh};
 use ccd_tests::models::{Mesh, divided_cube, l_block};
 
 /// Returns a mesh in which no two faces share a vertex, as in an STL file.
@@ -20,13 +20,13 @@ fn without_shared_vertices(mesh: &Mesh) -> Mesh {
 /// A body made of triangles, and the same body made of patches.
 struct Body {
     mesh: Mesh,
-    made: [Prepared; 2],
+    made: [PreparedBody; 2],
 }
 
 impl Body {
     fn new(mesh: Mesh) -> Self {
         let good = TriangleMesh::new(mesh.vertices.clone(), &mesh.faces).expect("a mesh");
-        let made = [Detail::Triangles, Detail::Patches(Order::default())]
+        let made = [Detail::Triangles, Detail::Patches(PatchOrder::default())]
             .map(|detail| body_from_mesh(&good, detail).expect("a solid"));
         Body { mesh, made }
     }
@@ -45,8 +45,8 @@ impl Body {
 }
 
 /// Returns the pairs of feature names in contact, sorted.
-fn contact_names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
-    let still = |made, pose| Moving::from((made, Motion::still(pose)));
+fn contact_names([a, b]: [&PreparedBody; 2], pose: Pose) -> Vec<[Feature; 2]> {
+    let still = |made, pose| MovingBody::from((made, Motion::still(pose)));
     let (a, b) = (still(&a.body, pose), still(&b.body, Pose::IDENTITY));
     let problem = ccd_core::Query::new(a, b, 1.0, &Settings::DEFAULT).expect("good input");
     let pairs = problem.contacts_at(0.0).expect("contacts");

@@ -2,8 +2,8 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
-use ccd_core::{Body, Motion, Moving, Outcome, Pose, Settings, StartPolicy};
-use ccd_decomp::{Detail, Order, prepare};
+use ccd_core::{Body, Motion, MovingBody, Outcome, Pose, Settings, StartPolicy};
+use ccd_decomp::{Detail, PatchOrder, prepare};
 use ccd_distance_gjk::Direct;
 use ccd_tests::exact::{ConvexCombination, Location, Solid};
 use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
@@ -13,7 +13,7 @@ use rand_pcg::Pcg64;
 
 const DETAILS: [Detail; 3] = [
     Detail::Triangles,
-    Detail::Patches(Order::Cresting),
+    Detail::Patches(PatchOrder::Cresting),
     Detail::Auto,
 ];
 
@@ -63,7 +63,7 @@ fn body(mesh: &Mesh, detail: Detail) -> Body {
 
 fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
     let moving = |body, velocity| {
-        Moving::from((
+        MovingBody::from((
             body,
             Motion::new(Pose::IDENTITY, velocity, DVec3::ZERO).unwrap(),
         ))

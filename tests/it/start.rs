@@ -1,10 +1,10 @@
 //! Tests contacts at the start, which are reported, or ignored as long as the bodies do not approach.
 
 use ccd_core::glam::{DQuat, DVec3, dvec3};
-use ccd_core::rounding::RESTING;
+use ccd_core::rounding::RESTING_DECREASE;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{
-    Body, Claim, DistanceOracle, GiveUp, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
+    Body, Claim, DistanceOracle, GiveUpReason, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
     StartPolicy, Volume,
 };
 use ccd_distance_gjk::ClosedForm;
@@ -112,7 +112,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
         check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
             // An approach at speed 1 is visible once the distance has decreased by more than rounding.
             Outcome::Contact { time, .. } => {
-                (0.0..=gap + RESTING * query.rounding()).contains(&time)
+                (0.0..=gap + RESTING_DECREASE * query.rounding()).contains(&time)
             }
             _ => false,
         });
@@ -192,7 +192,7 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
                 assert!(expected, "{gap} {setup:?}\n{answer:?}");
             });
             let query = at(across - 0.01 * DVec3::Z);
-            let allowed = 2.0 * RESTING * query.rounding() / 0.01;
+            let allowed = 2.0 * RESTING_DECREASE * query.rounding() / 0.01;
             check_outcomes(&query, &config(margin), |outcome| match outcome {
                 Outcome::Contact { time, .. } => time <= allowed,
                 _ => false,
@@ -245,7 +245,7 @@ impl DistanceOracle for AxisLiar {
         &mut self,
         pair: &PiecePair<'_>,
         cache: &mut Self::Cache,
-    ) -> Result<Claim, GiveUp> {
+    ) -> Result<Claim, GiveUpReason> {
         let claim = self.1.separation(pair, cache)?;
         Ok(Claim {
             axis: self.0,

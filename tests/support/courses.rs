@@ -1,10 +1,15 @@
 //! Generates random trajectories of every kind, over the times from 0 to 1.
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Stretch, Trajectory};
+use ccd_core::{
+    AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory, Stretch,
+    Trajectory,
+};
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use rigid_ccd::trajectory::{Ballistic, Chain, Curve, Joint, Poses, Spline, Turns, screw};
+use rigid_ccd::trajectory::{
+    Ballistic, Chain, Curve, Joint, OrientationCurve, Poses, Spline, screw,
+};
 
 /// The names of the kinds of trajectories.
 pub const KINDS: [&str; 11] = [
@@ -65,7 +70,10 @@ fn random_trajectory(
         "B-spline, slerp" => {
             let count = rng.random_range(4..9);
             let curve = Curve::b_spline(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
-            Box::new(Spline::new(curve, Turns::slerp(&random_orientations(rng))?))
+            Box::new(Spline::new(
+                curve,
+                OrientationCurve::slerp(&random_orientations(rng))?,
+            ))
         }
         "link" => last_link(rng, reach)?,
         "smooth" => Box::new(Oscillation {
@@ -104,7 +112,7 @@ fn bezier_curve(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, Inpu
     let count = rng.random_range(1..6);
     let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
     Ok(Box::new(
-        Spline::new(curve, Turns::slerp(&random_orientations(rng))?)
+        Spline::new(curve, OrientationCurve::slerp(&random_orientations(rng))?)
             .about(vector(rng, 0.3 * reach))?,
     ))
 }
@@ -184,8 +192,8 @@ struct Oscillation {
     turn: f64,
 }
 
-impl Smooth for Oscillation {
-    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for Oscillation {
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let (sin, cos) = (self.rate * time).sin_cos();
         let turned = DQuat::from_axis_angle(self.axis, self.turn * sin);
         let start = Pose::new(self.place + self.along * sin, turned)?;
@@ -193,9 +201,9 @@ impl Smooth for Oscillation {
         Motion::new(start, self.along * cos, self.axis * (self.turn * cos))
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
         let square = self.rate * self.rate * (1.0 + 1e-9);
-        Accelerations {
+        AccelerationBounds {
             linear: self.along.length() * square,
             angular: self.turn * square,
         }
@@ -238,7 +246,7 @@ impl Trajectory for Zigzag {
         let reach = self.corners.iter().map(|corner| corner.length());
         let rounding = 1e-15 * reach.fold(0.0, ccd_core::order::greater);
         Ok(Stretch {
-            stray: Stray {
+            deviation: DeviationBound {
                 shift: shift + 8.0 * rounding,
                 turn: 0.0,
             },

@@ -4,7 +4,7 @@ use crate::models::Mesh;
 use crate::referee::{nearest_on_segment, nearest_on_triangle};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Feature, Origin, Piece, Polytope};
+use ccd_core::{FacetOrigin, Feature, Piece, Polytope};
 
 /// Returns the distance from a point to a piece; 0 inside.
 pub(crate) fn distance_to_piece(
@@ -117,7 +117,7 @@ pub(crate) fn distance_to_part_feature(
 /// Returns the corners of the face of a part with the number `face`.
 fn face_corners(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
     let mut facets = part.facets.iter();
-    let whole = facets.find(|facet| facet.origin == Origin::Face(face));
+    let whole = facets.find(|facet| facet.origin == FacetOrigin::Face(face));
     let corners = whole.map(|it| {
         it.corners
             .iter()

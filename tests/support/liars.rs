@@ -1,7 +1,7 @@
 //! Oracles that break their contract in every way. None of them may make an answer late.
 
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
+use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
 
 /// A way in which an oracle breaks its contract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +73,7 @@ impl FaultyOracle {
 impl DistanceOracle for FaultyOracle {
     type Cache = ();
 
-    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
         let (count_a, count_b) = (pair.a.points.len(), pair.b.points.len());
         let mut claim = Claim {
             axis: self.vector(),
@@ -95,7 +95,7 @@ impl DistanceOracle for FaultyOracle {
             ContractBreach::ReversedAxis => {
                 claim.axis = pair.a.points[0] - pair.b_to_a.point(pair.b.points[0]);
             }
-            ContractBreach::GivesUp => return Err(GiveUp::Cycle),
+            ContractBreach::GivesUp => return Err(GiveUpReason::Cycle),
         }
         Ok(claim)
     }

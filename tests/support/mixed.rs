@@ -5,7 +5,7 @@ use crate::models::{
     Kind, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Body, Motion, Moving, Pose, Settings, StartPolicy};
+use ccd_core::{Body, Motion, MovingBody, Pose, Settings, StartPolicy};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -73,7 +73,7 @@ impl Mixed {
     }
 
     /// Returns body A (0) or B (1) of a query with its motion.
-    pub fn moving_body(&self, query: &MixedQuery, which: usize) -> Moving<'_> {
+    pub fn moving_body(&self, query: &MixedQuery, which: usize) -> MovingBody<'_> {
         (&self.bodies[query.bodies[which]], query.motions[which]).into()
     }
 }

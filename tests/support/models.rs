@@ -23,8 +23,8 @@ pub use thread::{PITCH, nut, screw};
 pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Body, Facet, InputError, Origin, Pieces, Polytope, Volume};
-use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
+use ccd_core::{Body, Facet, FacetOrigin, InputError, Pieces, Polytope, Volume};
+use ccd_decomp::{Detail, PatchOrder, TriangleMesh, build_hull_tree, prepare};
 
 /// A triangle mesh, the input of the referee and of the engine.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,7 +94,7 @@ impl Shape {
             points: mesh.vertices.clone(),
             facets: facets
                 .map(|(id, face)| Facet {
-                    origin: Origin::Face(id as u32),
+                    origin: FacetOrigin::Face(id as u32),
                     corners: face.to_vec(),
                 })
                 .collect(),
@@ -122,7 +122,7 @@ impl Shape {
                     .collect();
                 part.faces.iter_mut().for_each(|it| it.id += face as u32);
                 for facet in &mut part.facets {
-                    if let Origin::Face(id) = &mut facet.origin {
+                    if let FacetOrigin::Face(id) = &mut facet.origin {
                         *id += face as u32;
                     }
                 }
@@ -196,7 +196,7 @@ impl Shape {
                 let tree = build_hull_tree(body.pieces()).expect("a hull tree");
                 body.with_hull_tree(tree).expect("its own hull tree")
             }
-            Kind::Patches => self.prepared(Detail::Patches(Order::Cresting)),
+            Kind::Patches => self.prepared(Detail::Patches(PatchOrder::Cresting)),
             Kind::Hull => self.prepared(Detail::Hull),
         }
     }

@@ -8,7 +8,7 @@ use crate::exact::{
 };
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
-use ccd_core::{Facet, Origin, Polytope};
+use ccd_core::{Facet, FacetOrigin, Polytope};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
@@ -133,7 +133,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     let polytope = claim.polytope;
     let (mut named, inside_out) = (Vec::new(), mesh.signed_volume() < 0.0);
     for facet in &polytope.facets {
-        if let Origin::Face(id) = facet.origin {
+        if let FacetOrigin::Face(id) = facet.origin {
             named.push(id);
             let corners = facet.corners.iter().map(|&c| polytope.points[c as usize]);
             if !is_loop(
@@ -150,7 +150,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
             return Err(format!("{it:?} is not face {}", it.id));
         }
         let holds = |corners: &[u32]| it.corners.iter().all(|&p| lies_on(polytope, corners, p));
-        let is_whole = |facet: &&Facet| matches!(facet.origin, Origin::Face(_));
+        let is_whole = |facet: &&Facet| matches!(facet.origin, FacetOrigin::Face(_));
         let mut others = polytope.facets.iter().filter(|it| !is_whole(it));
         if !others.any(|facet| holds(&facet.corners)) {
             return Err(format!("{it:?} lies on no facet that is not a face"));
@@ -171,7 +171,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
 
 /// Checks that every point of a merged facet is on one of its faces.
 fn check_merged(polytope: &Polytope) -> CheckResult {
-    let merged = |facet: &&Facet| facet.origin == Origin::Faces;
+    let merged = |facet: &&Facet| facet.origin == FacetOrigin::Faces;
     for facet in polytope.facets.iter().filter(merged) {
         let corners: Vec<DVec3> = facet
             .corners

@@ -4,7 +4,7 @@ use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{Body, Motion, Moving, Pose, Settings};
+use ccd_core::{Body, Motion, MovingBody, Pose, Settings};
 use std::rc::Rc;
 
 /// A shape and its motion.
@@ -111,8 +111,8 @@ impl Query {
     /// # Panics
     /// If the engine refuses the query.
     pub fn problem<'a>(&self, bodies: &'a Bodies, config: &'a Settings) -> ccd_core::Query<'a> {
-        let a = Moving::from((bodies.a(), self.a.motion));
-        let b = Moving::from((bodies.b(), self.b.motion));
+        let a = MovingBody::from((bodies.a(), self.a.motion));
+        let b = MovingBody::from((bodies.b(), self.b.motion));
         ccd_core::Query::new(a, b, self.duration, config).expect("a well-posed problem")
     }
 }

@@ -6,7 +6,9 @@ use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::Schedule;
 use ccd_core::schedule::{BestFirst, DepthFirst};
-use ccd_core::{Accelerations, Answer, DistanceOracle, InputError, Motion, Settings, Smooth};
+use ccd_core::{
+    AccelerationBounds, Answer, DistanceOracle, InputError, Motion, Settings, SmoothTrajectory,
+};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
@@ -14,15 +16,15 @@ use ccd_distance_vmarch::Vmarch;
 #[derive(Clone, Copy, Debug)]
 pub struct UserTrajectory(pub Motion);
 
-impl Smooth for UserTrajectory {
-    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for UserTrajectory {
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let UserTrajectory(motion) = self;
         let (velocity, spin) = (motion.velocity(), motion.spin());
         Motion::about(motion.pose(time), velocity, spin, motion.centre())
     }
 
-    fn accelerations(&self, _from: f64, _to: f64) -> Accelerations {
-        Accelerations::default()
+    fn accelerations(&self, _from: f64, _to: f64) -> AccelerationBounds {
+        AccelerationBounds::default()
     }
 }
 

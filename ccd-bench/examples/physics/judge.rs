@@ -5,7 +5,7 @@ use crate::worlds::{SimulatedBody, World};
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
 use parry3d_f64::query::{contact, intersection_test};
-use rigid_ccd::trajectory::Moving;
+use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Motion, Settings};
 
 /// The passages and penetration depths measured so far.
@@ -32,7 +32,7 @@ impl Tally {
     ) -> Result<()> {
         self.stops += moved.iter().filter(|(_, stop)| *stop < duration).count();
         let swept = |(body, &(motion, _)): (&SimulatedBody, &StoppedMotion)| {
-            let moving = Moving::from((&body.body, motion));
+            let moving = MovingBody::from((&body.body, motion));
             moving.swept_box(duration, &Settings::DEFAULT)
         };
         let boxes = world.bodies.iter().zip(moved).map(swept);

@@ -90,7 +90,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         table.write(|writer| writer.serialize((truth, verdict, answer, time)))?;
     }
     table.finish()?;
-    bad_rows.close();
+    bad_rows.print_total();
     Ok(match bad_rows.count() {
         0 => Exit::AllAnswered,
         _ => Exit::SomeRowsBad,

@@ -8,7 +8,7 @@ use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{
-    BadRows, Exit, Progress, Table, complain, input_name, open_motions, refuse_overwriting,
+    BadRows, Exit, Progress, Table, input_name, open_motions, print_error, refuse_overwriting,
 };
 use rigid_ccd::table::motions::MotionRow;
 use std::collections::HashMap;
@@ -119,9 +119,9 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     }
     table.finish()?;
     drop(progress);
-    bad_rows.close();
+    bad_rows.print_total();
     if counts.is_empty() && bad_rows.count() == 0 {
-        complain(&format!(
+        print_error(&format!(
             "{}: has a header, but no rows",
             input_name(&args.motions)
         ));

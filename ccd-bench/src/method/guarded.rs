@@ -194,7 +194,7 @@ impl GuardedMethod {
     /// died is restarted first; that is not timed.
     ///
     /// # Errors
-    /// Those of [`Guarded::start`].
+    /// Those of [`GuardedMethod::start`].
     pub fn run_query(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
         let outcome = self.running_process()?.ask(query, patience);
         if !matches!(outcome, QueryOutcome::Answered(_)) {

@@ -3,7 +3,7 @@
 //! They answer the same queries about the same meshes, each by the call that its makers offer for
 //! that. The docs of each type say which parameters the call takes and which it does not offer.
 //! Some peers take minutes for a query, or never return. They are therefore called through
-//! [`Guarded`](super::guarded::Guarded), in a process that can be stopped.
+//! [`Guarded`](super::guarded::GuardedMethod), in a process that can be stopped.
 //!
 //! | peer | call |
 //! |---|---|

@@ -100,7 +100,7 @@ impl Plan {
                 if journal.has(scene, &name, tolerance) {
                     continue;
                 }
-                progress.say(&format!("{scene}: {name}, {tolerance:e}"));
+                progress.set_message(&format!("{scene}: {name}, {tolerance:e}"));
                 if session.is_none() {
                     session = Session::open(method, contest.scene(), &self.programs)?;
                 }
@@ -118,14 +118,14 @@ impl Plan {
     fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>> {
         let progress = Progress::new(Total::Steps(self.listings.len()));
         let make = |listing: &Listing| {
-            progress.say(&format!("making {}", listing.name));
+            progress.set_message(&format!("making {}", listing.name));
             let scene = listing.make(models);
             progress.step();
             scene
         };
         let scenes: Result<Vec<Scene>> = self.listings.iter().map(make).collect();
         let scenes = scenes?;
-        progress.say("making pieces");
+        progress.set_message("making pieces");
         self.make_pieces(&scenes);
         Ok(scenes)
     }

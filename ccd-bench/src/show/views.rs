@@ -6,8 +6,8 @@ use anyhow::Result;
 use ccd_core::{Instructions, Outcome, Settings};
 use ccd_view::{Group, Meshes, View};
 use rigid_ccd::batch::{Question, SolverKind};
-use rigid_ccd::picture::{Asked, Claim, Painter, drawn};
-use rigid_ccd::table::courses::Course;
+use rigid_ccd::picture::{Asked, Claim, Painter, drawn_mesh};
+use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::results::ResultRow;
 
 /// The views of all scenes; equal meshes are stored once.
@@ -48,16 +48,16 @@ impl Views {
         };
         let mut painter = Painter::new(bodies, asked);
         // The painter numbers the meshes of one pair; the page has those of all.
-        let meshes = [bodies.a, bodies.b].map(|body| self.meshes.add(&drawn(body)));
+        let meshes = [bodies.a, bodies.b].map(|body| self.meshes.add(&drawn_mesh(body)));
         let mut solver = SolverKind::default().solver(Instructions::Best);
         let mut found = [const { Vec::new() }; 2];
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;
             let kind = usize::from(!matches!(answer.outcome, Outcome::Contact { .. }));
             if found[kind].len() < MOST_VIEWS[kind] {
-                let course = Course::Motions(query.clone());
+                let course = Movements::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
-                let row = ResultRow::new(&course, answer, 0.0, bodies.compared(None));
+                let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_comparison(None));
                 let mut view = painter.view(&course, &row)?;
                 for (body, mesh) in view.bodies.iter_mut().zip(meshes) {
                     body.mesh = mesh;

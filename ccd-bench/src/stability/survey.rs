@@ -93,7 +93,7 @@ impl Survey {
                 surfaces: step.meshes.each_ref().map(Surface::new),
             };
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
-                progress.say(&format!("{name}: {method}"));
+                progress.set_message(&format!("{name}: {method}"));
                 progress.step();
                 let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
                 let known = locked().has(&name, &method.to_string(), step.tolerance);

@@ -25,7 +25,7 @@ pub struct Unresolved {
 
 impl Unresolved {
     /// Creates the bounds of a query about contacts: the bodies do not touch before `safe_until`.
-    pub fn until(safe_until: f64, limit: Limit) -> Self {
+    pub fn from_safe_until(safe_until: f64, limit: Limit) -> Self {
         Unresolved {
             limit,
             safe_until,
@@ -42,7 +42,7 @@ impl Unresolved {
         Unresolved {
             lower,
             at,
-            ..Unresolved::until(0.0, limit)
+            ..Unresolved::from_safe_until(0.0, limit)
         }
         .with_measured_upper_bound()
     }

@@ -1,12 +1,12 @@
 //! The facets of a piece.
 
-use super::polytope::{Face, Origin};
+use super::polytope::{Face, FacetOrigin};
 
 /// The facets of a piece as convex polygons. Each is a loop of indices into the piece's points, counterclockwise seen
 /// from outside. The mesh's faces on them are included.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
-    pub(crate) origins: &'a [Origin],
+    pub(crate) origins: &'a [FacetOrigin],
     /// The end of each facet's corners in `corners`, plus `first_corner`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
@@ -51,7 +51,7 @@ impl<'a> Facets<'a> {
     }
 
     /// Returns for each facet which part of the mesh it came from.
-    pub fn origins(&self) -> &'a [Origin] {
+    pub fn origins(&self) -> &'a [FacetOrigin] {
         self.origins
     }
 }

@@ -3,7 +3,7 @@
 use super::tree::ray::crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
-use crate::rounding::U64;
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tuning::BELOW_SURFACE;
 use glam::DVec3;
 
@@ -101,7 +101,7 @@ impl Body {
     /// Returns on which side of a face with this normal the surface has a nonzero winding number, near the point `at`.
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
-        let slack = 4.0 * U64 * at.abs().element_sum();
+        let slack = 4.0 * UNIT_ROUNDOFF_F64 * at.abs().element_sum();
         let Some(found) = crossings(self.tree(), self.pieces(), at, slack) else {
             return Facing::Unclear;
         };

@@ -3,10 +3,10 @@
 use super::facets::range;
 use super::piece::Combination;
 use super::piece::Piece;
-use super::polytope::Origin;
+use super::polytope::FacetOrigin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
-use crate::tuning::{CLIMBED_POINTS, FACET_DISTANCE};
+use crate::tuning::{FACET_DISTANCE, MAX_SCANNED_POINTS};
 use glam::DVec3;
 
 /// The mesh's feature at a point of a polytope.
@@ -39,8 +39,8 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
     let whole = (0..count)
         .map(facet)
         .filter_map(|k| match facets.origins()[k] {
-            Origin::Face(id) => Some((id, facets.get(k))),
-            Origin::Faces | Origin::Virtual => None,
+            FacetOrigin::Face(id) => Some((id, facets.get(k))),
+            FacetOrigin::Faces | FacetOrigin::Virtual => None,
         });
     if let [v, w] = *support {
         let joins = |corners: &[u32]| {
@@ -56,7 +56,7 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
     match holding.next() {
         Some((face, _)) => MeshFeature::Face(face),
         None => point
-            .of(piece.points)
+            .position(piece.points)
             .and_then(|at| face_at(piece, at))
             .map_or(MeshFeature::Nothing, MeshFeature::Face),
     }
@@ -82,7 +82,7 @@ impl FacetsByCorner {
     /// Returns the table of a piece of many facets, created once and stored. Returns `None` for a piece of few facets,
     /// or one that belongs to no list.
     fn for_piece<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
-        let many = piece.facets.len() > CLIMBED_POINTS;
+        let many = piece.facets.len() > MAX_SCANNED_POINTS;
         let kept = many.then(|| piece.cached(|piece| Box::new(FacetsByCorner::new(piece))))?;
         kept.map(|kept| &**kept)
     }

@@ -17,7 +17,7 @@ mod serial;
 
 pub use error::{HullFault, HullTreeError};
 pub use hull::{FacetClass, Hull, HullNode};
-pub use loops::Loops;
+pub use loops::PolygonList;
 
 use super::facets::range;
 use super::hierarchy::{Hierarchy, HierarchyNode};

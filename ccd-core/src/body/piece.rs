@@ -1,13 +1,13 @@
 //! Convex pieces, of which bodies consist and whose distances oracles compute.
 
 use super::facets::Facets;
-use super::polytope::Origin;
+use super::polytope::FacetOrigin;
 use super::side_table::SideTable;
 use super::support::Support;
 use crate::math::order::greater;
 use crate::math::vector::distance;
 use crate::rounding::{RATE_F64, WEIGHTS};
-use crate::tuning::CLIMBED_POINTS;
+use crate::tuning::MAX_SCANNED_POINTS;
 use glam::DVec3;
 use std::any::Any;
 
@@ -79,7 +79,7 @@ impl<'a> Piece<'a> {
     /// stored.
     #[inline]
     pub(crate) fn with_support(self, make: impl FnOnce(&Self) -> Support) -> Self {
-        if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
+        if self.points.len() <= MAX_SCANNED_POINTS || self.support.is_some() {
             return self;
         }
         let support = self.cached(|piece| Box::new(make(piece)));
@@ -95,8 +95,8 @@ impl<'a> Piece<'a> {
         let facets = self.facets.origins.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
             let id = match origin {
-                Origin::Face(id) => Some(*id),
-                Origin::Faces | Origin::Virtual => None,
+                FacetOrigin::Face(id) => Some(*id),
+                FacetOrigin::Faces | FacetOrigin::Virtual => None,
             };
             let points = self.points;
             let at = move |k: usize| points[corners[k] as usize];
@@ -150,7 +150,7 @@ impl<'a> Piece<'a> {
 
     /// Returns the approximate number of points that a search for an extremal point evaluates.
     pub(crate) fn evaluations_per_search(&self) -> u64 {
-        let few = self.points.len().min(CLIMBED_POINTS);
+        let few = self.points.len().min(MAX_SCANNED_POINTS);
         match self.support {
             Some(_) => few as u64,
             None => self.points.len() as u64,
@@ -219,7 +219,7 @@ impl Combination {
     /// Returns the position of the combination; `None` if it is empty, or has an index that `points` lacks.
     ///
     /// Weights are divided by their sum, so that the result is in the hull up to rounding.
-    pub fn of(&self, points: &[DVec3]) -> Option<DVec3> {
+    pub fn position(&self, points: &[DVec3]) -> Option<DVec3> {
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
         let first = *points.get(*self.support().first()? as usize)?;
         for (&index, &weight) in self.support().iter().zip(&self.weights) {

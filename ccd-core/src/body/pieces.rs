@@ -10,7 +10,7 @@ use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
 use super::piece::Combination;
 use super::piece::{Piece, Slot};
-use super::polytope::{Face, Origin};
+use super::polytope::{Face, FacetOrigin};
 use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
@@ -59,7 +59,7 @@ enum Shape {
 struct Surfaces {
     /// The end of each piece's facets in `corner_ends` and `origins`.
     facet_ends: Vec<u32>,
-    origins: Vec<Origin>,
+    origins: Vec<FacetOrigin>,
     /// The end of each facet's corners in the list of corners.
     corner_ends: Vec<u32>,
     corners: Vec<u32>,

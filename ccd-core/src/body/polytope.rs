@@ -23,7 +23,7 @@ pub struct Polytope {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
     /// Which part of the mesh the facet came from.
-    pub origin: Origin,
+    pub origin: FacetOrigin,
     /// The corners as indices into the polytope's points, counterclockwise seen from outside.
     pub corners: Vec<u32>,
 }
@@ -31,7 +31,7 @@ pub struct Facet {
 /// Which part of the mesh a polytope's facet came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Origin {
+pub enum FacetOrigin {
     /// The facet is the mesh's face with this number.
     Face(u32),
     /// The facet consists of several coplanar faces, listed in [`Polytope::faces`].

@@ -1,7 +1,7 @@
 //! Bodies of a single piece: balls, capsules and boxes.
 
 use super::pieces::Pieces;
-use super::polytope::{Facet, Origin, Polytope};
+use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
 use crate::error::{InputError, check_length};
 use glam::DVec3;
@@ -69,7 +69,7 @@ impl Body {
                 .iter()
                 .enumerate()
                 .map(|(id, corners)| Facet {
-                    origin: Origin::Face(id as u32),
+                    origin: FacetOrigin::Face(id as u32),
                     corners: corners.to_vec(),
                 })
                 .collect(),

@@ -1,10 +1,10 @@
 //! Cylinders and cones, enclosed in convex polytopes.
 
 use super::pieces::Pieces;
-use super::polytope::{Facet, Origin, Polytope};
+use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
 use crate::error::InputError;
-use crate::limits::{EXCESS_SHARE, MAX_COORDINATE, MOST_CORNERS};
+use crate::limits::{DEFAULT_EXCESS_SHARE, MAX_CIRCLE_CORNERS, MAX_COORDINATE};
 use crate::math::order::{greater, lesser};
 use crate::rounding::{LEAST_F64, OUTWARD_FACTOR};
 use glam::DVec3;
@@ -16,8 +16,8 @@ use std::f64::consts::{PI, TAU};
 /// [`Enclosure`].
 ///
 /// ```
-/// use ccd_core::Round;
-/// let wheel = Round::cylinder(0.5, 0.1)?;
+/// use ccd_core::SolidOfRevolution;
+/// let wheel = SolidOfRevolution::cylinder(0.5, 0.1)?;
 /// let fine = wheel.enclosed(1e-6)?;
 /// assert!(fine.excess() <= 1e-6 && fine.polytope().points.len() > 3000);
 /// let coarse = wheel.enclosed(wheel.usual_excess())?;
@@ -25,7 +25,7 @@ use std::f64::consts::{PI, TAU};
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Round {
+pub struct SolidOfRevolution {
     kind: Kind,
     radius: f64,
     half_height: f64,
@@ -37,7 +37,7 @@ enum Kind {
     Cone,
 }
 
-/// A convex polytope that encloses a [`Round`] shape.
+/// A convex polytope that encloses a [`SolidOfRevolution`] shape.
 ///
 /// # Guarantee
 /// The polytope contains the shape, in exact arithmetic on the stored numbers. None of its points is farther from the
@@ -51,13 +51,13 @@ pub struct Enclosure {
     is_flat: bool,
 }
 
-impl Round {
+impl SolidOfRevolution {
     /// Creates a cylinder, from `−half_height` to `half_height` along z.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
     pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::new(Kind::Cylinder, radius, half_height)
+        SolidOfRevolution::new(Kind::Cylinder, radius, half_height)
     }
 
     /// Creates a cone along z. Its base is at `−half_height` along z, its apex at `half_height`.
@@ -65,7 +65,7 @@ impl Round {
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
     pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::new(Kind::Cone, radius, half_height)
+        SolidOfRevolution::new(Kind::Cone, radius, half_height)
     }
 
     fn new(kind: Kind, radius: f64, half_height: f64) -> Result<Self, InputError> {
@@ -80,30 +80,30 @@ impl Round {
                 });
             }
         }
-        Ok(Round {
+        Ok(SolidOfRevolution {
             kind,
             radius,
             half_height,
         })
     }
 
-    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] have: [`EXCESS_SHARE`] of the radius.
+    /// Returns the excess that [`Body::cylinder`] and [`Body::cone`] have: [`DEFAULT_EXCESS_SHARE`] of the radius.
     pub fn usual_excess(&self) -> f64 {
-        EXCESS_SHARE * self.radius
+        DEFAULT_EXCESS_SHARE * self.radius
     }
 
-    /// Returns the smallest excess that is accepted, which gives [`MOST_CORNERS`] corners: a little less than 1.9e-8 of
+    /// Returns the smallest excess that is accepted, which gives [`MAX_CIRCLE_CORNERS`] corners: a little less than 1.9e-8 of
     /// the radius.
     pub fn least_excess(&self) -> f64 {
-        1.01 * self.radius * (1.0 / (PI / MOST_CORNERS).cos() - 1.0)
+        1.01 * self.radius * (1.0 / (PI / MAX_CIRCLE_CORNERS).cos() - 1.0)
     }
 
     /// Returns a convex polytope that contains the shape, and exceeds it by at most `excess`.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for an excess less than the [least](Round::least_excess), or a radius whose polytope
+    /// [`InputError::OutOfRange`] for an excess less than the [least](SolidOfRevolution::least_excess), or a radius whose polytope
     /// reaches beyond [`MAX_COORDINATE`].
-    pub fn enclosed(&self, excess: f64) -> Result<Enclosure, InputError> {
+    pub fn enclose(&self, excess: f64) -> Result<Enclosure, InputError> {
         let ring = Ring::circumscribed(self.radius, excess)?;
         let z = self.half_height;
         let count = ring.corners.len() as u32;
@@ -124,7 +124,7 @@ impl Round {
             }
         };
         let facet = |(id, corners)| Facet {
-            origin: Origin::Face(id),
+            origin: FacetOrigin::Face(id),
             corners,
         };
         Ok(Enclosure {
@@ -232,7 +232,7 @@ fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     let half_angle = (share * (2.0 + share)).sqrt().atan();
     let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
     // Written so that NaN is refused.
-    if asked >= 0.0 && share > 0.0 && count <= MOST_CORNERS {
+    if asked >= 0.0 && share > 0.0 && count <= MAX_CIRCLE_CORNERS {
         Ok(count)
     } else {
         Err(InputError::OutOfRange {
@@ -245,7 +245,7 @@ fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
 
 impl Body {
     /// Creates a cylinder about the origin, from `−half_height` to `half_height` along z. The body is a polytope
-    /// about it, which exceeds it by at most [`EXCESS_SHARE`] of the radius. [`Round::enclosed`] returns finer ones.
+    /// about it, which exceeds it by at most [`DEFAULT_EXCESS_SHARE`] of the radius. [`SolidOfRevolution::enclose`] returns finer ones.
     ///
     /// # Guarantee
     /// The guarantee of [`Enclosure`]: contacts may be early by the excess, and are never late.
@@ -261,7 +261,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::cylinder(radius, half_height)?.default_enclosure()
+        SolidOfRevolution::cylinder(radius, half_height)?.default_enclosure()
     }
 
     /// Creates a cone about the origin, with the base at `−half_height` along z, and the apex at `half_height`. The
@@ -270,13 +270,13 @@ impl Body {
     /// # Errors
     /// [`InputError::OutOfRange`].
     pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        Round::cone(radius, half_height)?.default_enclosure()
+        SolidOfRevolution::cone(radius, half_height)?.default_enclosure()
     }
 }
 
-impl Round {
+impl SolidOfRevolution {
     fn default_enclosure(&self) -> Result<Body, InputError> {
-        self.enclosed(self.usual_excess())?.body()
+        self.enclose(self.usual_excess())?.body()
     }
 }
 

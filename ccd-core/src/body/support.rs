@@ -11,7 +11,7 @@ pub use table::SupportTable;
 pub use tree::SupportTree;
 
 use super::facets::Facets;
-use crate::tuning::CLIMBED_POINTS;
+use crate::tuning::MAX_SCANNED_POINTS;
 use glam::DVec3;
 
 /// A search structure for extremal points of one piece. If there are few, all are scanned, eight at once. For many
@@ -37,10 +37,10 @@ pub enum Support {
 }
 
 impl Support {
-    /// Builds the search structure for points. If there are more than [`CLIMBED_POINTS`] of them, the facets must be
+    /// Builds the search structure for points. If there are more than [`MAX_SCANNED_POINTS`] of them, the facets must be
     /// those of their hull. Without facets, every point is scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
-        let climbed = points.len() > CLIMBED_POINTS;
+        let climbed = points.len() > MAX_SCANNED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {
             Some(table) => Support::Climb(Box::new(table)),
             None => Support::Scan(SupportScan::new(points)),

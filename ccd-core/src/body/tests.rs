@@ -1,4 +1,4 @@
-use super::polytope::{Facet, Origin, Polytope};
+use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::*;
 use glam::DVec3;
 
@@ -21,7 +21,10 @@ fn box_on_a_square() -> Body {
         points: (0..8)
             .map(|k| DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2) + 1.0))
             .collect(),
-        facets: box_of.iter().map(|f| facet(Origin::Virtual, f)).collect(),
+        facets: box_of
+            .iter()
+            .map(|f| facet(FacetOrigin::Virtual, f))
+            .collect(),
         ..Polytope::default()
     };
     let square = Polytope {
@@ -29,8 +32,8 @@ fn box_on_a_square() -> Body {
             .map(|k| 2.0 * DVec3::new(sign(k, 0), sign(k, 1), 0.0))
             .collect(),
         facets: vec![
-            facet(Origin::Face(7), &[0, 2, 3, 1]),
-            facet(Origin::Virtual, &[0, 1, 3, 2]),
+            facet(FacetOrigin::Face(7), &[0, 2, 3, 1]),
+            facet(FacetOrigin::Virtual, &[0, 1, 3, 2]),
         ],
         ..Polytope::default()
     };
@@ -65,7 +68,7 @@ fn tetrahedron() -> [Body; 2] {
         facets: (0..)
             .zip(faces)
             .map(|(face, corners)| Facet {
-                origin: Origin::Face(face),
+                origin: FacetOrigin::Face(face),
                 corners: corners.to_vec(),
             })
             .collect(),
@@ -91,7 +94,7 @@ fn a_surface_is_taken_against_many_triangles_only() {
     );
     assert_eq!(one.query_body_against(&triangles).pieces().len(), 1);
     assert_eq!(triangles.query_body_against(&triangles).pieces().len(), 4);
-    assert!(both.bytes() > one.bytes());
+    assert!(both.memory_usage() > one.memory_usage());
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::is_blurred;
+use crate::rounding::is_direction_uncertain;
 use glam::DVec3;
 
 /// A part of A's surface and one of B's.
@@ -49,7 +49,7 @@ pub(super) fn measure(
             normal = across;
         }
     }
-    if is_blurred(distance, problem.rounding)
+    if is_direction_uncertain(distance, problem.rounding)
         && let Some(common) = common_normals(candidate.points).nearest_normal_along(normal, b - a)
     {
         normal = common;

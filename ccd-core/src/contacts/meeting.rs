@@ -3,7 +3,7 @@
 use crate::distance::common_normals::CommonNormals;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::snapshot::Snapshot;
-use crate::rounding::{AROUND, LEVEL};
+use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
 use glam::DVec3;
 
 /// The surfaces around the nearest points of two pieces, without their radii, in A's frame.
@@ -18,10 +18,10 @@ impl<'s> SurroundingSurfaces<'s> {
         let Snapshot {
             problem, pieces, ..
         } = snapshot;
-        let reach = AROUND * problem.rounding;
+        let reach = ADJACENCY_DISTANCE * problem.rounding;
         let (mut looks, turn) = (0, pieces.b_to_a.rotation);
         let normals = &mut meter.scratch_memory().normals;
-        normals.reset(LEVEL * problem.rounding);
+        normals.reset(LEVEL_HEIGHT * problem.rounding);
         problem.a.body.offsets_around(points[0], reach, |way| {
             looks += 1;
             normals.add_offset_of_a(way);
@@ -32,7 +32,7 @@ impl<'s> SurroundingSurfaces<'s> {
             normals.add_offset_of_b(turn * way);
         });
         normals.sort();
-        meter.stats.point_looks += looks;
+        meter.stats.point_evaluations += looks;
         SurroundingSurfaces {
             points,
             normals: &mut meter.scratch_memory().normals,

@@ -7,7 +7,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, normal};
 use crate::motion::pose::Frame;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::BOX_F64;
+use crate::rounding::RAY_BOX_WIDENING_F64;
 use glam::DVec3;
 
 /// Returns all pairs of a face of A and a face of B that may be nearer than `reach`. Returns `None` if the search
@@ -98,7 +98,7 @@ impl BoundingVolume {
             NodeOrTriangle::Node(node) => {
                 let radius = f64::from(node.radius);
                 // Axes rounded to f32 are not exactly orthonormal.
-                let more = f64::from(node.rounding) + BOX_F64 * radius;
+                let more = f64::from(node.rounding) + RAY_BOX_WIDENING_F64 * radius;
                 BoundingVolume {
                     centre: to_a.point(node.centre),
                     radius,

@@ -4,7 +4,7 @@ use super::boxes::FaceTree;
 use super::closest::nearest_on_triangle;
 use super::skin::NearSurface;
 use crate::distance::common_normals::CommonNormals;
-use crate::rounding::{AROUND, LEVEL};
+use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
 use glam::DVec3;
 
 /// The needed part of a body's surface, with a tree to find the triangles around a point.
@@ -27,9 +27,9 @@ impl<'a> Surface<'a> {
         points: [DVec3; 2],
         rounding: f64,
     ) -> CommonNormals {
-        let reach = AROUND * rounding;
+        let reach = ADJACENCY_DISTANCE * rounding;
         let mut normals = CommonNormals::default();
-        normals.reset(LEVEL * rounding);
+        normals.reset(LEVEL_HEIGHT * rounding);
         surfaces[0].offsets_around(points[0], reach, |way| normals.add_offset_of_a(way));
         surfaces[1].offsets_around(points[1], reach, |way| normals.add_offset_of_b(way));
         normals.sort();

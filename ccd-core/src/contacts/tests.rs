@@ -1,12 +1,12 @@
 use super::*;
 use crate::answer::Separation;
 use crate::body::feature::Feature;
-use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::body::{Body, Volume};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::query::Query;
 use crate::settings::Settings;
 use crate::tests::scene::{
@@ -28,7 +28,7 @@ fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> 
 }
 
 fn still<'a>(a: &'a Body, b: &'a Body, pose: Pose, config: &'a Settings) -> Problem<'a> {
-    let moving = |body, pose| Moving::from((body, Motion::still(pose)));
+    let moving = |body, pose| MovingBody::from((body, Motion::still(pose)));
     Problem::about(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
 }
 
@@ -190,7 +190,7 @@ fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
     let cube = Mesh::cuboid(DVec3::splat(0.5));
     let facet = |face: &[u32; 3]| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners: face.to_vec(),
     };
     let hull = Polytope {
@@ -392,7 +392,7 @@ fn times_beyond_the_duration_and_budgets_are_refused() {
         let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &config);
         assert_eq!(
             problem.contacts_at(0.5),
-            Err(ContactsError::TooMany { budget })
+            Err(ContactsError::TooManyPairs { budget })
         );
     }
 }

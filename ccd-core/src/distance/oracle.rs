@@ -16,7 +16,7 @@ use glam::DVec3;
 ///    points; the nearer they are to the closest pair, the better.
 /// 3. When the pieces intersect, both combinations name (nearly) the same point.
 /// 4. It ends, after a bounded number of steps, on every input. If it has no answer, it [gives
-///    up](GiveUp).
+///    up](GiveUpReason).
 /// 5. A cache that belongs to another pair, or to none, changes the time a call takes, not the
 ///    quality of its answer.
 ///
@@ -32,13 +32,13 @@ pub trait DistanceOracle {
 
     /// Computes a separating axis and the nearest points of a pair of pieces.
     ///
-    /// Returns a [`GiveUp`] with the reason if the oracle has no answer; the caller may ask another
+    /// Returns a [`GiveUpReason`] with the reason if the oracle has no answer; the caller may ask another
     /// one ([`OrElse`]).
     fn separation(
         &mut self,
         pair: &PiecePair<'_>,
         cache: &mut Self::Cache,
-    ) -> Result<Claim, GiveUp>;
+    ) -> Result<Claim, GiveUpReason>;
 
     /// Returns the steps of all calls so far; an oracle that does not count returns 0.
     fn effort(&self) -> Effort {
@@ -137,7 +137,7 @@ impl std::ops::Sub for Effort {
 /// The reason why an oracle has no result for a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum GiveUp {
+pub enum GiveUpReason {
     /// A piece has more points than the oracle supports.
     TooManyPoints,
     /// The oracle needs facets that close the pieces' hulls, and a piece has none.
@@ -174,7 +174,7 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
         &mut self,
         pair: &PiecePair<'_>,
         cache: &mut Self::Cache,
-    ) -> Result<Claim, GiveUp> {
+    ) -> Result<Claim, GiveUpReason> {
         self.first.separation(pair, &mut cache.0).or_else(|_| {
             self.fallbacks += 1;
             self.second

@@ -6,7 +6,7 @@ use super::separation::CheckedClaim;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::across;
 use crate::math::vector::unit_or_any;
-use crate::tuning::MAX_CORNERS;
+use crate::tuning::MAX_INNER_POLYTOPE_CORNERS;
 use glam::DVec3;
 
 /// Whether two pieces intersect by more than rounding.
@@ -49,7 +49,7 @@ pub(crate) fn intersects(
         // The differences are in one plane, up to rounding.
         return Intersection::None;
     }
-    for _ in 0..MAX_CORNERS {
+    for _ in 0..MAX_INNER_POLYTOPE_CORNERS {
         let Some(&face) = inner.shallowest_face() else {
             return Intersection::Undecided;
         };

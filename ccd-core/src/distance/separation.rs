@@ -102,7 +102,7 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
 
 /// Returns a combination and its position. A combination with indices that the piece does not have is replaced.
 fn with_valid_indices(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
-    match combination.of(points) {
+    match combination.position(points) {
         Some(point) => (combination, point),
         None => (Combination::point(0), points[0]),
     }

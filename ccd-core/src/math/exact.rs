@@ -4,7 +4,7 @@
 //! One convention holds: `Greater` is in front of a triangle, where its corners are seen counterclockwise, and to the
 //! left of a line.
 
-use crate::limits::LEAST_COORDINATE;
+use crate::limits::LEAST_NONZERO_COORDINATE;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
@@ -39,7 +39,7 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
 /// # Guarantee
 /// Like [`side`].
 #[inline]
-pub fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
+pub fn line_side_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
     sign(orient2d(a, b, point))
 }
@@ -49,13 +49,13 @@ pub fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
 /// # Guarantee
 /// Like [`side`].
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
-    (0..3).all(|axis| turn_along(axis, [a, b], c).is_eq())
+    (0..3).all(|axis| line_side_along(axis, [a, b], c).is_eq())
 }
 
-/// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_COORDINATE) for exact
+/// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_NONZERO_COORDINATE) for exact
 /// predicates.
 pub fn too_fine(points: &[DVec3]) -> Option<usize> {
-    let fine = |x: f64| x != 0.0 && x.abs() < LEAST_COORDINATE;
+    let fine = |x: f64| x != 0.0 && x.abs() < LEAST_NONZERO_COORDINATE;
     points
         .iter()
         .position(|p| p.to_array().into_iter().any(fine))

@@ -4,7 +4,7 @@
 //! above 1e154 they overflow. A vector divided by such a length is not a unit vector, and a height along it is not a
 //! distance. Every proof along an axis uses the functions of this module for the axis.
 
-use crate::rounding::{SCALE, SQUARES};
+use crate::rounding::{EXTREME_VECTOR_SCALE, SQUARES};
 use glam::DVec3;
 
 /// Returns the unit vector along `v`; `None` for zero, and for a NaN or infinite component.
@@ -96,9 +96,9 @@ fn scaled(v: DVec3) -> (DVec3, f64) {
 #[inline]
 pub(crate) fn scale_of(square: f64) -> (f64, f64) {
     if square < *SQUARES.start() {
-        (SCALE, SCALE.recip())
+        (EXTREME_VECTOR_SCALE, EXTREME_VECTOR_SCALE.recip())
     } else if square > *SQUARES.end() {
-        (SCALE.recip(), SCALE)
+        (EXTREME_VECTOR_SCALE.recip(), EXTREME_VECTOR_SCALE)
     } else {
         (1.0, 1.0)
     }

@@ -19,7 +19,7 @@ pub(crate) struct Velocities {
 
 /// Which upper bound of the velocity of a body's points along an axis a schedule uses, to divide distances by it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Bound {
+pub enum VelocityBound {
     /// `max (n×ω)·r + |v·n|` over the arms r, as printed in the paper `[FAST06 §4.2 Eq. 5]`. It
     /// holds at one instant only. **Unsound** over a step: times may be late, and contacts missed.
     Published,

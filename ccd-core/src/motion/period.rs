@@ -13,7 +13,7 @@
 
 use super::path::Path;
 use crate::math::vector::length;
-use crate::rounding::{RATE_F64, TURNS_F64};
+use crate::rounding::{RATE_F64, TURN_COUNT_WIDENING};
 use std::f64::consts::TAU;
 
 /// A time after which all distances of two bodies repeat, or nearly.
@@ -60,7 +60,7 @@ impl Period {
 
     /// Returns a time slightly longer than the period, so that whole periods leave no time out.
     pub(crate) fn length_rounded_up(&self) -> f64 {
-        self.length * (1.0 + TURNS_F64)
+        self.length * (1.0 + TURN_COUNT_WIDENING)
     }
 }
 

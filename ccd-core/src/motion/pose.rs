@@ -39,10 +39,14 @@ impl Pose {
         let translation = DVec3::from_array(translation.into());
         let rotation = DQuat::from_array(rotation.into());
         if !translation.is_finite() {
-            return Err(InputError::NotFinite { what: "position" });
+            return Err(InputError::NotFinite {
+                quantity: "position",
+            });
         }
         if !rotation.is_finite() {
-            return Err(InputError::NotFinite { what: "quaternion" });
+            return Err(InputError::NotFinite {
+                quantity: "quaternion",
+            });
         }
         match unit(rotation) {
             Some(rotation) => Ok(Pose::from_unit(translation, rotation)),

@@ -104,7 +104,7 @@ fn motions_that_are_not_finite_are_refused() {
             ("centre", none, none, vector),
         ] {
             let made = Motion::about(Pose::IDENTITY, velocity, spin, centre);
-            assert_eq!(made, Err(InputError::NotFinite { what }));
+            assert_eq!(made, Err(InputError::NotFinite { quantity: what }));
         }
         let between = Motion::between(Pose::IDENTITY, Pose::IDENTITY, none, bad);
         assert!(matches!(
@@ -125,5 +125,10 @@ fn motions_that_are_not_finite_are_refused() {
     ));
     let far = Pose::at(DVec3::X).unwrap();
     let overflow = Motion::between(Pose::IDENTITY, far, DVec3::ZERO, 1e-320);
-    assert_eq!(overflow, Err(InputError::NotFinite { what: "velocity" }));
+    assert_eq!(
+        overflow,
+        Err(InputError::NotFinite {
+            quantity: "velocity"
+        })
+    );
 }

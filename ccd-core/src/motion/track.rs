@@ -230,7 +230,7 @@ const COSINE: [f64; 7] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// Returns the sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
+/// Returns the sine and cosine of an angle from 0 up to [`MAX_ROTATION_ANGLE`](crate::limits::MAX_ROTATION_ANGLE).
 ///
 /// # Guarantee
 /// Each is off by at most 2u, as [`distance_rounding`](crate::rounding::distance_rounding) counts.

@@ -5,7 +5,7 @@ use super::pose::Pose;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::math::vector::length;
-use crate::rounding::STRETCH_F64;
+use crate::rounding::RETIMED_POSE_F64;
 use glam::DVec3;
 
 /// A motion of any kind. Between any two times it is near a [`Motion`], up to a known deviation.
@@ -13,10 +13,10 @@ use glam::DVec3;
 /// A query covers the time with stretches, long ones first. It requests shorter ones if the answer depends on it. The
 /// bounds have to shrink with the length of the stretch: with its square if the motion is smooth.
 ///
-/// Implement [`Smooth`] instead, if velocities and bounds of accelerations are known.
+/// Implement [`SmoothTrajectory`] instead, if velocities and bounds of accelerations are known.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, InputError, Motion, Pose, Stray, Stretch, Trajectory};
+/// use ccd_core::{glam::DVec3, InputError, Motion, Pose, DeviationBound, Stretch, Trajectory};
 ///
 /// /// Swings along x by the cosine of the time.
 /// struct Swing;
@@ -30,7 +30,7 @@ use glam::DVec3;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         let stray = Stray { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
+///         let stray = DeviationBound { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
 ///         Ok(Stretch { stray, ..Stretch::exact(motion) })
 ///     }
 /// }
@@ -79,7 +79,7 @@ pub struct Stretch {
     /// `acceleration · t²/2`.
     pub acceleration: DVec3,
     /// A bound of the trajectory's deviation from the accelerated motion.
-    pub stray: Stray,
+    pub deviation: DeviationBound,
 }
 
 impl Stretch {
@@ -88,7 +88,7 @@ impl Stretch {
         Stretch {
             motion,
             acceleration: DVec3::ZERO,
-            stray: Stray::NONE,
+            deviation: DeviationBound::NONE,
         }
     }
 
@@ -130,37 +130,37 @@ impl Stretch {
     }
 
     /// Returns a bound of the error of a start that was computed for another time.
-    pub(crate) fn rounding_of_moved_start(&self, time: f64) -> Stray {
+    pub(crate) fn rounding_of_moved_start(&self, time: f64) -> DeviationBound {
         let Stretch { motion, .. } = self;
         let turned = length(motion.spin()) * time.abs();
         let speed = length(motion.velocity()) + length(self.acceleration) * time.abs();
         let place = length(motion.start().translation()) + 2.0 * length(motion.centre());
-        Stray {
-            shift: STRETCH_F64 * (place + speed * time.abs()),
-            turn: STRETCH_F64 * (1.0 + turned),
+        DeviationBound {
+            shift: RETIMED_POSE_F64 * (place + speed * time.abs()),
+            turn: RETIMED_POSE_F64 * (1.0 + turned),
         }
     }
 }
 
 /// Bounds of the deviation between two motions of a body, in position and orientation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stray {
+pub struct DeviationBound {
     /// The largest distance between the two positions of the motion's centre, in the scene's unit of length.
     pub shift: f64,
     /// The largest angle between the two orientations, in radians.
     pub turn: f64,
 }
 
-impl Stray {
+impl DeviationBound {
     /// The deviation of a motion from itself, which is zero.
-    pub const NONE: Stray = Stray {
+    pub const NONE: DeviationBound = DeviationBound {
         shift: 0.0,
         turn: 0.0,
     };
 
     /// Returns a bound of the deviation of a point that is at most `reach` from the motion's centre.
     pub fn at(&self, reach: f64) -> f64 {
-        let Stray { shift, turn } = *self;
+        let DeviationBound { shift, turn } = *self;
         if turn > 0.0 {
             shift + turn * reach
         } else if turn == 0.0 {
@@ -173,11 +173,11 @@ impl Stray {
     }
 }
 
-impl std::ops::Add for Stray {
-    type Output = Stray;
+impl std::ops::Add for DeviationBound {
+    type Output = DeviationBound;
 
-    fn add(self, other: Stray) -> Stray {
-        Stray {
+    fn add(self, other: DeviationBound) -> DeviationBound {
+        DeviationBound {
             shift: self.shift + other.shift,
             turn: self.turn + other.turn,
         }
@@ -196,17 +196,17 @@ impl std::ops::Add for Stray {
 /// bodies that pass each other closely take no more stretches than others do.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, Accelerations, InputError, Motion, Pose, Smooth, Trajectory};
+/// use ccd_core::{glam::DVec3, AccelerationBounds, InputError, Motion, Pose, SmoothTrajectory, Trajectory};
 ///
 /// /// Swings along x by the cosine of the time.
 /// struct Swing;
 ///
-/// impl Smooth for Swing {
+/// impl SmoothTrajectory for Swing {
 ///     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
 ///         Motion::new(Pose::at(time.cos() * DVec3::X)?, -time.sin() * DVec3::X, DVec3::ZERO)
 ///     }
-///     fn accelerations(&self, _from: f64, _to: f64) -> Accelerations {
-///         Accelerations { linear: 1.0, angular: 0.0 }
+///     fn accelerations(&self, _from: f64, _to: f64) -> AccelerationBounds {
+///         AccelerationBounds { linear: 1.0, angular: 0.0 }
 ///     }
 /// }
 ///
@@ -214,38 +214,38 @@ impl std::ops::Add for Stray {
 /// assert!(stretch.stray.shift > 0.03 && stretch.stray.shift < 0.04 && stretch.stray.turn < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
-pub trait Smooth: Sync {
+pub trait SmoothTrajectory: Sync {
     /// Returns the motion with the trajectory's pose and velocities at a time, which becomes its time 0.
     ///
     /// The linear velocity is that of the motion's [centre](Motion::centre).
     ///
     /// # Errors
     /// An [`InputError`] if there is no pose at that time.
-    fn tangent(&self, time: f64) -> Result<Motion, InputError>;
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError>;
 
     /// Returns upper bounds of the magnitudes of the accelerations between two times.
-    fn accelerations(&self, from: f64, to: f64) -> Accelerations;
+    fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds;
 
     /// Returns the tangent at a time with the acceleration of its centre, and a bound of how fast that acceleration
     /// changes up to a later time; `None` if it is unknown or unbounded.
     ///
     /// # Errors
     /// The errors of the motion.
-    fn osculating(
+    fn osculating_motion(
         &self,
         time: f64,
         from: f64,
         to: f64,
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let _ = (from, to);
-        Ok((self.tangent(time)?, None))
+        Ok((self.tangent_motion(time)?, None))
     }
 
     /// Returns bounds of the errors of tangent poses between two times. They matter if they exceed about 40 units in
     /// the last place, of lengths and of a radian.
-    fn rounding(&self, from: f64, to: f64) -> Stray {
+    fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let _ = (from, to);
-        Stray::NONE
+        DeviationBound::NONE
     }
 
     /// Returns a time between two others at which an acceleration jumps; `None` if there is none. Stretches that end
@@ -258,7 +258,7 @@ pub trait Smooth: Sync {
 
 /// Upper bounds of the magnitudes of a trajectory's accelerations, per unit of time squared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Accelerations {
+pub struct AccelerationBounds {
     /// A bound of the acceleration of the tangents' centre, in the scene's unit of length.
     pub linear: f64,
     /// A bound of the angular acceleration in radians, which is the derivative of the angular velocity.
@@ -278,52 +278,52 @@ impl Acceleration {
     /// Returns a bound of the deviation from the tangent after a time that changes of the acceleration cause.
     fn deviation_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
-        let rounding = STRETCH_F64 * (time * (time * length(self.vector)));
-        time * (time * (time * self.jerk)) / 6.0 * (1.0 + STRETCH_F64) + rounding
+        let rounding = RETIMED_POSE_F64 * (time * (time * length(self.vector)));
+        time * (time * (time * self.jerk)) / 6.0 * (1.0 + RETIMED_POSE_F64) + rounding
     }
 }
 
-impl Accelerations {
+impl AccelerationBounds {
     /// Returns a bound of the deviation from a tangent after a time that the accelerations cause.
-    fn deviation_after(self, time: f64) -> Stray {
+    fn deviation_after(self, time: f64) -> DeviationBound {
         // The time and the products are rounded. The square of a short time may be zero, so none is computed.
         let deviation =
-            |acceleration: f64| 0.5 * (time * (time * acceleration)) * (1.0 + STRETCH_F64);
-        Stray {
+            |acceleration: f64| 0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_F64);
+        DeviationBound {
             shift: deviation(self.linear),
             turn: deviation(self.angular),
         }
     }
 }
 
-impl<S: Smooth + ?Sized> Trajectory for S {
+impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         // Times far from 0 have no exact middle: the halves differ.
         let middle = from + 0.5 * (to - from);
         let [before, after] = [middle - from, to - middle];
         let half = greater(before, after);
-        let (motion, acceleration) = self.osculating(middle, from, to)?;
+        let (motion, acceleration) = self.osculating_motion(middle, from, to)?;
         let mut tangent = Stretch::exact(motion);
         // Bounds of a stretch of no length may be infinite.
         if half > 0.0 {
-            tangent.stray = self.accelerations(from, to).deviation_after(half);
+            tangent.deviation = self.accelerations(from, to).deviation_after(half);
             if let Some(acceleration) = acceleration
-                && acceleration.deviation_after(half) < tangent.stray.shift
+                && acceleration.deviation_after(half) < tangent.deviation.shift
             {
                 tangent.acceleration = acceleration.vector;
-                tangent.stray.shift = acceleration.deviation_after(half);
+                tangent.deviation.shift = acceleration.deviation_after(half);
             }
         }
         let stretch = tangent.with_start_at(-before)?;
         let rounding = stretch.rounding_of_moved_start(half) + self.rounding(from, to);
         Ok(Stretch {
-            stray: stretch.stray + rounding,
+            deviation: stretch.deviation + rounding,
             ..stretch
         })
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        Smooth::corner(self, from, to)
+        SmoothTrajectory::corner(self, from, to)
     }
 }
 
@@ -339,7 +339,10 @@ impl Trajectory for Motion {
         }
         let stretch = Stretch::exact(*self).with_start_at(from)?;
         let stray = stretch.rounding_of_moved_start(from);
-        Ok(Stretch { stray, ..stretch })
+        Ok(Stretch {
+            deviation: stray,
+            ..stretch
+        })
     }
 }
 

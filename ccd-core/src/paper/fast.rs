@@ -13,7 +13,7 @@ use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::scratch::Scratch;
-use crate::motion::bound::Bound;
+use crate::motion::bound::VelocityBound;
 use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
@@ -25,7 +25,7 @@ use std::ops::ControlFlow;
 /// `[FAST06 Alg. 2]`.
 ///
 /// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The pairs at which it
-/// stops, the *front*, cover all pairs of pieces. Each pair stays apart for its distance divided by a [bound](Bound)
+/// stops, the *front*, cover all pairs of pieces. Each pair stays apart for its distance divided by a [bound](VelocityBound)
 /// of its rate of approach. All pairs are advanced by the least of these times, and the distance is computed again,
 /// until it is within the tolerance. The next descent starts from the front of the last one `[SWIFT01]`. That front
 /// contains the pieces that were nearest, so that the distance is bounded before anything is split, and the nearest
@@ -40,15 +40,15 @@ use std::ops::ControlFlow;
 /// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
-/// The guarantee of [`Schedule::first_contact`](crate::Schedule::first_contact) with [`Bound::Sound`]; with
-/// [`Bound::Published`] times may be late and contacts missed.
+/// The guarantee of [`Schedule::first_contact`](crate::Schedule::first_contact) with [`VelocityBound::Sound`]; with
+/// [`VelocityBound::Published`] times may be late and contacts missed.
 ///
 /// The bodies come nearer by a share of their distance in every step. Grazing passes and fast
 /// turning therefore cost many steps. Bodies that are [let go](crate::StartPolicy::Leave) from
 /// flush contact and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
 #[derive(Debug)]
 pub struct Fast<O: DistanceOracle> {
-    bound: Bound,
+    bound: VelocityBound,
     front: Front<O::Cache>,
     reaches: AxisDistances,
     without_trees: BestFirst<O>,
@@ -57,7 +57,7 @@ pub struct Fast<O: DistanceOracle> {
 
 impl<O: DistanceOracle> Fast<O> {
     /// Creates a schedule that divides distances by the given bound of the approach.
-    pub fn new(bound: Bound) -> Self {
+    pub fn new(bound: VelocityBound) -> Self {
         Fast {
             bound,
             front: Front::default(),
@@ -70,7 +70,7 @@ impl<O: DistanceOracle> Fast<O> {
 
 impl<O: DistanceOracle> Default for Fast<O> {
     fn default() -> Self {
-        Fast::new(Bound::default())
+        Fast::new(VelocityBound::default())
     }
 }
 

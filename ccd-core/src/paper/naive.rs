@@ -11,30 +11,30 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::scratch::Scratch;
 use crate::math::order::lesser;
-use crate::motion::bound::Bound;
+use crate::motion::bound::VelocityBound;
 use crate::problem::{BodyWithPath, Problem};
 use std::ops::ControlFlow;
 
 /// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`. A free time is the pair's
-/// distance, divided by a [bound](Bound) of its rate of approach.
+/// distance, divided by a [bound](VelocityBound) of its rate of approach.
 ///
 /// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies that are let go
 /// from flush contact cost many steps. This schedule suits only bodies of few pieces, and checks of the other
 /// schedules.
 ///
 /// # Guarantee
-/// The guarantee of [`Schedule::first_contact`](crate::Schedule::first_contact) with [`Bound::Sound`]; with
-/// [`Bound::Published`] times may be late.
+/// The guarantee of [`Schedule::first_contact`](crate::Schedule::first_contact) with [`VelocityBound::Sound`]; with
+/// [`VelocityBound::Published`] times may be late.
 #[derive(Debug)]
 pub struct Naive<O: DistanceOracle> {
-    bound: Bound,
+    bound: VelocityBound,
     pairs: Vec<Pair<O::Cache>>,
     scratch: Scratch,
 }
 
 impl<O: DistanceOracle> Naive<O> {
     /// Creates a schedule that divides distances by the given bound of the approach.
-    pub fn new(bound: Bound) -> Self {
+    pub fn new(bound: VelocityBound) -> Self {
         Naive {
             bound,
             pairs: Vec::new(),
@@ -45,7 +45,7 @@ impl<O: DistanceOracle> Naive<O> {
 
 impl<O: DistanceOracle> Default for Naive<O> {
     fn default() -> Self {
-        Naive::new(Bound::default())
+        Naive::new(VelocityBound::default())
     }
 }
 

@@ -3,12 +3,12 @@
 use super::*;
 use crate::limits::LEAST_TOLERANCE;
 use crate::motion::pose::Pose;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::settings::Settings;
 
 fn problem_tolerance(motion: Motion, duration: f64, config: &Settings) -> Result<f64, InputError> {
     let ball = Body::sphere(1.0).unwrap();
-    let moving = |motion| Moving::from((&ball, motion));
+    let moving = |motion| MovingBody::from((&ball, motion));
     let still = Motion::still(Pose::IDENTITY);
     Problem::about(moving(motion), moving(still), duration, config).map(|p| p.tolerance())
 }
@@ -93,7 +93,7 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     }
     // Both positions are in range, but too far apart.
     let body = Body::sphere(1.0).unwrap();
-    let still = |at: f64| Moving::from((&body, Motion::still(pose(at))));
+    let still = |at: f64| MovingBody::from((&body, Motion::still(pose(at))));
     let apart =
         |at: f64| Problem::about(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
     assert!(apart(0.5 * MAX_COORDINATE).is_ok());
@@ -143,7 +143,7 @@ fn a_tolerance_that_cannot_be_certified_is_raised() {
 #[test]
 fn clocks_are_times_that_are_never_late() {
     let ball = Body::sphere(1.0).unwrap();
-    let still = Moving::from((&ball, Motion::still(Pose::IDENTITY)));
+    let still = MovingBody::from((&ball, Motion::still(Pose::IDENTITY)));
     for duration in [0.0, 1e-300, 0.1, 1.0, 7.0, 1e300] {
         let problem = Problem::about(still, still, duration, &Settings::DEFAULT).unwrap();
         assert_eq!(problem.time(0.0), 0.0);
@@ -190,6 +190,13 @@ fn ranges_are_named_as_they_are() {
         problem_tolerance(travels.unwrap(), 1.0, &config),
         MAX_COORDINATE,
     );
-    let turns = Motion::new(Pose::IDENTITY, [0.0; 3], [2.0 * MAX_TURN, 0.0, 0.0]);
-    named(problem_tolerance(turns.unwrap(), 1.0, &config), MAX_TURN);
+    let turns = Motion::new(
+        Pose::IDENTITY,
+        [0.0; 3],
+        [2.0 * MAX_ROTATION_ANGLE, 0.0, 0.0],
+    );
+    named(
+        problem_tolerance(turns.unwrap(), 1.0, &config),
+        MAX_ROTATION_ANGLE,
+    );
 }

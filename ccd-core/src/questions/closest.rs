@@ -219,7 +219,7 @@ fn at_all_times(
     let lower = sample.lower(found.lower());
     Ok(
         match found.map_contacts(|contact, _| sample.widen_contact(contact)) {
-            Outcome::Measured { time, contact, .. } => Outcome::Measured {
+            Outcome::LeastDistance { time, contact, .. } => Outcome::LeastDistance {
                 lower,
                 time,
                 contact,
@@ -257,7 +257,7 @@ fn distance_at_rest<O: DistanceOracle>(
     meter: &mut Meter,
 ) -> Result<Outcome, FartherThanCutoff> {
     Ok(match at_start(problem, beyond, oracle, meter) {
-        Some(Outcome::Touching { contact }) => Outcome::Measured {
+        Some(Outcome::Touching { contact }) => Outcome::LeastDistance {
             lower: greater(0.0, contact.separation.lower),
             time: 0.0,
             contact,
@@ -298,7 +298,7 @@ fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
 /// Returns whether the bodies come within the tolerance after the start, and not at the start.
 pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
     match *found {
-        Outcome::Measured { time, contact, .. } => {
+        Outcome::LeastDistance { time, contact, .. } => {
             time > 0.0 && contact.separation.upper <= tolerance
         }
         _ => false,

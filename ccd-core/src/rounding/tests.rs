@@ -12,7 +12,7 @@ use crate::distance::separation;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
@@ -51,7 +51,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let motions = [(); 2].map(|()| motion(&mut rng, world, size, duration));
         worst.far += usize::from(far > 1e5 || bodies[0].tree().span() > 1e5);
         worst.turns += usize::from(motions[0].spin().length() * duration > 100.0);
-        let moving = |k: usize| Moving::from((&bodies[k], motions[k]));
+        let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
         for _ in 0..4 {
             let s = rng.random_range(0.0..1.0);
@@ -76,7 +76,7 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
         let bodies: [Body; 2] = std::array::from_fn(|_| far_body(&mut rng, 1, size));
         let ends = [(); 2].map(|()| ends(&mut rng, world, size));
         let motions = ends.map(|ends| between(&ends, duration));
-        let moving = |k: usize| Moving::from((&bodies[k], motions[k]));
+        let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
         let origin = Double3::from(ends[1].positions[0]);
         for k in 0..2 {

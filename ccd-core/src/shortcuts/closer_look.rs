@@ -8,7 +8,7 @@ use crate::engine::meter::Meter;
 use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::REACH_F32;
+use crate::rounding::GAP_PER_RADIUS_F32;
 use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for the pairs of a query, as far as they are useful.
@@ -24,7 +24,7 @@ pub(crate) struct TighterBounds {
 impl TighterBounds {
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         let radius = |side: &BodyWithPath<'_>| f64::from(side.body.tree().radius());
-        let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
+        let rounding = f64::from(GAP_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
         TighterBounds {
             is_f32_coarse: problem.uses(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),

@@ -8,7 +8,7 @@ use crate::body::tree::{NodeId, NodeOrTriangle, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::{RATE_F64, REACH_F32};
+use crate::rounding::{GAP_PER_RADIUS_F32, RATE_F64};
 use crate::tuning::{CLOSED_GAP, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     let [Some(a), Some(b)] = sides.map(|(side, id)| Flat::new(side, id, s)) else {
         return 0.0;
     };
-    let rounding = f64::from(REACH_F32) * (a.node.radius + b.node.radius);
+    let rounding = f64::from(GAP_PER_RADIUS_F32) * (a.node.radius + b.node.radius);
     if !(rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap()) {
         return 0.0;
     }

@@ -14,7 +14,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{PathWithRadius, Period};
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::{TURNS_F64, least_tolerance, place_rounding};
+use crate::rounding::{TURN_COUNT_WIDENING, least_tolerance, position_rounding};
 use crate::settings::StartPolicy;
 use crate::shortcuts::bounding_volumes::free_by_bounding_volumes;
 use crate::tuning::{MAX_PERIOD_SHARE, MAX_SCREW_DRIFT, PERIOD_CHANGE_SHARE};
@@ -85,7 +85,7 @@ impl<'a> Rounds<'a> {
         let bodies = [&problem.a, &problem.b].map(path_with_radius);
         let [a, b] = bodies.map(|PathWithRadius { path, reach }| {
             let way = length(path.centre_at(0.0)) + path.speed();
-            place_rounding(reach, path.rate, way)
+            position_rounding(reach, path.rate, way)
         });
         let rounding = a + b;
         let known = PERIOD_CHANGE_SHARE * tolerance;
@@ -143,7 +143,7 @@ impl<'a> Rounds<'a> {
                 self.process_contact(self.whole.time(self.from), contact)?;
             }
             Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
-            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+            Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a search for contacts")
             }
             Outcome::Overlapping { .. } if self.from == 0.0 => return ControlFlow::Break(*outcome),
@@ -217,7 +217,7 @@ impl<'a> Rounds<'a> {
         let (Round::Repeated(count) | Round::Each(count)) = self.round;
         let end = self.from + count * self.period.length;
         // A rest of the time that is only rounding is covered, too.
-        if end + 0.5 * TURNS_F64 * self.period.length < 1.0 {
+        if end + 0.5 * TURN_COUNT_WIDENING * self.period.length < 1.0 {
             end
         } else {
             1.0

@@ -13,7 +13,7 @@ use crate::engine::nodes::clock;
 use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::simd::{Vec3x8, splat};
-use crate::rounding::{BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::rounding::{LEAST_SECOND_DERIVATIVE_F32, RATE_F32, SECOND_DERIVATIVE_FACTOR_F32};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
@@ -87,7 +87,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     ) -> f32x8<L> {
         let motion = self.motion;
         let change = match motion.acceleration {
-            Some(acceleration) => acceleration.length() * BEND_F32,
+            Some(acceleration) => acceleration.length() * SECOND_DERIVATIVE_FACTOR_F32,
             None => 0.0,
         };
         let straight = motion.velocity.length() + change + motion.rate_slack;
@@ -101,7 +101,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             axis.gap - motion.slack,
             motion.closed,
             sweep.rate + rate_slack,
-            second_derivative * BEND_F32 + LEAST_BEND_F32,
+            second_derivative * SECOND_DERIVATIVE_FACTOR_F32 + LEAST_SECOND_DERIVATIVE_F32,
         );
         free.min(MAX_TURNING_PLANE_TIME)
     }

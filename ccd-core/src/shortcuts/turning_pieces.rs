@@ -15,7 +15,7 @@ use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::BodyWithPath;
-use crate::rounding::{RATE_F64, attached_rounding};
+use crate::rounding::{RATE_F64, turning_axis_rounding};
 use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
 use glam::DVec3;
 use std::cell::Cell;
@@ -175,7 +175,7 @@ impl<'p> TurningPiece<'p> {
     /// Returns bounds of the rounding of height changes, and of rates.
     fn allowances(&self) -> (f64, f64) {
         let turns = self.angular_speed + self.own_angular_speed;
-        let rounding = attached_rounding(turns);
+        let rounding = turning_axis_rounding(turns);
         let fastest =
             self.angular_speed * self.reach + self.speed + self.own_angular_speed * self.radius;
         (

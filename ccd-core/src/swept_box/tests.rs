@@ -13,8 +13,8 @@ fn boxes(scene: &Scene) -> [SweptBox; 2] {
     [0, 1].map(|k| moving(scene, k).swept_box(1.0, &scene.config).unwrap())
 }
 
-fn moving(scene: &Scene, k: usize) -> Moving<'_> {
-    Moving::from((&scene.bodies[k], scene.motions[k]))
+fn moving(scene: &Scene, k: usize) -> MovingBody<'_> {
+    MovingBody::from((&scene.bodies[k], scene.motions[k]))
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn points_of_bodies_on_trajectories_stay_in_their_box() {
     for _ in 0..300 {
         let scene = scene(&mut rng, Kind::Any, 8);
         let (body, swing) = (&scene.bodies[0], SwingingTrajectory::draw(&mut rng, 3.0));
-        let swept = Moving::from((body, &swing)).swept_box(2.0, &Settings::DEFAULT);
+        let swept = MovingBody::from((body, &swing)).swept_box(2.0, &Settings::DEFAULT);
         let swept = swept.unwrap();
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for step in 0..=256 {
@@ -170,7 +170,7 @@ fn a_ball_that_flies_has_the_box_of_its_way() {
         tolerance: 1e-9,
         ..Settings::DEFAULT
     };
-    let swept = Moving::from((&ball, flies))
+    let swept = MovingBody::from((&ball, flies))
         .swept_box(1.0, &config)
         .unwrap();
     let (min, max) = (DVec3::new(0.5, -0.5, 2.5), DVec3::new(5.5, 2.5, 3.5));
@@ -183,15 +183,23 @@ fn what_a_problem_refuses_has_no_box() {
     let ball = crate::Body::sphere(0.5).unwrap();
     let far = Motion::new(Pose::IDENTITY, [2e12, 0.0, 0.0], [0.0; 3]).unwrap();
     let (config, still) = (Settings::DEFAULT, Motion::STILL);
-    assert!(Moving::from((&ball, far)).swept_box(1.0, &config).is_err());
-    assert!(Moving::from((&ball, far)).swept_box(0.1, &config).is_ok());
     assert!(
-        Moving::from((&ball, still))
+        MovingBody::from((&ball, far))
+            .swept_box(1.0, &config)
+            .is_err()
+    );
+    assert!(
+        MovingBody::from((&ball, far))
+            .swept_box(0.1, &config)
+            .is_ok()
+    );
+    assert!(
+        MovingBody::from((&ball, still))
             .swept_box(-1.0, &config)
             .is_err()
     );
     assert!(
-        Moving::from((&ball, still))
+        MovingBody::from((&ball, still))
             .swept_box(f64::NAN, &config)
             .is_err()
     );

@@ -10,7 +10,7 @@ use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::schedule::{BestFirst, Naive};
 use crate::settings::Settings;
 use glam::DVec3;
@@ -83,7 +83,7 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
             tolerance: 1e-12,
             ..Settings::DEFAULT
         };
-        let moving = |k: usize| Moving::from((&bodies[k], between(&scene.ends[k], duration)));
+        let moving = |k: usize| MovingBody::from((&bodies[k], between(&scene.ends[k], duration)));
         let problem = Problem::about(moving(0), moving(1), duration, &config).unwrap();
         for outcome in [
             BestFirst::default()

@@ -2,7 +2,7 @@
 
 use super::nearest::{Triangle, nearest, point};
 use crate::body::piece::Combination;
-use crate::distance::oracle::{Claim, DistanceOracle, GiveUp, PiecePair};
+use crate::distance::oracle::{Claim, DistanceOracle, GiveUpReason, PiecePair};
 use crate::distance::separation::support_gap;
 use glam::DVec3;
 
@@ -13,9 +13,9 @@ pub(crate) struct ExhaustiveOracle;
 impl DistanceOracle for ExhaustiveOracle {
     type Cache = ();
 
-    fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+    fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
         let (Some(a), Some(b)) = (corners(pair.a.points), corners(pair.b.points)) else {
-            return Err(GiveUp::TooManyPoints);
+            return Err(GiveUpReason::TooManyPoints);
         };
         let b_in_a = b.map(|p| pair.b_to_a.point(p));
         let found = nearest(&a, &b_in_a);
@@ -68,12 +68,12 @@ fn combination(weights: [f64; 3], points: usize) -> Combination {
 
 /// An oracle that always returns the same claim.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ConstantOracle(pub(crate) Result<Claim, GiveUp>);
+pub(crate) struct ConstantOracle(pub(crate) Result<Claim, GiveUpReason>);
 
 impl DistanceOracle for ConstantOracle {
     type Cache = ();
 
-    fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+    fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
         self.0
     }
 }

@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::query::Query;
 use crate::settings::Settings;
 use glam::{DQuat, DVec3};
@@ -381,8 +381,8 @@ fn set_moving(
 impl<'a> Problem<'a> {
     /// Creates the problem of a query about two motions.
     pub(crate) fn about(
-        a: impl Into<Moving<'a>>,
-        b: impl Into<Moving<'a>>,
+        a: impl Into<MovingBody<'a>>,
+        b: impl Into<MovingBody<'a>>,
         duration: f64,
         settings: &'a Settings,
     ) -> Result<Self, InputError> {

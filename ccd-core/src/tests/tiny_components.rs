@@ -11,7 +11,7 @@ use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use glam::DVec3;
@@ -71,7 +71,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
             ..Settings::DEFAULT
         };
         let moving =
-            |k: usize| Moving::from((&bodies[k], [Motion::still(Pose::IDENTITY), motion][k]));
+            |k: usize| MovingBody::from((&bodies[k], [Motion::still(Pose::IDENTITY), motion][k]));
         let problem = Problem::about(moving(0), moving(1), 1.0, &config).unwrap();
         let outcome = BestFirst::default()
             .solve(&problem, &mut ExhaustiveOracle)

@@ -3,7 +3,7 @@
 use crate::error::InputError;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::motion::trajectory::{Acceleration, Accelerations, Smooth};
+use crate::motion::trajectory::{Acceleration, AccelerationBounds, SmoothTrajectory};
 use crate::tests::scene::{Pcg64, RngExt, direction, point_in_ball, rotation};
 use glam::{DQuat, DVec3};
 
@@ -42,8 +42,8 @@ impl SwingingTrajectory {
     }
 }
 
-impl Smooth for SwingingTrajectory {
-    fn tangent(&self, t: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for SwingingTrajectory {
+    fn tangent_motion(&self, t: f64) -> Result<Motion, InputError> {
         let (mut at, mut velocity) = (self.place + self.drift * t, self.drift);
         for k in 0..2 {
             let angle = self.rates[k] * t + self.phases[k];
@@ -58,15 +58,15 @@ impl Smooth for SwingingTrajectory {
         Motion::about(start, velocity, spin, self.centre)
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
         let linear = |k: usize| self.along[k].length() * self.rates[k] * self.rates[k];
-        Accelerations {
+        AccelerationBounds {
             linear: linear(0) + linear(1),
             angular: self.turn * self.rates[2] * self.rates[2],
         }
     }
 
-    fn osculating(
+    fn osculating_motion(
         &self,
         t: f64,
         _: f64,
@@ -80,7 +80,7 @@ impl Smooth for SwingingTrajectory {
         }
         let acceleration = Acceleration { vector, jerk };
         Ok((
-            self.tangent(t)?,
+            self.tangent_motion(t)?,
             self.provides_acceleration.then_some(acceleration),
         ))
     }

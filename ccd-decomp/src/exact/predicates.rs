@@ -1,7 +1,7 @@
 //! Exact predicates for triangles given by vertex indices, and for projections to a coordinate plane `[SHE97]`. They
 //! extend [`ccd_core::exact`].
 
-pub(crate) use ccd_core::exact::{is_degenerate, side, too_fine, turn_along};
+pub(crate) use ccd_core::exact::{is_degenerate, line_side_along, side, too_fine};
 
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
@@ -32,7 +32,7 @@ impl Projection {
     /// Chooses a coordinate plane on which the triangle has a non-zero area; `None` if the triangle is degenerate.
     pub(crate) fn new(triangle: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = triangle;
-        (0..3).find_map(|axis| match turn_along(axis, [a, b], c) {
+        (0..3).find_map(|axis| match line_side_along(axis, [a, b], c) {
             Ordering::Equal => None,
             turn => Some(Projection {
                 axis,
@@ -46,9 +46,9 @@ impl Projection {
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         if self.turned {
-            turn_along(self.axis, [b, a], point)
+            line_side_along(self.axis, [b, a], point)
         } else {
-            turn_along(self.axis, [a, b], point)
+            line_side_along(self.axis, [a, b], point)
         }
     }
 }

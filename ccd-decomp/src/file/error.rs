@@ -19,7 +19,7 @@ pub enum StoreFault {
     Unwritable(#[source] io::Error),
     /// The file does not begin with the magic bytes of a stored body.
     #[error("holds no stored body; give a mesh, or {PREPARE_ADVICE}")]
-    Foreign,
+    NotStoredBody,
     /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
@@ -39,7 +39,7 @@ pub enum StoreFault {
     #[error(
         "is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE_ADVICE}"
     )]
-    Damaged,
+    ChecksumMismatch,
     /// The checksum matches, but the content is no valid body.
     #[error("holds no valid body: {problem}; {PREPARE_ADVICE}")]
     Invalid {

@@ -42,7 +42,7 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
         return Err(if is_lfs_pointer(&header) {
             StoreFault::LfsPointer
         } else {
-            StoreFault::Foreign
+            StoreFault::NotStoredBody
         });
     }
     let mut fields = &header[MAGIC.len()..];
@@ -57,12 +57,12 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     }
     let end = read_up_to(&mut reader, size_of::<u32>() as u64)?;
     if u32::from_le_bytes(split_array(&mut &end[..])?) != checksum(&header, &payload) {
-        return Err(StoreFault::Damaged);
+        return Err(StoreFault::ChecksumMismatch);
     }
     if read_up_to(&mut reader, 1)?.is_empty() {
         Ok(payload)
     } else {
-        Err(StoreFault::Damaged)
+        Err(StoreFault::ChecksumMismatch)
     }
 }
 

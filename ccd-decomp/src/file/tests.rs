@@ -1,6 +1,6 @@
 use super::error::StoreFault;
 use super::frame;
-use crate::{Detail, Format, Model, Order, TriangleMesh, prepare};
+use crate::{Detail, Format, Model, PatchOrder, TriangleMesh, prepare};
 use proptest::prelude::*;
 use rstest::rstest;
 use std::sync::LazyLock;
@@ -32,7 +32,7 @@ fn fault(bytes: &[u8]) -> StoreFault {
 
 /// Stored bodies of every kind of pieces, with and without a hull tree. They are small enough to change every byte.
 static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
-    let patches = model(DENTED_OBJ, Detail::Patches(Order::Cresting));
+    let patches = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting));
     let models = [
         model(DENTED_OBJ, Detail::Triangles),
         patches.clone(),
@@ -45,7 +45,7 @@ static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 
 #[rstest]
 #[case(DENTED_OBJ, Detail::Triangles)]
-#[case(DENTED_OBJ, Detail::Patches(Order::Cresting))]
+#[case(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))]
 #[case(DENTED_OBJ, Detail::Vhacd { hulls: 4 })]
 #[case(TETRAHEDRON, Detail::Hull)]
 fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
@@ -57,17 +57,17 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
     assert_eq!(again.pieces.points(), model.pieces.points());
     assert_eq!(again.hierarchy.nodes(), model.hierarchy.nodes());
     let bodies = (again.body().unwrap(), model.body().unwrap());
-    assert_eq!(bodies.0.bytes(), bodies.1.bytes());
+    assert_eq!(bodies.0.memory_usage(), bodies.1.memory_usage());
     assert_eq!(bodies.0.excess(), model.report.sticks_out);
     let is_exact = !matches!(detail, Detail::Vhacd { .. });
     assert_eq!(bodies.0.excess() == 0.0, is_exact);
-    let taken_over = Model::of_body(&bodies.0).unwrap();
+    let taken_over = Model::from_body(&bodies.0).unwrap();
     assert_eq!(taken_over.report.sticks_out, bodies.0.excess());
 }
 
 #[test]
 fn a_hull_tree_is_stored_with_its_body() {
-    let model = model(DENTED_OBJ, Detail::Patches(Order::Cresting))
+    let model = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))
         .with_hull_tree()
         .unwrap();
     let again = Model::read(&stored(&model)[..]).unwrap();
@@ -116,7 +116,10 @@ fn a_foreign_file_is_reported() {
         b"\x89ccd\n",
     ];
     for bytes in files {
-        assert!(matches!(fault(bytes), StoreFault::Foreign), "{bytes:?}");
+        assert!(
+            matches!(fault(bytes), StoreFault::NotStoredBody),
+            "{bytes:?}"
+        );
     }
 }
 
@@ -149,7 +152,7 @@ fn a_file_cut_anywhere_is_an_error() {
             let fault = fault(&bytes[..end]);
             let cut = matches!(fault, StoreFault::Truncated);
             assert!(
-                cut || end < 8 && matches!(fault, StoreFault::Foreign),
+                cut || end < 8 && matches!(fault, StoreFault::NotStoredBody),
                 "{end}: {fault}"
             );
         }
@@ -160,7 +163,7 @@ fn a_file_cut_anywhere_is_an_error() {
 fn a_file_with_more_behind_it_is_damaged() {
     let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
     bytes.push(0);
-    assert!(matches!(fault(&bytes), StoreFault::Damaged));
+    assert!(matches!(fault(&bytes), StoreFault::ChecksumMismatch));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::hull_from_facets;
 use crate::exact::predicates::{Projection, is_degenerate, lexicographic};
 use ccd_core::glam::DVec3;
-use ccd_core::{Hull, Loops};
+use ccd_core::{Hull, PolygonList};
 use std::cmp::Ordering;
 
 /// Computes the hull of distinct coplanar points: a front and a back polygon, or the ends of points on a line.
@@ -23,7 +23,7 @@ pub(super) fn hull(points: &[DVec3]) -> Hull {
         Some(projection) => hull_from_facets(points, facets(points, projection)),
         None => Hull {
             points: ends,
-            facets: Loops::default(),
+            facets: PolygonList::default(),
         },
     }
 }
@@ -44,7 +44,7 @@ fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
 }
 
 /// Computes the front and the back polygon by Andrew's monotone chain.
-fn facets(points: &[DVec3], projection: Projection) -> Loops {
+fn facets(points: &[DVec3], projection: Projection) -> PolygonList {
     let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)));
@@ -65,5 +65,5 @@ fn facets(points: &[DVec3], projection: Projection) -> Loops {
     let mut front = chain(&mut order.iter().copied());
     front.extend(chain(&mut order.iter().rev().copied()));
     let back = front.iter().rev().copied().collect();
-    Loops::from_iter([front, back])
+    PolygonList::from_iter([front, back])
 }

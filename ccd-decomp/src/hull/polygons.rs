@@ -3,13 +3,13 @@
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side_of};
 use crate::half_edges::{HalfEdge, twins};
-use ccd_core::Loops;
+use ccd_core::PolygonList;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
 /// Merges triangles like [`for_each_polygon`], and returns the corners of each polygon.
-pub(crate) fn merged_polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
-    let mut loops = Loops::with_capacity(triangles.len(), 3 * triangles.len());
+pub(crate) fn merged_polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> PolygonList {
+    let mut loops = PolygonList::with_capacity(triangles.len(), 3 * triangles.len());
     for_each_polygon(points, triangles, |corners, _| loops.push(corners));
     loops
 }

@@ -225,7 +225,7 @@ fn a_plane_is_seen_from_both_sides() {
 #[case(vec![DVec3::X; 4], vec![DVec3::X])]
 #[case(vec![DVec3::X, DVec3::ZERO, 2.0 * DVec3::X, DVec3::X], vec![DVec3::ZERO, 2.0 * DVec3::X])]
 fn a_hull_of_points_on_a_line_has_no_facets(#[case] points: Vec<DVec3>, #[case] ends: Vec<DVec3>) {
-    let facets = Loops::default();
+    let facets = PolygonList::default();
     let points = hull(&points);
     assert_eq!(
         points,

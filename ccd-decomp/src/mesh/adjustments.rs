@@ -109,7 +109,7 @@ impl Adjustments {
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if the product of the factors is 0 or not finite.
-    pub fn and(self, other: &Adjustments) -> Result<Self, InputError> {
+    pub fn combined_with(self, other: &Adjustments) -> Result<Self, InputError> {
         let mirrored = other.mirrored_axes().fold(self, Adjustments::mirrored);
         let both = match other.scale() {
             1.0 => mirrored,

@@ -19,7 +19,7 @@ impl TriangleMesh {
     /// the surface up to that rounding: four coplanar corners may no longer be coplanar.
     ///
     /// # Errors
-    /// [`MeshFault::NotFinite`] and [`MeshFault::TooLarge`] name a vertex whose image is out of range.
+    /// [`MeshFault::NotFinite`] and [`MeshFault::CoordinateTooLarge`] name a vertex whose image is out of range.
     ///
     /// ```
     /// use ccd_core::Pose;

@@ -25,12 +25,12 @@ pub enum MeshFault {
         extension: String,
     },
     /// The format is known, but this variant of it is not supported.
-    #[error("holds {what}, which is not supported; export it as {instead}")]
+    #[error("holds {what}, which is not supported; export it as {alternative}")]
     Unsupported {
         /// The description of the unsupported content.
         what: String,
         /// The content that can be read instead.
-        instead: &'static str,
+        alternative: &'static str,
     },
     /// The file is a STEP file under another extension.
     #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
@@ -45,7 +45,7 @@ pub enum MeshFault {
     },
     /// A file that the mesh refers to, such as a buffer of a glTF, cannot be read.
     #[error("refers to the file {name:?}, which cannot be read: {reason}")]
-    LinkedFile {
+    UnreadableLinkedFile {
         /// The name of the referenced file, as the mesh has it.
         name: String,
         /// The reason why the file cannot be read, and the remedy.
@@ -79,7 +79,7 @@ pub enum MeshFault {
     #[error(
         "repeats the same vertices and faces too often for its size, by instances or by naming them again: more than about {} triangles come of it; choose one of its parts, or split it", .limit / 3
     )]
-    Repeats {
+    TooManyRepeats {
         /// The limit for a file of this size, in corners of faces.
         limit: u64,
     },
@@ -87,7 +87,7 @@ pub enum MeshFault {
     #[error(
         "unpacks to more than {limit} bytes, which no mesh of this size does; unpack and pack it again"
     )]
-    Unpacks {
+    UnpackedTooLarge {
         /// The limit for a file of this size, in bytes.
         limit: u64,
     },
@@ -124,7 +124,7 @@ pub enum MeshFault {
     },
     /// A coordinate exceeds the supported range.
     #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", line_prefix(*.line))]
-    TooLarge {
+    CoordinateTooLarge {
         /// The number of the vertex.
         vertex: usize,
         /// The line number of the vertex, if the format is text.
@@ -182,7 +182,10 @@ impl MeshFault {
     /// Creates the error of content that is not supported, and of what to export instead.
     pub(crate) fn unsupported(what: impl Into<String>, instead: &'static str) -> Self {
         let what = what.into();
-        MeshFault::Unsupported { what, instead }
+        MeshFault::Unsupported {
+            what,
+            alternative: instead,
+        }
     }
 
     /// Creates the error of a file that ends before an element is complete.

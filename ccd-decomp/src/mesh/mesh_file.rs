@@ -278,7 +278,7 @@ fn read_linked_file(folder: &Path, reference: &Reference) -> Result<Vec<u8>, Mes
         File::open(&path)?.take(*bytes).read_to_end(&mut content)?;
         Ok(content)
     };
-    read().map_err(|error| MeshFault::LinkedFile {
+    read().map_err(|error| MeshFault::UnreadableLinkedFile {
         name: name.clone(),
         reason: format!("{error}; put it where the mesh is"),
     })
@@ -291,7 +291,7 @@ fn checked_relative_path(name: &str) -> Result<PathBuf, MeshFault> {
     if path.components().all(stays) && path.file_name().is_some() {
         Ok(path)
     } else {
-        Err(MeshFault::LinkedFile {
+        Err(MeshFault::UnreadableLinkedFile {
             name: name.into(),
             reason: "it is not in the folder of the mesh; put it there".into(),
         })

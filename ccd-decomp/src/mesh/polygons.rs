@@ -110,7 +110,7 @@ impl Polygons {
                             *face = triangle.map(|k| corners[k] as u32);
                         }
                     }
-                    None if overhangs => repairs.overhanging.add(id),
+                    None if overhangs => repairs.overhanging_fans.add(id),
                     None => {}
                 }
             }
@@ -136,7 +136,7 @@ pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), 
     };
     let line = lines.get(vertex).copied();
     Err(if vertices[vertex].is_finite() {
-        MeshFault::TooLarge { vertex, line }
+        MeshFault::CoordinateTooLarge { vertex, line }
     } else {
         MeshFault::NotFinite { vertex, line }
     })

@@ -17,17 +17,17 @@ pub struct Repairs {
     /// triangles are one of them.
     pub polygons: Tally<u32>,
     /// Polygons that intersect themselves or are far from planar. Their triangle fan extends beyond the polygon.
-    pub overhanging: Tally<u32>,
+    pub overhanging_fans: Tally<u32>,
     /// Faces dropped because another face has the same three points in the same orientation. The same points in the
     /// opposite orientation are kept: two faces back to back are a closed surface.
-    pub duplicates: Tally<u32>,
+    pub duplicate_faces: Tally<u32>,
     /// Faces that were dropped because they collapse to a segment or point on an edge of another face. Two of their
     /// corners are the same point. Collapsed faces elsewhere are kept.
-    pub collapsed: Tally<u32>,
+    pub collapsed_faces: Tally<u32>,
     /// Faces without area. They are kept, because a segment or point can be touched, too.
     pub zero_area: Tally<u32>,
     /// Vertices that no face uses.
-    pub unreferenced: Tally<u32>,
+    pub unreferenced_vertices: Tally<u32>,
     /// Remarks about content of the file that was skipped or changed.
     // Stored bodies have the remarks at their end; older files have none.
     #[serde(skip)]
@@ -54,19 +54,19 @@ impl Repairs {
         // Exhaustive: a new kind of repair does not compile until it is added here.
         let Repairs {
             polygons,
-            overhanging,
-            duplicates,
-            collapsed,
+            overhanging_fans: overhanging,
+            duplicate_faces: duplicates,
+            collapsed_faces: collapsed,
             zero_area,
-            unreferenced,
+            unreferenced_vertices: unreferenced,
             remarks,
         } = self;
         polygons.append(&other.polygons, face);
-        overhanging.append(&other.overhanging, face);
-        duplicates.append(&other.duplicates, face);
-        collapsed.append(&other.collapsed, face);
+        overhanging.append(&other.overhanging_fans, face);
+        duplicates.append(&other.duplicate_faces, face);
+        collapsed.append(&other.collapsed_faces, face);
         zero_area.append(&other.zero_area, face);
-        unreferenced.append(&other.unreferenced, vertex);
+        unreferenced.append(&other.unreferenced_vertices, vertex);
         remarks.append(&other.remarks);
     }
 
@@ -76,7 +76,7 @@ impl Repairs {
             referenced[corner as usize] = true;
         }
         for (vertex, _) in referenced.iter().enumerate().filter(|(_, r)| !**r) {
-            self.unreferenced.add(vertex as u32);
+            self.unreferenced_vertices.add(vertex as u32);
         }
     }
 }
@@ -86,13 +86,13 @@ impl fmt::Display for Repairs {
         let notes = [
             (&self.polygons, "polygons cut into triangles"),
             (
-                &self.overhanging,
+                &self.overhanging_fans,
                 "of them meeting themselves, covered too widely",
             ),
-            (&self.duplicates, "duplicate faces dropped"),
-            (&self.collapsed, "collapsed faces dropped"),
+            (&self.duplicate_faces, "duplicate faces dropped"),
+            (&self.collapsed_faces, "collapsed faces dropped"),
             (&self.zero_area, "faces without area kept"),
-            (&self.unreferenced, "vertices unused"),
+            (&self.unreferenced_vertices, "vertices unused"),
         ];
         let notes = notes.iter().filter(|(tally, _)| !tally.is_empty());
         let mut notes: Vec<String> = notes

@@ -21,15 +21,15 @@ fn mesh(faces: &[[u32; 3]]) -> TriangleMesh {
 fn duplicates_are_merged_in_any_rotation_and_whichever_vertex_names_a_point() {
     let mesh = mesh(&[[0, 1, 2], [0, 2, 3], [1, 2, 0], [2, 4, 1]]);
     assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(mesh.repairs().duplicates.count(), 2);
-    assert_eq!(mesh.repairs().duplicates.first(), [2, 3]);
+    assert_eq!(mesh.repairs().duplicate_faces.count(), 2);
+    assert_eq!(mesh.repairs().duplicate_faces.first(), [2, 3]);
 }
 
 #[test]
 fn faces_back_to_back_are_both_kept() {
     let mesh = mesh(&[[0, 1, 2], [0, 2, 1]]);
     assert_eq!(mesh.faces().len(), 2);
-    assert!(mesh.repairs().duplicates.is_empty());
+    assert!(mesh.repairs().duplicate_faces.is_empty());
 }
 
 #[test]
@@ -38,7 +38,7 @@ fn a_collapsed_face_is_dropped_where_it_lies_on_an_edge() {
     let mesh = mesh(&[[0, 0, 1], [0, 1, 2], [4, 1, 1], [2, 2, 2]]);
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
     assert_eq!(mesh.face_ids(), [1]);
-    assert_eq!(mesh.repairs().collapsed.first(), [0, 2, 3]);
+    assert_eq!(mesh.repairs().collapsed_faces.first(), [0, 2, 3]);
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
     // Collapsed faces: a diagonal off every edge, the same again, a point of it, and an isolated point.
     let kept = mesh(&[[3, 3, 3], [0, 1, 5], [1, 3, 3], [3, 1, 1], [2, 2, 2]]);
     assert_eq!(kept.face_ids(), [1, 2, 4]);
-    assert_eq!(kept.repairs().collapsed.first(), [0, 3]);
+    assert_eq!(kept.repairs().collapsed_faces.first(), [0, 3]);
     assert_eq!(kept.repairs().zero_area.count(), 3);
     assert_eq!(mesh(&[[0, 4, 0]]).faces(), [[0, 4, 0]]);
 }
@@ -56,7 +56,7 @@ fn a_face_without_area_is_kept_and_reported() {
     let mesh = mesh(&[[0, 5, 1], [0, 1, 2]]);
     assert_eq!(mesh.faces().len(), 2);
     assert_eq!(mesh.repairs().zero_area.first(), [0]);
-    assert_eq!(mesh.repairs().unreferenced.first(), [3, 4]);
+    assert_eq!(mesh.repairs().unreferenced_vertices.first(), [3, 4]);
 }
 
 /// Tests a face whose coordinates are so small that their products underflow.
@@ -86,7 +86,7 @@ fn a_concave_polygon_is_filled() {
     assert_eq!(mesh.faces()[..2], [[1, 2, 0], [2, 3, 0]]);
     assert_eq!(mesh.face_ids()[..2], [0, 0]);
     assert_eq!(mesh.repairs().polygons.first(), [0, 1]);
-    assert!(mesh.repairs().overhanging.is_empty());
+    assert!(mesh.repairs().overhanging_fans.is_empty());
 }
 
 /// Tests that a polygon with corners on a line with the first one gets no degenerate triangles. Other polygons keep
@@ -105,7 +105,7 @@ fn a_polygon_that_meets_itself_is_covered_and_reported() {
     let file = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\n";
     let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
     assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(mesh.repairs().overhanging.first(), [0]);
+    assert_eq!(mesh.repairs().overhanging_fans.first(), [0]);
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn invalid_vertices_and_faces_are_refused() {
     assert!(
         matches!(
             error,
-            MeshFault::TooLarge {
+            MeshFault::CoordinateTooLarge {
                 vertex: 5,
                 line: None
             }

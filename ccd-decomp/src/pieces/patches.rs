@@ -5,7 +5,7 @@ mod obstacle;
 mod order;
 mod patch;
 
-pub use order::Order;
+pub use order::PatchOrder;
 pub use patch::Patch;
 
 use crate::mesh::TriangleMesh;
@@ -45,13 +45,13 @@ pub struct Decomposition {
 /// O(n log n) in the number of triangles where few of them are near each other.
 ///
 /// ```
-/// use ccd_decomp::{decompose, Format, Order, TriangleMesh};
+/// use ccd_decomp::{decompose, Format, PatchOrder, TriangleMesh};
 /// let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 /// let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-/// let decomposition = decompose(&mesh, Order::Cresting).unwrap();
+/// let decomposition = decompose(&mesh, PatchOrder::Cresting).unwrap();
 /// assert_eq!(decomposition.patches.len(), 1);
 /// ```
-pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, DecomposeError> {
+pub fn decompose(mesh: &TriangleMesh, order: PatchOrder) -> Result<Decomposition, DecomposeError> {
     let manifold = solid_surface(mesh)?;
     decompose_polygons(
         &manifold,
@@ -64,11 +64,11 @@ pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, Dec
 /// Decomposes the surface of a solid into convex patches, given its convex polygons.
 ///
 /// # Errors
-/// [`DecomposeError::TooLong`] when the work does not suffice.
+/// [`DecomposeError::WorkBudgetExceeded`] when the work does not suffice.
 pub(crate) fn decompose_polygons(
     manifold: &Manifold<'_>,
     flats: &ConvexPolygons,
-    order: Order,
+    order: PatchOrder,
     work: &Work,
 ) -> Result<Decomposition, DecomposeError> {
     if let Ok(polytope) = convex_polytope(manifold) {
@@ -98,7 +98,7 @@ pub(crate) fn decompose_polygons(
 struct PatchGrower<'a, 'm> {
     manifold: &'a Manifold<'m>,
     polygons: &'a ConvexPolygons,
-    order: Order,
+    order: PatchOrder,
     work: &'a Work,
     /// By polygon, whether it belongs to a patch.
     in_patch: Vec<bool>,

@@ -1,7 +1,7 @@
 //! Polytopes whose facets name the faces of a mesh.
 
 use crate::solid::manifold::Manifold;
-use ccd_core::{Face, Facet, Origin, Polytope};
+use ccd_core::{Face, Facet, FacetOrigin, Polytope};
 
 /// A facet of a polytope, and the faces of the mesh that lie in it.
 pub(super) struct CoveredFacet {
@@ -21,11 +21,11 @@ pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[CoveredFacet]) -> Poly
     let mut polytope = Polytope::default();
     for facet in facets {
         let origin = match (&facet.faces[..], facet.is_covered) {
-            ([], _) | (_, false) => Origin::Virtual,
-            (&[face], true) => Origin::Face(id(face)),
-            (_, true) => Origin::Faces,
+            ([], _) | (_, false) => FacetOrigin::Virtual,
+            (&[face], true) => FacetOrigin::Face(id(face)),
+            (_, true) => FacetOrigin::Faces,
         };
-        if !matches!(origin, Origin::Face(_)) {
+        if !matches!(origin, FacetOrigin::Face(_)) {
             polytope.faces.extend(facet.faces.iter().map(|&face| Face {
                 id: id(face),
                 vertices: manifold.faces()[face as usize],

@@ -21,7 +21,7 @@ use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::is_star_shaped;
 use crate::solid::topology::Topology;
 use crate::tolerance;
-use ccd_core::{Facet, Hull, Origin, Polytope};
+use ccd_core::{Facet, FacetOrigin, Hull, Polytope};
 use target::Target;
 use voxels::Voxels;
 
@@ -56,7 +56,7 @@ pub enum VhacdError {
     },
     /// The library's V-HACD failed on the mesh's voxels.
     #[error("V-HACD failed on this mesh")]
-    Library,
+    LibraryFailed,
     /// The hull of a part could not be computed.
     #[error("the hull of a part failed: {0}")]
     Hull(HullError),
@@ -101,7 +101,7 @@ pub(crate) fn approximate(
     let parts = match voxels {
         Some(voxels) => {
             let labels = labels::label_voxels(&target, &voxels, hulls);
-            cover::points_by_part(&target, &voxels, &labels.ok_or(VhacdError::Library)?)
+            cover::points_by_part(&target, &voxels, &labels.ok_or(VhacdError::LibraryFailed)?)
         }
         None => vec![target.triangles().flatten().collect()],
     };
@@ -129,7 +129,7 @@ pub(crate) fn approximate(
 
 fn polytope(hull: Hull, radius: f64) -> Polytope {
     let facet = |corners: &[u32]| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners: corners.to_vec(),
     };
     Polytope {

@@ -1,10 +1,10 @@
 //! Chooses the fewest exact pieces for `Detail::Auto`.
 
 use super::parts::Parts;
-use super::report::{Estimate, Why};
+use super::report::{PieceReason, QueryTimes};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
-use crate::pieces::patches::{Order, decompose_polygons};
+use crate::pieces::patches::{PatchOrder, decompose_polygons};
 use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegion, RegionMerger};
@@ -16,7 +16,11 @@ use crate::work::Work;
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
 ///
 /// Intersection tests and decomposition are slow: they run only if the result would be used, within a budget.
-pub(super) fn choose(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (Parts, Why) {
+pub(super) fn choose(
+    mesh: &TriangleMesh,
+    topology: &Topology,
+    work: &Work,
+) -> (Parts, PieceReason) {
     let manifold = match Manifold::without_intersection_check(mesh, topology) {
         Ok(manifold) => manifold,
         Err(error) => return only_triangles(error),
@@ -25,36 +29,39 @@ pub(super) fn choose(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (
     let mut merger = RegionMerger::merge_all(&manifold);
     let estimate = merger.largest_planar_region().estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
-        return (Parts::Triangles, Why::TrianglesFaster(estimate));
+        return (Parts::Triangles, PieceReason::TrianglesFaster(estimate));
     }
     if let Err(error) = check_solid(&manifold, work) {
         return only_triangles(error);
     }
     if let Ok(polytope) = convex {
-        return (Parts::Hull(Box::new(polytope)), Why::Convex);
+        return (Parts::Hull(Box::new(polytope)), PieceReason::Convex);
     }
     let flats = merger.into_polygons();
-    match decompose_polygons(&manifold, &flats, Order::default(), work) {
-        Ok(decomposition) => (Parts::Patches(decomposition), Why::PatchesFaster(estimate)),
+    match decompose_polygons(&manifold, &flats, PatchOrder::default(), work) {
+        Ok(decomposition) => (
+            Parts::Patches(decomposition),
+            PieceReason::PatchesFaster(estimate),
+        ),
         Err(error) => only_triangles(error),
     }
 }
 
-fn only_triangles(error: DecomposeError) -> (Parts, Why) {
+fn only_triangles(error: DecomposeError) -> (Parts, PieceReason) {
     let why = match error {
-        DecomposeError::TooLong => Why::TooLong,
-        error => Why::NothingElse(error),
+        DecomposeError::TooLong => PieceReason::WorkBudgetExceeded,
+        error => PieceReason::OnlyTrianglesExact(error),
     };
     (Parts::Triangles, why)
 }
 
 impl PlanarRegion {
     /// Estimates the time of a query whose largest planar part rests on another body in some queries.
-    fn estimate(self) -> Estimate {
+    fn estimate(self) -> QueryTimes {
         let cost = |of: PieceCost, count: usize| {
             of.typical_time + RESTING_QUERY_SHARE * of.resting_time * count as f64
         };
-        Estimate {
+        QueryTimes {
             triangles: cost(TRIANGLE_COST, self.triangles),
             patches: cost(PATCH_COST, self.polygons),
         }

@@ -1,11 +1,11 @@
 //! Models, which can be stored, and bodies built from them.
 
 use super::error::PrepareError;
-use super::report::{PiecesKind, Report, Why};
+use super::report::{PieceReason, PiecesKind, Report};
 use crate::mesh::unit::Unit;
 use crate::tree::hierarchy::build_hierarchy;
 use crate::tree::hull_tree::build_hull_tree;
-use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, Round, Volume};
+use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, SolidOfRevolution, Volume};
 
 /// A prepared body before its tree is built. A `.ccd` file stores it.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Model {
 
 /// A body that is ready for queries, and the report on its preparation.
 #[derive(Clone, Debug)]
-pub struct Prepared {
+pub struct PreparedBody {
     /// The body, ready for queries.
     pub body: Body,
     /// The report on the kind of the pieces, and the reason for it.
@@ -62,13 +62,13 @@ impl Model {
     ///
     /// # Errors
     /// [`PrepareError::Input`] when there are too many pieces for a hierarchy.
-    pub fn of_body(body: &Body) -> Result<Self, PrepareError> {
+    pub fn from_body(body: &Body) -> Result<Self, PrepareError> {
         let pieces = body.pieces().clone();
         let hierarchy = build_hierarchy(&pieces)?;
         let report = Report {
             pieces: pieces.len(),
             sticks_out: body.excess(),
-            ..Report::new(PiecesKind::Primitive, Why::Asked, body.volume())
+            ..Report::new(PiecesKind::Primitive, PieceReason::Requested, body.volume())
         };
         Ok(Model {
             pieces,
@@ -93,8 +93,8 @@ impl Model {
     ///
     /// # Errors
     /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
-    pub fn into_prepared(self) -> Result<Prepared, PrepareError> {
-        Ok(Prepared {
+    pub fn into_prepared(self) -> Result<PreparedBody, PrepareError> {
+        Ok(PreparedBody {
             body: self.body()?,
             report: self.report,
             unit: None,
@@ -102,11 +102,11 @@ impl Model {
     }
 }
 
-impl Prepared {
+impl PreparedBody {
     /// Wraps a body that was not made from a mesh.
     pub(crate) fn primitive(body: Body) -> Self {
-        Prepared {
-            report: Report::new(PiecesKind::Primitive, Why::Asked, body.volume()),
+        PreparedBody {
+            report: Report::new(PiecesKind::Primitive, PieceReason::Requested, body.volume()),
             body,
             unit: None,
         }
@@ -114,9 +114,12 @@ impl Prepared {
 
     /// Creates the body of a cylinder or a cone. `excess` is the upper bound on how far its polytope extends beyond
     /// the shape.
-    pub(crate) fn from_round(round: &Round, excess: Option<f64>) -> Result<Self, InputError> {
-        let enclosure = round.enclosed(excess.unwrap_or(round.usual_excess()))?;
-        let mut prepared = Prepared::primitive(enclosure.body()?);
+    pub(crate) fn from_round(
+        round: &SolidOfRevolution,
+        excess: Option<f64>,
+    ) -> Result<Self, InputError> {
+        let enclosure = round.enclose(excess.unwrap_or(round.usual_excess()))?;
+        let mut prepared = PreparedBody::primitive(enclosure.body()?);
         prepared.report.sticks_out = enclosure.excess();
         Ok(prepared)
     }

@@ -2,7 +2,7 @@
 
 use super::error::PrepareError;
 use super::model::Model;
-use super::report::{PiecesKind, Report, Why};
+use super::report::{PieceReason, PiecesKind, Report};
 use crate::mesh::TriangleMesh;
 use crate::pieces::patches::{Decomposition, Patch};
 use crate::pieces::vhacd::Approximation;
@@ -22,7 +22,7 @@ pub(super) enum Parts {
 pub(super) struct Choice {
     pub(super) volume: Volume,
     pub(super) parts: Parts,
-    pub(super) why: Why,
+    pub(super) why: PieceReason,
     pub(super) topology: Topology,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
     pub(super) turned: Option<TriangleMesh>,
@@ -49,7 +49,7 @@ impl Choice {
             Parts::Triangles => (triangles()?, None),
             Parts::Patches(Decomposition { patches }) => {
                 report.kind = PiecesKind::Patches;
-                report.virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
+                report.virtual_facets = patches.iter().map(Patch::virtual_facets).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
                 (polytope_tree(&polytopes)?, None)
             }
@@ -62,7 +62,7 @@ impl Choice {
                 report.inflated_by = approximation.uncovered_bound;
                 report.sticks_out = approximation.excess_bound;
                 let polytopes = &approximation.polytopes;
-                report.virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
+                report.virtual_facets = polytopes.iter().map(|p| p.facets.len()).sum();
                 (polytope_tree(polytopes)?, None)
             }
         };

@@ -13,13 +13,13 @@ pub struct Report {
     /// The kind of the body's pieces.
     pub kind: PiecesKind,
     /// The reason for the kind of pieces.
-    pub why: Why,
+    pub why: PieceReason,
     /// The number of triangles of the mesh; 0 for a body without a mesh.
     pub triangles: usize,
     /// The number of pieces of the body.
     pub pieces: usize,
     /// The number of facets of pieces that are not part of the mesh.
-    pub virtual_faces: usize,
+    pub virtual_facets: usize,
     /// The number of nodes of the hierarchy over the pieces.
     pub tree_nodes: usize,
     /// The radius added to the pieces so that they certainly cover the mesh, in its unit of length; 0 for exact kinds.
@@ -55,26 +55,26 @@ pub enum PiecesKind {
 /// The reason for the kind of a body's pieces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
-pub enum Why {
+pub enum PieceReason {
     /// The caller requested the kind.
-    Asked,
+    Requested,
     /// The solid is convex, so that one piece is exact. Against bodies of many triangles its own triangles are used,
     /// which is faster.
     Convex,
     /// Only the triangles are exact.
-    NothingElse(DecomposeError),
+    OnlyTrianglesExact(DecomposeError),
     /// Testing whether other pieces are exact exceeds the work budget. They can be requested.
-    TooLong,
+    WorkBudgetExceeded,
     /// Queries are estimated to be faster over triangles than over patches.
-    TrianglesFaster(Estimate),
+    TrianglesFaster(QueryTimes),
     /// Queries are estimated to be faster over patches.
-    PatchesFaster(Estimate),
+    PatchesFaster(QueryTimes),
 }
 
 /// The estimated times of a query with two kinds of pieces, against a body of many triangles. They are in
 /// microseconds on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Estimate {
+pub struct QueryTimes {
     /// The estimated time with triangles as pieces.
     pub triangles: f64,
     /// The estimated time with patches as pieces.
@@ -83,13 +83,13 @@ pub struct Estimate {
 
 impl Report {
     /// Creates the report of a body that was not made from a mesh, with one exact piece.
-    pub(super) fn new(kind: PiecesKind, why: Why, volume: Volume) -> Self {
+    pub(super) fn new(kind: PiecesKind, why: PieceReason, volume: Volume) -> Self {
         Report {
             kind,
             why,
             triangles: 0,
             pieces: 1,
-            virtual_faces: 0,
+            virtual_facets: 0,
             tree_nodes: 1,
             inflated_by: 0.0,
             sticks_out: 0.0,
@@ -113,7 +113,7 @@ impl Report {
     /// Describes the faults of the mesh as text. The text is empty if there are none.
     pub fn remarks(&self) -> String {
         let plain = |t: &Topology| {
-            t.is_manifold() && t.is_solid() && t.wrong_way.is_empty() && t.signed_volume > 0.0
+            t.is_manifold() && t.is_solid() && t.wrong_shells.is_empty() && t.signed_volume > 0.0
         };
         let topology = self.topology.as_ref().filter(|t| !plain(t));
         let repairs = Some(&self.repairs).filter(|r| !r.is_empty());
@@ -165,30 +165,32 @@ impl fmt::Display for PiecesKind {
     }
 }
 
-impl fmt::Display for Why {
+impl fmt::Display for PieceReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Why::Asked => write!(f, "asked for"),
-            Why::Convex => write!(
+            PieceReason::Requested => write!(f, "asked for"),
+            PieceReason::Convex => write!(
                 f,
                 "the solid is convex: one piece, or its triangles against bodies of many"
             ),
-            Why::NothingElse(error) => write!(f, "only triangles are exact: {error}"),
-            Why::TooLong => {
+            PieceReason::OnlyTrianglesExact(error) => {
+                write!(f, "only triangles are exact: {error}")
+            }
+            PieceReason::WorkBudgetExceeded => {
                 let why = DecomposeError::TooLong;
                 write!(
                     f,
                     "other pieces take longer to make than is spent unasked: {why}"
                 )
             }
-            Why::TrianglesFaster(Estimate { triangles, patches }) => {
+            PieceReason::TrianglesFaster(QueryTimes { triangles, patches }) => {
                 let times = patches / triangles;
                 write!(
                     f,
                     "over patches a query is estimated to take {times:.1} times as long"
                 )
             }
-            Why::PatchesFaster(Estimate { triangles, patches }) => {
+            PieceReason::PatchesFaster(QueryTimes { triangles, patches }) => {
                 let times = triangles / patches;
                 write!(
                     f,

@@ -4,7 +4,7 @@ use super::element::Element;
 use crate::tolerance::box_rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::rounding::U64;
+use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 use ccd_core::vector::unit;
 
 /// An oriented box: its centre, half lengths along its axes, and a slack along the coordinate axes. The slack covers
@@ -46,7 +46,7 @@ impl OrientedBox {
             reach = greater(reach, p.abs().max_element());
         }
         // The difference and the three products above round by less than 16 units of the reach.
-        let slack = slack + 64.0 * U64 * reach;
+        let slack = slack + 64.0 * UNIT_ROUNDOFF_F64 * reach;
         OrientedBox {
             centre,
             axes,

@@ -2,7 +2,7 @@
 
 use super::oriented_box::OrientedBox;
 use super::region::{Hull, Shape};
-use crate::exact::predicates::{Projection, side, turn_along};
+use crate::exact::predicates::{Projection, line_side_along, side};
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::height_rounding;
 use std::cmp::Ordering;
@@ -129,7 +129,7 @@ fn add_axis_parallel_planes(
     hub: DVec3,
 ) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
-        let turn = |x: DVec3| turn_along(axis, [p, q], x);
+        let turn = |x: DVec3| line_side_along(axis, [p, q], x);
         let none = |of: Ordering| behind.iter().all(|&x| turn(x) != of);
         if none(Ordering::Greater) && turn(hub) != Ordering::Less {
             planes.push(Plane::new(p, [up, q - p]));

@@ -3,7 +3,7 @@
 use super::topology::{Edge, Topology};
 use crate::tally::Tally;
 use crate::work::WorkBudgetExhausted;
-use ccd_core::limits::LEAST_COORDINATE;
+use ccd_core::limits::LEAST_NONZERO_COORDINATE;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -20,7 +20,7 @@ pub enum DecomposeError {
     },
     /// Some faces of the mesh have no area.
     #[error("faces without area: {faces}; remove them, or use triangles")]
-    NoArea {
+    ZeroAreaFaces {
         /// The numbers of these faces.
         faces: Tally<u32>,
     },
@@ -46,7 +46,7 @@ pub enum DecomposeError {
     #[error(
         "the part with face {face} touches other parts at its corners; take the parts for themselves, or use triangles"
     )]
-    Entangled {
+    UnknownNesting {
         /// The number of a face of the part.
         face: u32,
     },
@@ -66,7 +66,9 @@ pub enum DecomposeError {
     #[error("use patches or a hull to have them however long it takes, or triangles")]
     TooLong,
     /// A coordinate is too near to 0 for exact predicates.
-    #[error("vertex {vertex} has a coordinate nearer to 0 than {LEAST_COORDINATE:e}; make it 0")]
+    #[error(
+        "vertex {vertex} has a coordinate nearer to 0 than {LEAST_NONZERO_COORDINATE:e}; make it 0"
+    )]
     TooFine {
         /// The number of the vertex.
         vertex: usize,

@@ -42,7 +42,7 @@ pub(crate) enum Dihedral {
 
 impl<'m> Manifold<'m> {
     /// Creates the manifold of a mesh by its edges alone: triangles may intersect, and parts may be inside out. It
-    /// takes a tenth of the time of [`bounding_solid`](super::bounding_solid).
+    /// takes a tenth of the time of [`solid_surface`](super::solid_surface).
     pub(crate) fn without_intersection_check(
         mesh: &'m TriangleMesh,
         topology: &Topology,
@@ -72,7 +72,7 @@ impl<'m> Manifold<'m> {
                 twins,
                 boxes: OnceLock::new(),
             }),
-            _ => Err(DecomposeError::NoArea { faces: flat }),
+            _ => Err(DecomposeError::ZeroAreaFaces { faces: flat }),
         }
     }
 

@@ -15,7 +15,7 @@ use crate::work::Work;
 /// points of the shell have the same winding number in the rest.
 ///
 /// # Errors
-/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) if the work does not suffice.
+/// [`DecomposeError`]; [`WorkBudgetExceeded`](DecomposeError::WorkBudgetExceeded) if the work does not suffice.
 pub(crate) fn check_orientation(
     manifold: &Manifold<'_>,
     work: &Work,
@@ -36,7 +36,7 @@ pub(crate) fn check_orientation(
         };
         work.check()?;
         let Some(around) = around else {
-            return Err(DecomposeError::Entangled { face });
+            return Err(DecomposeError::UnknownNesting { face });
         };
         // An outward shell adds 1 inside; behind the faces of an inward shell is its outside.
         let behind = if outward { around + 1 } else { around };

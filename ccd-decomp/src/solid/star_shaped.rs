@@ -3,7 +3,7 @@
 use super::manifold::Manifold;
 use crate::exact::predicates::side;
 use ccd_core::glam::DVec3;
-use ccd_core::limits::LEAST_COORDINATE;
+use ccd_core::limits::LEAST_NONZERO_COORDINATE;
 use std::cmp::Ordering;
 
 /// Returns whether the whole surface is visible from one of a few candidate points. A point sees the surface if it is
@@ -43,7 +43,7 @@ fn candidate_centres(manifold: &Manifold<'_>) -> [DVec3; 2] {
 /// Replaces coordinates that are too near to 0 for exact predicates by 0.
 fn with_tiny_coordinates_zeroed(p: DVec3) -> DVec3 {
     DVec3::select(
-        p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
+        p.abs().cmplt(DVec3::splat(LEAST_NONZERO_COORDINATE)),
         DVec3::ZERO,
         p,
     )

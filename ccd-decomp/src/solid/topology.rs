@@ -14,14 +14,14 @@ pub struct Topology {
     /// Edges with a single face, which are the boundaries of holes.
     pub boundary: Tally<Edge>,
     /// Edges with two faces in the same direction. One of the two faces has the wrong orientation.
-    pub flipped: Tally<Edge>,
+    pub flipped_edges: Tally<Edge>,
     /// Edges with more than two faces, with more in one direction than in the other.
-    pub branching: Tally<Edge>,
+    pub branching_edges: Tally<Edge>,
     /// Edges with more than two faces, equally many in both directions. Closed parts touch there.
-    pub shared: Tally<Edge>,
+    pub shared_edges: Tally<Edge>,
     /// Wrongly oriented shells, if other shells are right; one face of each. Bodies are made with these shells
     /// reversed.
-    pub wrong_way: Tally<u32>,
+    pub wrong_shells: Tally<u32>,
     /// Shells inside one shell that cross another, so that they may bound a solid or a cavity; one face of each.
     pub unclear: Tally<u32>,
     /// The enclosed volume after wrong shells are reversed, in cubic units of length. It is negative if all normals
@@ -71,9 +71,9 @@ impl Topology {
             let tally = match (uses.len(), 2 * backward == uses.len()) {
                 (2, true) => continue,
                 (1, _) => &mut topology.boundary,
-                (2, false) => &mut topology.flipped,
-                (_, false) => &mut topology.branching,
-                (_, true) => &mut topology.shared,
+                (2, false) => &mut topology.flipped_edges,
+                (_, false) => &mut topology.branching_edges,
+                (_, true) => &mut topology.shared_edges,
             };
             tally.add(Edge(v, w));
         }
@@ -81,7 +81,7 @@ impl Topology {
             return (topology, None);
         }
         let nesting = Nesting::new(mesh, &edges);
-        topology.wrong_way = nesting.wrong_shells;
+        topology.wrong_shells = nesting.wrong_shells;
         topology.unclear = nesting.unclear;
         let turned =
             (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));
@@ -99,19 +99,19 @@ impl Topology {
     /// Returns whether every edge has equally many faces in both directions. The winding number of a point off the
     /// surface is then a whole number, which defines the inside.
     pub fn is_closed(&self) -> bool {
-        self.boundary.is_empty() && self.flipped.is_empty() && self.branching.is_empty()
+        self.boundary.is_empty() && self.flipped_edges.is_empty() && self.branching_edges.is_empty()
     }
 
     /// Returns whether the mesh is closed, and no edge has more than two faces.
     pub fn is_manifold(&self) -> bool {
-        self.is_closed() && self.shared.is_empty()
+        self.is_closed() && self.shared_edges.is_empty()
     }
 
     /// Returns the change that would make the mesh a manifold, as advice in messages.
     pub(crate) fn advice(&self) -> &'static str {
-        if !(self.boundary.is_empty() && self.branching.is_empty()) {
+        if !(self.boundary.is_empty() && self.branching_edges.is_empty()) {
             "close the mesh"
-        } else if !self.flipped.is_empty() {
+        } else if !self.flipped_edges.is_empty() {
             "turn the faces that look the other way"
         } else {
             "take the parts for themselves"
@@ -156,19 +156,25 @@ impl fmt::Display for Topology {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let notes = [
             (&self.boundary, "edges with one face"),
-            (&self.flipped, "edges between faces that look opposite ways"),
-            (&self.branching, "unbalanced edges with more than two faces"),
-            (&self.shared, "edges shared by closed parts"),
+            (
+                &self.flipped_edges,
+                "edges between faces that look opposite ways",
+            ),
+            (
+                &self.branching_edges,
+                "unbalanced edges with more than two faces",
+            ),
+            (&self.shared_edges, "edges shared by closed parts"),
         ];
-        let torn = !(self.boundary.is_empty() && self.branching.is_empty());
+        let torn = !(self.boundary.is_empty() && self.branching_edges.is_empty());
         write!(f, "{}", if torn { "open" } else { "closed" })?;
-        if !self.flipped.is_empty() {
+        if !self.flipped_edges.is_empty() {
             write!(f, ", not all faces turned the same way")?;
         } else if self.is_closed() && self.orientation() == Orientation::Inward {
             write!(f, ", inside out: taken as turned outward")?;
         }
         let shells = [
-            (&self.wrong_way, "shells wound the wrong way, turned"),
+            (&self.wrong_shells, "shells wound the wrong way, turned"),
             (&self.unclear, "shells that may bound a solid or a cavity"),
         ];
         for (tally, what) in shells.iter().filter(|(tally, _)| !tally.is_empty()) {

@@ -1,6 +1,6 @@
 use super::error::{BodyError, SourceError};
 use super::{BodySource, parse_body};
-use crate::{Adjustments, Axis, Detail, MeshFault, MeshSource, Prepared, Unit};
+use crate::{Adjustments, Axis, Detail, MeshFault, MeshSource, PreparedBody, Unit};
 use ccd_core::Volume;
 use ccd_core::glam::dvec3;
 use rstest::rstest;
@@ -69,11 +69,11 @@ impl Tetrahedron {
     }
 
     /// Loads the file with words appended to its name.
-    fn with(&self, words: &str) -> Prepared {
+    fn with(&self, words: &str) -> PreparedBody {
         self.try_with(words).unwrap()
     }
 
-    fn try_with(&self, words: &str) -> Result<Prepared, BodyError> {
+    fn try_with(&self, words: &str) -> Result<PreparedBody, BodyError> {
         parse_body(&format!("{}{words}", self.0.display()), Detail::Auto)
     }
 }
@@ -85,7 +85,7 @@ impl Drop for Tetrahedron {
 }
 
 /// Returns the least and the greatest x coordinate of a body.
-fn x_range(prepared: &Prepared) -> [f64; 2] {
+fn x_range(prepared: &PreparedBody) -> [f64; 2] {
     let xs = prepared.body.pieces().points().iter().map(|p| p.x);
     let fold = |of: fn(f64, f64) -> f64| xs.clone().reduce(of).unwrap();
     [
@@ -223,7 +223,7 @@ fn primitives_are_single_solid_pieces() {
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]
 fn round_shapes_report_their_excess(#[case] text: &str, #[case] most: f64) {
-    let Prepared { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
+    let PreparedBody { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
     assert!((0.5 * most..=most).contains(&report.sticks_out), "{report}");
     assert!(!report.is_exact() && report.to_string().contains("sticking out by up to"));
     assert_eq!((body.pieces().len(), body.volume()), (1, Volume::Solid));

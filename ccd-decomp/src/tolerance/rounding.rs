@@ -1,10 +1,10 @@
 //! Bounds on rounding that proofs rely on: a smaller value breaks a guarantee.
 
 use ccd_core::glam::DVec3;
-use ccd_core::rounding::U64;
+use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 
 /// The distance between shells below which the centre of a face does not represent its shell. It is relative to the
-/// mesh's size and its distance from the origin. Rounding moves the centre off the face by 8 [`U64`] at most, and the
+/// mesh's size and its distance from the origin. Rounding moves the centre off the face by 8 [`UNIT_ROUNDOFF_F64`] at most, and the
 /// face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
@@ -17,13 +17,13 @@ pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 /// others on an edge are off by twice [`on_edge_distance`] more for each of three edges: 804u. 1024u are used. Voxels are
 /// widened by this margin, so that neighbours overlap.
 pub(crate) fn clip_rounding(farthest: f64) -> f64 {
-    1024.0 * U64 * farthest
+    1024.0 * UNIT_ROUNDOFF_F64 * farthest
 }
 
 /// Returns the distance from an edge within which a clipped point counts as on the edge. Coordinates are up to
 /// `farthest`, in the same unit. One cut moves a point by less than a third of it.
 pub(crate) fn on_edge_distance(farthest: f64) -> f64 {
-    64.0 * U64 * farthest
+    64.0 * UNIT_ROUNDOFF_F64 * farthest
 }
 
 /// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
@@ -35,7 +35,7 @@ pub(crate) fn on_edge_distance(farthest: f64) -> f64 {
 /// `2√3 m`, and its sum with the slack and this bound is off by `8u d m`, as `d` is at least 1. That is 16u; 128u are
 /// used, plus a term for underflow.
 pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
-    128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
+    128.0 * UNIT_ROUNDOFF_F64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 
 /// Returns a bound on the rounding error of a sum of triple products `a · (b × c)`, in the unit of the products. The
@@ -47,7 +47,7 @@ pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
 /// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms has a relative error of `u`, and an error of
 /// `2 n² u²` of their sizes. The size has a relative error of `(n + 16) u`. 32u are used, plus a term in `n²`.
 pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
-    (32.0 + 4.0 * terms * (terms * U64)) * U64 * size
+    (32.0 + 4.0 * terms * (terms * UNIT_ROUNDOFF_F64)) * UNIT_ROUNDOFF_F64 * size
 }
 
 /// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. The rounding error is 1e-15
@@ -59,5 +59,5 @@ pub(crate) const NEAREST_SLACK: f64 = 1e-9;
 pub(crate) const NEEDLE: f64 = 1e-4;
 
 /// The minimum sine of the angle at a corner of a facet whose plane is used. The error of the facet's normal is then
-/// at most `4 U64 / 1e-6`, less than [`NEAREST_SLACK`].
+/// at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`NEAREST_SLACK`].
 pub(crate) const MIN_CORNER_SINE: f64 = 1e-6;

@@ -4,7 +4,7 @@ use super::ClosedForm;
 use super::nearest::{Corners, Nearest};
 use super::pierce::common_point;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Instructions, Piece, PiecePair};
+use ccd_core::{Claim, DistanceOracle, Frame, GiveUpReason, Instructions, Piece, PiecePair};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rstest::rstest;
@@ -15,7 +15,7 @@ const BASE_TRIANGLE: [DVec3; 3] = [
     DVec3::new(0.0, 4.0, 0.0),
 ];
 
-fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
+fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUpReason> {
     let pair = PiecePair {
         a: Piece::from_points(a),
         b: Piece::from_points(b),
@@ -61,9 +61,15 @@ fn segments_and_points_keep_their_indices() {
 #[test]
 fn refuses_other_numbers_of_points() {
     let four = [DVec3::ZERO; 4];
-    assert_eq!(claim(&four, &BASE_TRIANGLE), Err(GiveUp::TooManyPoints));
-    assert_eq!(claim(&BASE_TRIANGLE, &four), Err(GiveUp::TooManyPoints));
-    assert_eq!(claim(&BASE_TRIANGLE, &[]), Err(GiveUp::TooManyPoints));
+    assert_eq!(
+        claim(&four, &BASE_TRIANGLE),
+        Err(GiveUpReason::TooManyPoints)
+    );
+    assert_eq!(
+        claim(&BASE_TRIANGLE, &four),
+        Err(GiveUpReason::TooManyPoints)
+    );
+    assert_eq!(claim(&BASE_TRIANGLE, &[]), Err(GiveUpReason::TooManyPoints));
 }
 
 /// Tests triangles that intersect although their boundaries are far apart.

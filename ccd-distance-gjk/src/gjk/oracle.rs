@@ -9,7 +9,7 @@ use super::start::Cache;
 use super::termination::{StopReason, gap_equals_distance};
 use crate::tolerance::{CERTIFIED_ULPS, MAX_FEATURE_AXIS_ROUNDS, MIN_CERTIFIED_SHARE};
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
+use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
 
 /// An oracle for the distance of two hulls of any number of points, by GJK `[GJK88]`.
 ///
@@ -43,7 +43,11 @@ pub struct Gjk;
 impl DistanceOracle for Gjk {
     type Cache = Cache;
 
-    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Cache,
+    ) -> Result<Claim, GiveUpReason> {
         let Some(difference) = MinkowskiDifference::new(pair) else {
             return Ok(EMPTY_CLAIM);
         };

@@ -29,7 +29,7 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     let (a, b) = scene.local();
     let place = |combination: &Combination, points: &[DVec3]| {
         combination
-            .of(points)
+            .position(points)
             .unwrap_or_else(|| panic!("{claim:?} names no point of {scene:?}"))
     };
     let n = claim.axis.try_normalize();

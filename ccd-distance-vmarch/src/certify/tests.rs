@@ -9,7 +9,7 @@ use crate::tests::setting::{cube, features, moved, needle, point, prepared, turn
 use crate::tests::shape;
 use crate::tolerance::CERTAIN_DISTANCE;
 use crate::witness::Witness;
-use ccd_core::GiveUp;
+use ccd_core::GiveUpReason;
 use ccd_core::glam::{DQuat, DVec3};
 
 /// Checks that every kind of end, at every pair of features, is certified at the same distance.
@@ -30,8 +30,8 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
                 let mut counters = Counters::default();
                 let answer = certify(placed, end, &mut counters);
                 let (_, claim) = answer.unwrap_or_else(|why| panic!("{why:?} from {end:?}"));
-                let on_a = claim.a.of(&a.points).expect("a point of A") - placed.a.0.origin;
-                let on_b = place(claim.b.of(&b.points).expect("a point of B"));
+                let on_a = claim.a.position(&a.points).expect("a point of A") - placed.a.0.origin;
+                let on_b = place(claim.b.position(&b.points).expect("a point of B"));
                 let distance = on_a.distance(on_b);
                 assert!(
                     (distance - truth).abs() < 1e-14,
@@ -77,13 +77,13 @@ fn positions_that_are_not_finite_are_given_up() {
         let mut counters = Counters::default();
         let cycle = certify(&placed, End::Cycle(pair), &mut counters);
         let cap = certify(&placed, End::StepLimit(pair), &mut counters);
-        assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
-        assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
+        assert!(matches!(cycle.err(), None | Some(GiveUpReason::Cycle)));
+        assert!(matches!(cap.err(), None | Some(GiveUpReason::StepCap)));
         // An end reported as a cycle is counted as one.
         for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
             let mut counters = Counters::default();
             let why = certify(&placed, end, &mut counters).err();
-            assert!(why != Some(GiveUp::Cycle) || counters.cycles > 0);
+            assert!(why != Some(GiveUpReason::Cycle) || counters.cycles > 0);
         }
     }
 }

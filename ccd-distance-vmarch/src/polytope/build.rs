@@ -5,23 +5,23 @@ use super::{Polytope, assemble, convex, merge};
 use crate::tolerance::{COPLANAR_DISTANCE, MAX_SCANNED_CORNERS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{GiveUp, Piece, SupportTree};
+use ccd_core::{GiveUpReason, Piece, SupportTree};
 
 impl Polytope {
     /// Prepares a piece for marching.
     ///
     /// # Errors
-    /// [`GiveUp::BadFacets`] for a piece without points, or with points that are not finite. Also
+    /// [`GiveUpReason::BadFacets`] for a piece without points, or with points that are not finite. Also
     /// for a piece of more than three points, not all on a line, whose facets are missing, do not
     /// close a surface, or are not those of a convex polytope.
     ///
     /// # Complexity
     /// n log n of the corners of all facets.
-    pub(crate) fn new(piece: &Piece<'_>) -> Result<Self, GiveUp> {
+    pub(crate) fn new(piece: &Piece<'_>) -> Result<Self, GiveUpReason> {
         let points = piece.points;
         let finite = points.iter().all(|p| p.is_finite());
         if points.is_empty() || !finite || u32::try_from(points.len()).is_err() {
-            return Err(GiveUp::BadFacets);
+            return Err(GiveUpReason::BadFacets);
         }
         let largest = points.iter().map(|p| p.abs().max_element());
         let rounding = COPLANAR_DISTANCE * largest.fold(0.0, greater);
@@ -34,7 +34,7 @@ impl Polytope {
             3 => Facets::of_triangle(points),
             _ => Facets::new(points, piece.facets.iter()),
         };
-        let facets = facets.ok_or(GiveUp::BadFacets)?;
+        let facets = facets.ok_or(GiveUpReason::BadFacets)?;
         // For needles thinner than 1e-10, facets within rounding of one plane need not form a convex polygon; they are
         // then separate faces.
         let merged = [rounding, 0.0].into_iter().find_map(|coplanar| {
@@ -42,7 +42,7 @@ impl Polytope {
             let polytope = Self::assembled(points, &ends, &loops);
             convex::is_convex(points, &polytope, rounding).then_some(polytope)
         });
-        merged.ok_or(GiveUp::BadFacets)
+        merged.ok_or(GiveUpReason::BadFacets)
     }
 
     fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {

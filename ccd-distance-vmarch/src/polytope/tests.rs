@@ -5,7 +5,7 @@ use crate::tests::setting::prepared;
 use crate::tests::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
-use ccd_core::{GiveUp, Piece};
+use ccd_core::{GiveUpReason, Piece};
 use rstest::rstest;
 
 /// Returns the numbers of corners, edges and faces.
@@ -209,7 +209,7 @@ fn assert_refused(points: &[DVec3], loops: &[&[u32]]) {
     };
     let pieces = shape.pieces();
     let made = Polytope::new(&pieces.get(0));
-    assert_eq!(made.err(), Some(GiveUp::BadFacets), "{shape:?}");
+    assert_eq!(made.err(), Some(GiveUpReason::BadFacets), "{shape:?}");
 }
 
 const TETRAHEDRON: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
@@ -315,6 +315,6 @@ fn loose_pieces_need_no_facets_up_to_three_points() {
         &[DVec3::INFINITY, DVec3::X],
     ] {
         let made = Polytope::new(&Piece::from_points(points));
-        assert_eq!(made.err(), Some(GiveUp::BadFacets));
+        assert_eq!(made.err(), Some(GiveUpReason::BadFacets));
     }
 }

@@ -7,7 +7,7 @@ use super::{Tally, cases};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
+use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUpReason, Piece, PiecePair};
 use rstest::rstest;
 
 /// Tests that claims about pieces that barely intersect, touch, or are barely apart are exact up to rounding.
@@ -43,8 +43,8 @@ fn touching_is_exact_up_to_rounding(
         };
         let claim = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
         let claim = claim.unwrap_or_else(|why| panic!("{why:?}"));
-        let on_a = claim.a.of(&cube.shape.points).expect("a point of A");
-        let on_b = b_to_a.point(claim.b.of(&other.shape.points).expect("a point of B"));
+        let on_a = claim.a.position(&cube.shape.points).expect("a point of A");
+        let on_b = b_to_a.point(claim.b.position(&other.shape.points).expect("a point of B"));
         let (a, b) = (
             ReferencePolytope::new(&cube.shape, &Frame::IDENTITY),
             ReferencePolytope::new(&other.shape, &b_to_a),
@@ -186,7 +186,10 @@ fn nonsense_ends() {
         b: nothing,
         b_to_a: Frame::IDENTITY,
     };
-    assert_eq!(oracle.separation(&pair, &mut cache), Err(GiveUp::BadFacets));
+    assert_eq!(
+        oracle.separation(&pair, &mut cache),
+        Err(GiveUpReason::BadFacets)
+    );
 }
 
 /// Tests a ball of triangles that spins over a plate, so that many features are almost equally near.
@@ -219,8 +222,8 @@ fn spinning_balls_are_as_near_as_their_lowest_corner() {
             .iter()
             .map(|p| b_to_a.point(*p).z)
             .fold(f64::MAX, lesser);
-        let on_a = claim.a.of(&plate.shape.points).expect("a point of A");
-        let on_b = b_to_a.point(claim.b.of(&ball.shape.points).expect("a point of B"));
+        let on_a = claim.a.position(&plate.shape.points).expect("a point of A");
+        let on_b = b_to_a.point(claim.b.position(&ball.shape.points).expect("a point of B"));
         assert!((on_a.distance(on_b) - (low - 0.1)).abs() < 1e-15);
     }
     let counters = oracle.counters();
@@ -336,7 +339,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
     struct FirstPointsOracle;
     impl DistanceOracle for FirstPointsOracle {
         type Cache = ();
-        fn separation(&mut self, _: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+        fn separation(&mut self, _: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
             Ok(Claim {
                 axis: DVec3::X,
                 a: Combination::point(0),
@@ -362,7 +365,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
     let (known, unknown) = (scene(&cube), scene(&bare));
     let mut alone = Vmarch::default();
     let refused = alone.separation(&unknown.pair(), &mut Cache::default());
-    assert_eq!(refused, Err(GiveUp::BadFacets));
+    assert_eq!(refused, Err(GiveUpReason::BadFacets));
     let mut oracle = Vmarch::default().or_else(FirstPointsOracle);
     let mut cache = Default::default();
     for (scene, fallbacks) in [(&known, 0), (&unknown, 1), (&known, 1), (&unknown, 2)] {

@@ -2,7 +2,7 @@
 
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
-use ccd_core::{Facet, Origin, Pieces, Polytope};
+use ccd_core::{Facet, FacetOrigin, Pieces, Polytope};
 pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;
 use std::cmp::Ordering;
@@ -19,7 +19,7 @@ impl Shape {
     /// Returns a list of this piece alone.
     pub(crate) fn pieces(&self) -> Pieces {
         let facet = |corners: &Vec<u32>| Facet {
-            origin: Origin::Virtual,
+            origin: FacetOrigin::Virtual,
             corners: corners.clone(),
         };
         let polytope = Polytope {

@@ -17,8 +17,8 @@ fn witness(
     let placed = moved(&one, &other, at);
     let witness = Witness::new(&placed, of(&one, &other));
     let claim = witness.claim;
-    let on_a = claim.a.of(&a.points).expect("a point of A");
-    let on_b = claim.b.of(&b.points).expect("a point of B") + at;
+    let on_a = claim.a.position(&a.points).expect("a point of A");
+    let on_b = claim.b.position(&b.points).expect("a point of B") + at;
     // The witness is relative to the middle of A.
     assert!((on_a - one.origin).distance(witness.points[0]) < 1e-15);
     assert!((on_b - one.origin).distance(witness.points[1]) < 1e-15);

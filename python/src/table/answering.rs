@@ -1,14 +1,14 @@
 //! Answers the rows of a table on all cores.
 
-use super::batch::{Names, id_field, unreadable};
+use super::batch::{IdReading, id_field, unreadable};
 use super::input::Reader;
-use super::pieces::{Piece, PieceSize, Pieces, check};
+use super::pieces::{ChunkSize, Piece, Pieces, check};
 use super::results;
 use arrow_array::RecordBatch;
 use rigid_ccd::answer::Limit;
-use rigid_ccd::batch::{Bodies, Question, TimedAnswer, on_threads};
+use rigid_ccd::batch::{Bodies, Question, TimedAnswer, parallel_solver};
 use rigid_ccd::table::columns::Columns;
-use rigid_ccd::table::courses::{Course, CourseRow};
+use rigid_ccd::table::courses::{CourseRow, Movements};
 use rigid_ccd::table::motions::{RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
 use rigid_ccd::{InputError, Remark, Settings, Solver};
@@ -50,14 +50,14 @@ pub(crate) fn answer(
     let columns = check(&reader)?;
     let schema = results::schema(asked.question, id_field(&reader.schema()));
     let schema = Arc::new(schema.map_err(unreadable)?);
-    let settings = stopped_by(asked, stop);
+    let settings = settings_with_stop(asked, stop);
     let asked = TableQuestion {
         settings: &settings,
         ..asked
     };
-    let mut solver = on_threads(asked.threads, Solver::new);
-    let (size, source) = (PieceSize::new(solver.threads()), (reader, &columns));
-    let mut pieces = Pieces::new(source, asked.question, Names::LeftOut, &size, stop)?;
+    let mut solver = parallel_solver(asked.threads, Solver::new);
+    let (size, source) = (ChunkSize::new(solver.threads()), (reader, &columns));
+    let mut pieces = Pieces::new(source, asked.question, IdReading::Skipped, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = rows(asked, &piece, &columns, solver, stop);
@@ -114,12 +114,12 @@ pub(crate) fn answer_rows(
     reader: Reader,
     wanted: &HashSet<usize>,
     stop: &Arc<AtomicBool>,
-    mut take: impl FnMut(&Course, &ResultRow),
+    mut take: impl FnMut(&Movements, &ResultRow),
 ) -> Result<(), TableError> {
     let columns = check(&reader)?;
-    let (size, source) = (PieceSize::new(1), (reader, &columns));
-    let mut pieces = Pieces::new(source, asked.question, Names::Read, &size, stop)?;
-    let settings = stopped_by(asked, stop);
+    let (size, source) = (ChunkSize::new(1), (reader, &columns));
+    let mut pieces = Pieces::new(source, asked.question, IdReading::Read, &size, stop)?;
+    let settings = settings_with_stop(asked, stop);
     let asked = TableQuestion {
         settings: &settings,
         ..asked
@@ -142,7 +142,7 @@ pub(crate) fn answer_rows(
 }
 
 /// Returns the settings of the question with `stop` as the flag that stops queries.
-fn stopped_by(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
+fn settings_with_stop(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Settings {
     Settings {
         stop: Some(Arc::clone(stop)),
         ..asked.settings.clone()
@@ -165,7 +165,7 @@ fn answer_row(asked: TableQuestion<'_>, row: &CourseRow, solver: &mut Solver) ->
 
 fn timed(
     asked: TableQuestion<'_>,
-    course: &Course,
+    course: &Movements,
     solver: &mut Solver,
 ) -> Result<TimedAnswer, InputError> {
     let start = Instant::now();

@@ -1,6 +1,6 @@
 //! Converts rows of Arrow columns to the form that the library reads.
 
-use super::input::{ID, Reader, TIME};
+use super::input::{ID_COLUMN, Reader, TIME_COLUMN};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type, UInt64Type};
 use arrow_array::{Array, ArrayRef, ArrowPrimitiveType, Float64Array, Int64Array, RecordBatch};
@@ -22,7 +22,7 @@ pub(crate) struct Batch {
     pub(crate) rows: usize,
     /// The column `id` with the caller's own values.
     id: Option<ArrayRef>,
-    names: Names,
+    names: IdReading,
     /// The other columns as numbers; `None` in the place of `id`.
     columns: Vec<Option<Numbers>>,
 }
@@ -32,14 +32,14 @@ pub(crate) struct Batch {
 struct Numbers {
     values: Float64Array,
     /// Whole numbers that float64 cannot represent exactly, by row index; `None` if there are none.
-    inexact: Option<HashMap<usize, String>>,
+    inexact_integers: Option<HashMap<usize, String>>,
 }
 
 /// Whether ids are read as text; results always have the caller's own values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Names {
+pub(crate) enum IdReading {
     Read,
-    LeftOut,
+    Skipped,
 }
 
 /// One row of a batch.
@@ -61,13 +61,13 @@ pub(crate) fn header(schema: &Schema) -> Vec<String> {
 
 /// Refuses columns that are not numbers, and types of ids whose texts may collide.
 pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
-    let has_paths = schema.field_with_name(TIME).is_ok();
+    let has_paths = schema.field_with_name(TIME_COLUMN).is_ok();
     for field in schema.fields() {
         let kind = decoded_type(field.data_type());
-        let (fits, needed) = if field.name() != ID {
+        let (fits, needed) = if field.name() != ID_COLUMN {
             (is_numeric(kind), "numbers")
         } else if has_paths {
-            (is_name(kind), "text, numbers or times")
+            (is_id_type(kind), "text, numbers or times")
         } else {
             (true, "")
         };
@@ -81,12 +81,12 @@ pub(crate) fn check_types(schema: &Schema) -> Result<(), String> {
 
 /// Returns the column of ids in the results: the original one, or the row indices.
 pub(crate) fn id_field(schema: &Schema) -> Field {
-    match schema.field_with_name(ID) {
+    match schema.field_with_name(ID_COLUMN) {
         Ok(field) => field
             .clone()
             .with_data_type(decoded_type(field.data_type()).clone())
             .with_nullable(true),
-        Err(_) => Field::new(ID, DataType::Int64, true),
+        Err(_) => Field::new(ID_COLUMN, DataType::Int64, true),
     }
 }
 
@@ -124,7 +124,7 @@ fn is_numeric(kind: &DataType) -> bool {
     kind.is_null() || kind.is_numeric()
 }
 
-fn is_name(kind: &DataType) -> bool {
+fn is_id_type(kind: &DataType) -> bool {
     let is_bytes = kind.is_binary() || matches!(kind, DataType::FixedSizeBinary(_));
     let is_time = kind.is_temporal() && !matches!(kind, DataType::Interval(_));
     let is_simple = kind.is_null() || kind.is_numeric() || *kind == DataType::Boolean;
@@ -137,13 +137,13 @@ pub(crate) fn unreadable(error: ArrowError) -> TableError {
 
 impl Batch {
     /// Creates a batch from checked columns. Columns of float64 are not copied.
-    fn new(batch: &RecordBatch, first: usize, names: Names) -> Result<Self, TableError> {
+    fn new(batch: &RecordBatch, first: usize, names: IdReading) -> Result<Self, TableError> {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
             let column =
                 decoded_column(column, decoded_type(field.data_type())).map_err(unreadable)?;
-            columns.push(if field.name() == ID {
+            columns.push(if field.name() == ID_COLUMN {
                 id = Some(column);
                 None
             } else {
@@ -194,7 +194,7 @@ impl Numbers {
         let values = values.map_err(unreadable)?;
         Ok(Numbers {
             values: values.as_primitive::<Float64Type>().clone(),
-            inexact,
+            inexact_integers: inexact,
         })
     }
 }
@@ -216,7 +216,7 @@ impl Record for Row {
     fn text(&self, _: usize) -> Option<String> {
         let id = self.batch.id.as_ref()?;
         let is_null = id.is_null(self.at) || id.data_type().is_null();
-        if self.batch.names == Names::LeftOut || is_null {
+        if self.batch.names == IdReading::Skipped || is_null {
             return None;
         }
         let options = FormatOptions::default();
@@ -235,7 +235,7 @@ impl Record for Row {
         if column.values.is_null(self.at) {
             return Ok(None);
         }
-        if let Some(inexact) = &column.inexact
+        if let Some(inexact) = &column.inexact_integers
             && let Some(whole) = inexact.get(&self.at)
         {
             return Err(whole.clone());
@@ -251,11 +251,11 @@ impl Record for Row {
 pub(crate) struct Batches {
     reader: Reader,
     rows: usize,
-    names: Names,
+    names: IdReading,
 }
 
 impl Batches {
-    pub(crate) fn new(reader: Reader, names: Names) -> Self {
+    pub(crate) fn new(reader: Reader, names: IdReading) -> Self {
         Batches {
             reader,
             rows: 0,
@@ -306,7 +306,7 @@ pub(crate) struct Rows {
 impl Rows {
     /// Creates the iterator over all rows of a table.
     pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
-        let batch = Arc::new(Batch::new(table, 0, Names::Read)?);
+        let batch = Arc::new(Batch::new(table, 0, IdReading::Read)?);
         Ok(Rows {
             header: header(&table.schema()),
             current: Row { batch, at: 0 },

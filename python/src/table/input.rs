@@ -1,7 +1,7 @@
 //! Reads tables of motions from Python objects.
 
 use super::capsule;
-use crate::arrays::{kind, plain};
+use crate::arrays::{kind, numpy_array};
 use crate::errors::{catching_panics, input_error, input_error_from, wrong_type};
 use arrow_array::{
     Array, ArrayRef, Int64Array, RecordBatch, RecordBatchIterator, RecordBatchReader, StringArray,
@@ -86,7 +86,11 @@ fn without_nulls<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
     for column in frame.getattr("schema")?.call_method0("items")?.try_iter()? {
         let (name, kind): (String, Bound<'_, PyAny>) = column?.extract()?;
         if kind.eq(polars.getattr("Null")?)? {
-            let as_kind = if name == ID { "String" } else { "Float64" };
+            let as_kind = if name == ID_COLUMN {
+                "String"
+            } else {
+                "Float64"
+            };
             types.set_item(name, polars.getattr(as_kind)?)?;
         }
     }
@@ -108,7 +112,7 @@ fn without_index<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> 
 
 /// Returns the number of answers if the table knows its number of rows; `None` for a table of paths.
 pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
-    if reader.schema().field_with_name(TIME).is_ok() {
+    if reader.schema().field_with_name(TIME_COLUMN).is_ok() {
         return None;
     }
     match motions.cast::<PyMapping>() {
@@ -118,9 +122,9 @@ pub(crate) fn rows(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize>
 }
 
 /// The name of the column of ids.
-pub(crate) const ID: &str = "id";
+pub(crate) const ID_COLUMN: &str = "id";
 /// The name of the column of times in a table of paths.
-pub(crate) const TIME: &str = "t";
+pub(crate) const TIME_COLUMN: &str = "t";
 
 fn reader_of_batch(batch: RecordBatch) -> Reader {
     let schema = batch.schema();
@@ -152,10 +156,10 @@ fn batch_of_arrays(columns: &Bound<'_, PyMapping>) -> PyResult<RecordBatch> {
 fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let what = format!("column {name}");
     let numpy = values.py().import("numpy")?;
-    if name == ID && !values.is_instance(&numpy.getattr("ndarray")?)? {
+    if name == ID_COLUMN && !values.is_instance(&numpy.getattr("ndarray")?)? {
         return ids(values);
     }
-    let array = plain(values, &what)?;
+    let array = numpy_array(values, &what)?;
     let dimensions: usize = array.getattr("ndim")?.extract()?;
     if dimensions != 1 {
         return Err(input_error(format!(
@@ -165,7 +169,7 @@ fn column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let dtype = array.getattr("dtype")?;
     match (name, kind(&array)?) {
         (_, 'i' | 'u') => contiguous(&array, &dtype.call_method1("newbyteorder", ("=",))?),
-        (ID, _) => ids(&array.call_method0("tolist")?),
+        (ID_COLUMN, _) => ids(&array.call_method0("tolist")?),
         (_, 'f') => contiguous(&array, PyString::new(values.py(), "float64").as_any()),
         _ => Err(input_error(format!(
             "{what}: numbers are needed, not {dtype}"

@@ -73,7 +73,7 @@ fn texts<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>>
 }
 
 fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
-    if let Some(kind) = without_objects(column.data_type()) {
+    if let Some(kind) = unconvertible_type(column.data_type()) {
         return Err(refuse(format!(
             "there are no objects of Python for values of type {kind}; take the table through Arrow, as pyarrow.table(t)"
         )));
@@ -99,7 +99,7 @@ fn objects<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny
 }
 
 /// Returns the nested type in a column whose values `to_pylist` cannot convert.
-fn without_objects(kind: &DataType) -> Option<&DataType> {
+fn unconvertible_type(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::ListView(_)
         | DataType::LargeListView(_)
@@ -111,20 +111,20 @@ fn without_objects(kind: &DataType) -> Option<&DataType> {
                     .iter()
                     .all(|name| fields.find(name).is_some()) =>
             {
-                without_objects(entries.data_type())
+                unconvertible_type(entries.data_type())
             }
             _ => Some(kind),
         },
         DataType::List(values)
         | DataType::LargeList(values)
-        | DataType::FixedSizeList(values, _) => without_objects(values.data_type()),
-        DataType::Dictionary(_, values) => without_objects(values),
+        | DataType::FixedSizeList(values, _) => unconvertible_type(values.data_type()),
+        DataType::Dictionary(_, values) => unconvertible_type(values),
         DataType::Struct(fields) => fields
             .iter()
-            .find_map(|field| without_objects(field.data_type())),
+            .find_map(|field| unconvertible_type(field.data_type())),
         DataType::Union(fields, _) => fields
             .iter()
-            .find_map(|(_, field)| without_objects(field.data_type())),
+            .find_map(|(_, field)| unconvertible_type(field.data_type())),
         _ => None,
     }
 }

@@ -1,12 +1,12 @@
 //! Splits a table into pieces, each answered by one thread.
 
-use super::batch::{Batch, Batches, Names, Row, Rows, check_types, header, unreadable, whole};
+use super::batch::{Batch, Batches, IdReading, Row, Rows, check_types, header, unreadable, whole};
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::Remark;
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::columns::Columns;
-use rigid_ccd::table::courses::{Course, CourseRow, Courses};
+use rigid_ccd::table::courses::{CourseRow, Courses, Movements};
 use rigid_ccd::table::motions::{self, RowError, TableError};
 use std::ops::Range;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub(crate) enum Piece {
 /// An iterator over the pieces of a table, in order, until the flag is set.
 pub(crate) struct Pieces<'p> {
     source: Source,
-    size: &'p PieceSize,
+    size: &'p ChunkSize,
     stop: &'p AtomicBool,
     /// The error of the table that follows the last piece.
     pub(crate) fault: Option<TableError>,
@@ -43,22 +43,22 @@ enum Source {
 ///
 /// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
 /// end of a batch pieces get smaller, so that no thread waits long for the others.
-pub(crate) struct PieceSize {
+pub(crate) struct ChunkSize {
     rows: AtomicUsize,
     threads: usize,
 }
 
 /// The target duration of answering a piece.
-const PIECE_DURATION: Duration = Duration::from_millis(20);
+const TARGET_CHUNK_DURATION: Duration = Duration::from_millis(20);
 
 /// The maximum number of rows in a piece.
-const MOST_ROWS: usize = 512;
+const MAX_CHUNK_ROWS: usize = 512;
 
-impl PieceSize {
+impl ChunkSize {
     /// Starts with pieces of one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
-        PieceSize { rows, threads }
+        ChunkSize { rows, threads }
     }
 
     /// Returns the number of rows of the next piece, if `left` rows remain.
@@ -70,10 +70,10 @@ impl PieceSize {
     /// Adapts the size of later pieces: `rows` rows took the time `taken`.
     pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch is no reason for smaller pieces.
-        if taken < PIECE_DURATION / 2 {
+        if taken < TARGET_CHUNK_DURATION / 2 {
             self.rows
-                .fetch_max(MOST_ROWS.min(2 * rows), Ordering::Relaxed);
-        } else if taken > 2 * PIECE_DURATION {
+                .fetch_max(MAX_CHUNK_ROWS.min(2 * rows), Ordering::Relaxed);
+        } else if taken > 2 * TARGET_CHUNK_DURATION {
             self.rows.store((rows / 2).max(1), Ordering::Relaxed);
         }
     }
@@ -92,11 +92,11 @@ impl<'p> Pieces<'p> {
     pub(crate) fn new(
         (reader, columns): (Reader, &Columns),
         question: Question,
-        names: Names,
-        size: &'p PieceSize,
+        names: IdReading,
+        size: &'p ChunkSize,
         stop: &'p AtomicBool,
     ) -> Result<Self, TableError> {
-        let source = if columns.are_of_paths() {
+        let source = if columns.is_path_table() {
             let rows = Rows::new(&whole(reader, stop).map_err(unreadable)?)?;
             let batch = rows.batch();
             Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
@@ -142,7 +142,7 @@ impl Iterator for Pieces<'_> {
 
 impl Source {
     /// Returns the next piece, which is empty only for an empty batch.
-    fn next(&mut self, size: &PieceSize) -> Result<Option<Piece>, TableError> {
+    fn next(&mut self, size: &ChunkSize) -> Result<Option<Piece>, TableError> {
         match self {
             Source::Motions { batches, rest } => {
                 let (batch, rows) = match rest.take() {
@@ -215,7 +215,7 @@ fn course(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
         at,
     };
     match motions::query(columns, &record, row) {
-        Ok(query) => Ok((position, Course::Motions(query))),
+        Ok(query) => Ok((position, Movements::Motions(query))),
         Err(problem) => Err(RowError {
             position,
             id: String::new(),

@@ -38,13 +38,13 @@ fn equal_forms_share_a_body_and_others_do_not() {
 fn the_longest_unused_goes_first() {
     let mut body_cache = BodyCache::default();
     let used = body_cache.body(ball(0.5)).expect("a body");
-    for k in 0..2 * KEPT_BODIES {
+    for k in 0..2 * MAX_CACHED_BODIES {
         body_cache.body(ball(1.0 + k as f64)).expect("a body");
         let again = body_cache.body(ball(0.5)).expect("a body");
         assert!(Arc::ptr_eq(&used, &again));
-        assert!(body_cache.len() <= KEPT_BODIES);
+        assert!(body_cache.len() <= MAX_CACHED_BODIES);
     }
-    assert_eq!(body_cache.len(), KEPT_BODIES);
+    assert_eq!(body_cache.len(), MAX_CACHED_BODIES);
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn travel_and_turn_stay_within_the_engines_limits() {
     let Horizon::Part(duration) = Horizon::new([spins, still(1.0)], 0.0, 1e9) else {
         panic!("it turns too often");
     };
-    assert!(duration * 1e3 < MAX_TURN && duration * 1e3 > 0.99 * MAX_TURN);
+    assert!(duration * 1e3 < MAX_ROTATION_ANGLE && duration * 1e3 > 0.99 * MAX_ROTATION_ANGLE);
     // Both bodies are fast, but have almost no relative velocity.
     let [a, b] =
         [1e9, 1e9 + 1e-3].map(|v| motion_with_extent([0.0; 3], [v, 0.0, 0.0], [0.0; 3], 1e3));

@@ -69,7 +69,9 @@ fn direction_between_cores(
     let (a, b) = (a?, b?);
     let found = solver.distance((&a, poses[0]), (&b, poses[1])).ok()?;
     match found.outcome {
-        Outcome::Measured { lower, contact, .. } if lower > 0.0 => Some(contact.separation.normal),
+        Outcome::LeastDistance { lower, contact, .. } if lower > 0.0 => {
+            Some(contact.separation.normal)
+        }
         _ => None,
     }
 }

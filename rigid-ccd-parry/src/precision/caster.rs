@@ -103,7 +103,7 @@ impl Caster {
     /// arguments are those of [`Caster::cast_shapes_nonlinear`].
     ///
     /// # Errors
-    /// [`CastError`]; [`CastError::NoTime`] for an end before the start.
+    /// [`CastError`]; [`CastError::EmptyInterval`] for an end before the start.
     #[doc = ""]
     #[doc = "```"]
     #[doc = concat!("use ", parry!(), "::math::{Pose, Vector};")]
@@ -136,7 +136,7 @@ impl Caster {
         let (motions, times) = ([motion1, motion2], [start_time, end_time]);
         let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
         let [a, b] = CastError::of_shapes([g1, g2].map(|shape| self.prepared_shape(shape)))?;
-        let cast = cast.ok_or(CastError::NoTime)?;
+        let cast = cast.ok_or(CastError::EmptyInterval)?;
         cast.with_scene([&a, &b], |scene| Ok(Recording::new(scene)))
     }
 

@@ -8,12 +8,12 @@ use super::library::shape::{
 };
 use crate::form::ShapeGeometry;
 use crate::half_space::HalfSpace;
-use crate::limits::{DEEPEST, FARTHEST_VOXEL};
+use crate::limits::{MAX_NESTING_DEPTH, MAX_VOXEL_COORDINATE};
 use crate::order::{greater, length};
 use crate::tolerance::VOXEL_ROUNDING;
 use crate::{Meshes, Options, Prepared, ShapeError};
 use ccd_core::glam::DVec3;
-use ccd_core::{InputError, Round};
+use ccd_core::{InputError, SolidOfRevolution};
 
 /// Makes the body of a shape, for casts and all other questions of [`rigid_ccd::Solver`].
 ///
@@ -107,8 +107,8 @@ fn geometry_at_depth(
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
 fn round_geometry(shape: &TypedShape<'_>, options: &Options) -> Result<ShapeGeometry, ShapeError> {
-    let cylinder = |s: &Cylinder| round(Round::cylinder, s.half_height, s.radius);
-    let cone = |s: &Cone| round(Round::cone, s.half_height, s.radius);
+    let cylinder = |s: &Cylinder| round(SolidOfRevolution::cylinder, s.half_height, s.radius);
+    let cone = |s: &Cone| round(SolidOfRevolution::cone, s.half_height, s.radius);
     let (made, grown) = match shape {
         TypedShape::Cylinder(s) => (cylinder(s), 0.0),
         TypedShape::Cone(s) => (cone(s), 0.0),
@@ -124,10 +124,10 @@ fn round_geometry(shape: &TypedShape<'_>, options: &Options) -> Result<ShapeGeom
 }
 
 fn round(
-    make: fn(f64, f64) -> Result<Round, InputError>,
+    make: fn(f64, f64) -> Result<SolidOfRevolution, InputError>,
     half_height: Real,
     radius: Real,
-) -> Result<Round, ShapeError> {
+) -> Result<SolidOfRevolution, ShapeError> {
     let half_height = size("half height", half_height)?;
     make(size("radius", radius)?, half_height).map_err(ShapeError::Body)
 }
@@ -190,7 +190,7 @@ fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeErr
     let near = |v: IVector| {
         [v.x, v.y, v.z]
             .into_iter()
-            .all(|k| i64::from(k).unsigned_abs() <= FARTHEST_VOXEL as u64)
+            .all(|k| i64::from(k).unsigned_abs() <= MAX_VOXEL_COORDINATE as u64)
     };
     // parry finds voxels by rounded divisions.
     let sizes = 1e-30..=1e30;
@@ -218,7 +218,7 @@ fn push_parts(
     options: &Options,
     depth: usize,
 ) -> Result<(), ShapeError> {
-    if depth >= DEEPEST {
+    if depth >= MAX_NESTING_DEPTH {
         return Err(ShapeError::Nested);
     }
     for (part, (at, shape)) in (0..).zip(compound.shapes()) {

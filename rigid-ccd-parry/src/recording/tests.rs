@@ -140,5 +140,5 @@ fn a_place_that_cannot_be_written_is_named() {
 fn an_interval_without_time_is_refused() {
     let (ball, rests) = (SharedShape::ball(1.0), NonlinearRigidMotion::identity());
     let recorded = Caster::default().record(&rests, &ball, &rests, &ball, 1.0, 0.0, true);
-    assert_eq!(recorded.err(), Some(crate::CastError::NoTime));
+    assert_eq!(recorded.err(), Some(crate::CastError::EmptyInterval));
 }

@@ -299,7 +299,13 @@ fn cylinders_are_early_by_at_most_the_excess() {
     assert!(fine <= exact && fine > exact - 1.0 / 4096.0 - 2e-6);
     let refused = cast(Excess::Refuse).expect_err("refused");
     let error = ShapeError::Round;
-    assert_eq!(refused, CastError::Shape { which: 1, error });
+    assert_eq!(
+        refused,
+        CastError::Shape {
+            shape_number: 1,
+            error
+        }
+    );
     let impossible = cast(Excess::Length(1e-12)).expect_err("refused");
     assert!(
         impossible.to_string().contains("too many corners"),

@@ -5,7 +5,7 @@ use crate::Solver;
 use crate::parallel::CachePadded;
 use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{
-    Answer, Body, Bound, DistanceOracle, InputError, Instructions, OrElse, Query, Schedule,
+    Answer, Body, DistanceOracle, InputError, Instructions, OrElse, Query, Schedule, VelocityBound,
 };
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -45,11 +45,11 @@ pub enum BoundKind {
     Published,
 }
 
-impl From<BoundKind> for Bound {
+impl From<BoundKind> for VelocityBound {
     fn from(kind: BoundKind) -> Self {
         match kind {
-            BoundKind::Sound => Bound::Sound,
-            BoundKind::Published => Bound::Published,
+            BoundKind::Sound => VelocityBound::Sound,
+            BoundKind::Published => VelocityBound::Published,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Queries answered and timed with a method chosen at run time.
 
 use super::{Bodies, Question, Solve, SolverKind, TimedAnswer, median};
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
 use crate::table::results::ResultRow;
 use ccd_core::Settings;
@@ -26,7 +26,7 @@ impl Timing {
     pub(crate) fn row(
         &self,
         bodies: Bodies<'_>,
-        course: &Course,
+        course: &Movements,
         answer: &Result<TimedAnswer, RowProblem>,
     ) -> ResultRow {
         bodies.row(self.question, &self.settings, course, answer)
@@ -53,7 +53,7 @@ impl Default for Timing {
 /// The query is not valid, or the method does not answer the question.
 pub(crate) fn time(
     bodies: Bodies<'_>,
-    course: &Course,
+    course: &Movements,
     timing: &Timing,
     solver: &mut dyn Solve,
 ) -> Result<TimedAnswer, RowProblem> {

@@ -4,8 +4,8 @@ use super::bad_rows::BadRows;
 use super::files::{Rows, input_name};
 use super::progress::Progress;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, Timing, on_threads, time};
-use crate::table::courses::{Course, CourseRow};
+use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, Timing, parallel_solver, time};
+use crate::table::courses::{CourseRow, Movements};
 use crate::table::motions::{RowPosition, RowProblem, TableError};
 use crate::table::results::ResultRow;
 use std::path::Path;
@@ -31,7 +31,7 @@ pub(super) struct Batch {
 pub(super) struct AnsweredRow<'b> {
     pub(super) position: RowPosition,
     /// The motions or paths of the row; `None` for a row that cannot be read.
-    pub(super) course: Option<&'b Course>,
+    pub(super) course: Option<&'b Movements>,
     pub(super) row: ResultRow,
     /// The answer with its duration; `None` for a row with an error.
     pub(super) timed_answer: Option<&'b TimedAnswer>,
@@ -46,7 +46,7 @@ impl<'a> BatchRun<'a> {
         motions: &Path,
         progress: Progress,
     ) -> Self {
-        let solver = on_threads(threads, || {
+        let solver = parallel_solver(threads, || {
             timing.method.solver(timing.settings.instructions)
         });
         BatchRun {

@@ -9,7 +9,7 @@ use super::pair::{BodiesArgs, Pair};
 use super::progress::Progress;
 use super::table::Table;
 use super::view::title;
-use super::{Exit, complain};
+use super::{Exit, print_error};
 use crate::batch::{Question, SolverKind, Timing};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
 use crate::table::results::{COLUMNS, Line, Status, names};
@@ -195,7 +195,7 @@ impl Audit<'_> {
     fn finish(self) -> Result<Exit> {
         drop(self.batch_run.progress);
         self.out.finish()?;
-        self.batch_run.bad_rows.close();
+        self.batch_run.bad_rows.print_total();
         let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
             let others = self.counts.nonzero();
@@ -203,14 +203,14 @@ impl Audit<'_> {
                 .filter(|(status, _)| *status != Status::Free)
                 .map(|(status, count)| format!(", {count} {}", status.name()))
                 .collect();
-            complain(&format!(
+            print_error(&format!(
                 "{free} of {rows} rows are free: that is proven{others}"
             ));
             if let Some((pages, _)) = self
                 .pages
                 .filter(|(pages, _)| pages.len() == self.args.most_pages)
             {
-                complain(&format!(
+                print_error(&format!(
                     "wrote {} pages, and no more: see --most-pages",
                     pages.len()
                 ));
@@ -233,7 +233,7 @@ fn page_path(written: Result<PathBuf, PagesError>) -> Result<Option<String>, Can
             source,
         }),
         Err(error) => {
-            complain(&error.to_string());
+            print_error(&error.to_string());
             Ok(None)
         }
     }

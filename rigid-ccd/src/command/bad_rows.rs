@@ -1,6 +1,6 @@
 //! Reports rows of a table that cannot be read.
 
-use super::complain;
+use super::print_error;
 use crate::command::progress::Progress;
 use crate::table::motions::RowPosition;
 use std::fmt::Display;
@@ -25,15 +25,15 @@ impl BadRows {
         self.count += 1;
         if self.count <= MAX_PRINTED_ROWS {
             let message = format!("{}, {position}: {problem}", self.input);
-            progress.aside(|| complain(&message));
+            progress.aside(|| print_error(&message));
         }
     }
 
     /// Prints the total number of bad rows, if not all of them were printed.
-    pub fn close(&self) {
+    pub fn print_total(&self) {
         if self.count > MAX_PRINTED_ROWS {
             let BadRows { input, count } = self;
-            complain(&format!(
+            print_error(&format!(
                 "{input}: {count} bad rows in all; see column `reason` of the results"
             ));
         }

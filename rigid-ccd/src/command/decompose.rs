@@ -11,8 +11,8 @@ use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    Detail, MeshSource, Model, Order, PrepareError, STORED_EXTENSION, StoreFault, TriangleMesh,
-    build_hull_tree, prepare, write_obj_pieces,
+    Detail, MeshSource, Model, PatchOrder, PrepareError, STORED_EXTENSION, StoreFault,
+    TriangleMesh, build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
 use statistics::Statistics;
@@ -33,7 +33,7 @@ pub(super) struct DecomposeArgs {
     meshes: MeshArgs,
     /// Order in which --pieces patches grow [default: cresting]
     #[arg(long, value_parser = named_value_parser(ORDERS))]
-    order: Option<Order>,
+    order: Option<PatchOrder>,
     /// Also build the tree of convex hulls, for `ccd query --schedule fast`
     #[arg(long)]
     hull_tree: bool,
@@ -109,7 +109,9 @@ enum Form {
 /// Runs `ccd decompose`: prepares the mesh, writes the output file if any, and prints the statistics.
 pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     let mut source = MeshSource::try_from(args.mesh.clone())?;
-    source.adjustments = source.adjustments.and(&args.meshes.adjustments())?;
+    source.adjustments = source
+        .adjustments
+        .combined_with(&args.meshes.adjustments())?;
     check_mesh(&source.file)?;
     let detail = source.detail(args.detail()?);
     let out = args.out.as_deref().map(|out| claim(out, &source.file));

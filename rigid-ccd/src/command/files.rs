@@ -6,7 +6,7 @@ use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
 use crate::table::paths::Grouping;
 use anyhow::{Context, Result, anyhow, bail};
-use ccd_file::{PARTIAL, end_of_links};
+use ccd_file::{PARTIAL_EXTENSION, resolve_links};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -22,8 +22,8 @@ pub fn refuse_overwriting(
     if same_file(source, target) {
         bail!("{written} would overwrite the file of {read}; give {written} another file");
     }
-    let end = end_of_links(target).unwrap_or_else(|_| target.to_owned());
-    for ending in [PARTIAL, JOURNAL_EXTENSION] {
+    let end = resolve_links(target).unwrap_or_else(|_| target.to_owned());
+    for ending in [PARTIAL_EXTENSION, JOURNAL_EXTENSION] {
         let mut name = end.clone().into_os_string();
         name.push(ending);
         let pending = PathBuf::from(name);
@@ -94,7 +94,7 @@ pub fn same_file(a: &Path, b: &Path) -> bool {
 
 fn real_path(path: &Path) -> Option<PathBuf> {
     let missing = || {
-        let path = end_of_links(path).ok()?;
+        let path = resolve_links(path).ok()?;
         let folder = match path.parent()? {
             here if here.as_os_str().is_empty() => Path::new("."),
             folder => folder,

@@ -2,7 +2,7 @@
 
 use ccd_core::schedule::Shortcut;
 use ccd_core::{Instructions, StartPolicy};
-use ccd_decomp::{Axis, Order, Unit};
+use ccd_decomp::{Axis, PatchOrder, Unit};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 /// The values of an option, each with its name on the command line and its help.
@@ -42,20 +42,20 @@ pub(super) const UNITS: &Named<Unit> = &[
 ];
 
 /// The orders in which patches grow, for `--order`.
-pub(super) const ORDERS: &Named<Order> = &[
+pub(super) const ORDERS: &Named<PatchOrder> = &[
     (
         "cresting",
-        Order::Cresting,
+        PatchOrder::Cresting,
         "From the crests of the surface outward",
     ),
     (
         "breadth-first",
-        Order::BreadthFirst,
+        PatchOrder::BreadthFirst,
         "Breadth first, in the order of the faces of the mesh",
     ),
     (
         "depth-first",
-        Order::DepthFirst,
+        PatchOrder::DepthFirst,
         "Depth first, in the order of the faces of the mesh",
     ),
 ];

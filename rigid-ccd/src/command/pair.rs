@@ -6,10 +6,10 @@ use crate::batch::{Bodies, SolverKind};
 use crate::command::files::{Rows, same_file};
 use crate::command::progress::Progress;
 use crate::command::size::Size;
-use crate::command::{complain, print_line, print_remarks};
+use crate::command::{print_error, print_line, print_remarks};
 use anyhow::{Context, Result};
 use ccd_core::Body;
-use ccd_decomp::{BodySource, Prepared, Unit, build_hull_tree};
+use ccd_decomp::{BodySource, PreparedBody, Unit, build_hull_tree};
 use clap::Args;
 use std::fs;
 use std::path::PathBuf;
@@ -59,7 +59,7 @@ impl BodiesArgs {
         if let (Some((b, unit_b)), false) = (&b, quiet) {
             let sources = [(&source_a, unit_a), (&source_b, *unit_b)];
             match warn_of_mixed_units(sources) {
-                Some(remark) => complain(&remark),
+                Some(remark) => print_error(&remark),
                 None => Size::compare(Size::of(&a), Size::of(b)),
             }
         }
@@ -80,7 +80,7 @@ impl BodiesArgs {
         let detail = self.meshes.pieces.detail()?;
         let progress = Progress::of(&format!("preparing {text}"), quiet);
         let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
-        let Prepared {
+        let PreparedBody {
             mut body,
             report,
             unit,
@@ -96,7 +96,7 @@ impl BodiesArgs {
             let unit = unit.unwrap_or_default();
             print_line(&format!("{option} {text}: {report}, size {size}{unit}"));
         } else if !remarks.is_empty() {
-            complain(&format!("{option} {text}: {remarks}"));
+            print_error(&format!("{option} {text}: {remarks}"));
         }
         Ok((body, unit))
     }

@@ -1,7 +1,7 @@
 //! The options `--pieces` and `--hulls`, shared by the subcommands.
 
 use anyhow::{Result, bail};
-use ccd_decomp::{Detail, Order};
+use ccd_decomp::{Detail, PatchOrder};
 use clap::{Args, ValueEnum};
 
 /// The options that choose the convex pieces of a mesh.
@@ -43,7 +43,7 @@ impl PiecesArgs {
         Ok(match self.pieces {
             PiecesArg::Auto => Detail::Auto,
             PiecesArg::Triangles => Detail::Triangles,
-            PiecesArg::Patches => Detail::Patches(Order::default()),
+            PiecesArg::Patches => Detail::Patches(PatchOrder::default()),
             PiecesArg::Hull => Detail::Hull,
             PiecesArg::Vhacd => Detail::Vhacd {
                 hulls: self.hulls.unwrap_or(DEFAULT_HULLS),

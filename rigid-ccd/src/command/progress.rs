@@ -34,7 +34,7 @@ pub enum Total {
     /// An unknown number of steps.
     Unknown,
     /// One long step of unknown duration.
-    One,
+    SingleStep,
 }
 
 /// The time from the start of the work until progress is first shown.
@@ -54,7 +54,7 @@ impl Progress {
         let length = match total {
             Total::Steps(steps) => Some(steps as u64),
             Total::Bytes(bytes) => Some(bytes),
-            Total::Unknown | Total::One => None,
+            Total::Unknown | Total::SingleStep => None,
         };
         if let Some(length) = length {
             progress.bar.set_length(length);
@@ -101,8 +101,8 @@ impl Progress {
         if quiet {
             return Progress::hidden();
         }
-        let progress = Progress::new(Total::One);
-        progress.say(message);
+        let progress = Progress::new(Total::SingleStep);
+        progress.set_message(message);
         progress
     }
 
@@ -125,7 +125,7 @@ impl Progress {
         match self.total {
             Total::Steps(_) => self.bar.inc(1),
             Total::Bytes(_) => self.bar.inc(self.bytes_of_step.load(Ordering::Relaxed)),
-            Total::Unknown | Total::One => {}
+            Total::Unknown | Total::SingleStep => {}
         }
     }
 
@@ -145,7 +145,7 @@ impl Progress {
     }
 
     /// Replaces the message beside the bar.
-    pub fn say(&self, message: &str) {
+    pub fn set_message(&self, message: &str) {
         self.bar.set_message(Printable(message).to_string());
     }
 
@@ -171,7 +171,7 @@ fn style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
         Total::Steps(_) => "{bar:30} {pos}/{len} {wide_msg}",
         Total::Bytes(_) => "{bar:30} {percent} % {rows}",
         Total::Unknown => "{spinner} {rows}",
-        Total::One => "{spinner} {wide_msg} {elapsed}",
+        Total::SingleStep => "{spinner} {wide_msg} {elapsed}",
     };
     ProgressStyle::with_template(template)
         .unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -190,7 +190,7 @@ fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
         Total::Steps(steps) => format!("{} of {steps} {}", bar.position(), bar.message()),
         Total::Bytes(_) => format!("{}, {} %", rate(steps, bar.elapsed()), share()),
         Total::Unknown => rate(steps, bar.elapsed()),
-        Total::One => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
+        Total::SingleStep => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
     }
 }
 

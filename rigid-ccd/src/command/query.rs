@@ -15,7 +15,7 @@ use super::answering::BatchRun;
 use super::files::{Rows, input_name, open_courses, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows};
-use super::{Exit, complain};
+use super::{Exit, print_error};
 use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
@@ -55,7 +55,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     outputs.save(start)?;
     let timing = timing(args);
     if timing.method.bound == BoundKind::Published {
-        complain("--bound published: times are not certified, contacts may be late or missed");
+        print_error("--bound published: times are not certified, contacts may be late or missed");
     }
     let progress = Progress::of_rows(length, args.quiet);
     let mut run = Run {
@@ -71,7 +71,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
     let end = run.answer_all(&mut rows, start)?;
     run.outputs.finish(end)?;
     drop(run.answering.progress);
-    run.answering.bad_rows.close();
+    run.answering.bad_rows.print_total();
     let shown = write_page(args, &pair, run.page_rows.zip(html))?;
     if run.summary.counts.rows() == 0 && earlier.is_none() {
         report_no_rows(args, start.rows);
@@ -104,8 +104,8 @@ fn page_context(args: &QueryArgs) -> Asked {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => Claim::Published,
         (_, Question::IsFree) => Claim::Any,
-        (_, Question::Distance) => Claim::Then,
-        _ if leaves_start_contacts(args) => Claim::FirstLater,
+        (_, Question::Distance) => Claim::MeasurementTime,
+        _ if leaves_start_contacts(args) => Claim::FirstAfterParting,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
             Claim::First
         }
@@ -250,9 +250,9 @@ fn timing(args: &QueryArgs) -> Timing {
 fn report_no_rows(args: &QueryArgs, skipped: usize) {
     let input = input_name(&args.motions);
     if args.rows.is_all() {
-        complain(&format!("{input}: has a header, but no rows"));
+        print_error(&format!("{input}: has a header, but no rows"));
     } else {
-        complain(&format!(
+        print_error(&format!(
             "{input}: has {skipped} rows, and --rows {} selects none of them",
             args.rows
         ));
@@ -279,7 +279,7 @@ fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
     let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
         let rows = end.counts.rows();
-        complain(&format!(
+        print_error(&format!(
             "--check: {failed} of {rows} rows are not proven free or kept"
         ));
     }

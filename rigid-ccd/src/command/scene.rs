@@ -5,7 +5,7 @@ use super::numbers::{not_negative, tolerance};
 use super::output::Output;
 use super::scene_table::{self, SceneArgs};
 use super::table::Table;
-use super::{Exit, complain};
+use super::{Exit, print_error};
 use crate::Error;
 use crate::picture::scene_verdict;
 use crate::scene::{Impact, PairError};
@@ -88,7 +88,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
     };
     let contacts = table.contacts(settings);
     if !args.quiet {
-        complain(&scene_verdict(
+        print_error(&scene_verdict(
             &table.bodies_to_draw(),
             &contacts,
             table.duration,

@@ -2,7 +2,7 @@
 
 use super::files::refuse_overwriting;
 use super::meshes::MeshArgs;
-use super::{complain, print_line, print_remarks};
+use super::{print_error, print_line, print_remarks};
 use crate::picture::DrawnBody;
 use crate::scene::{Impact, PairError};
 use crate::table::columns::{BODY_NAME, Columns, Form};
@@ -175,7 +175,7 @@ impl SceneTable {
             print_line(report);
         }
         if self.is_default_duration {
-            complain(&format!(
+            print_error(&format!(
                 "without --duration, all motions end at {}",
                 self.duration
             ));

@@ -1,6 +1,6 @@
 //! Compares the sizes of bodies, to detect different units of length.
 
-use super::complain;
+use super::print_error;
 use crate::remark::{corners, sides};
 use crate::text::Number;
 use ccd_core::Body;
@@ -39,7 +39,7 @@ impl Size {
             ("--b", "--a", of_b / of_a)
         };
         if ratio > WARNING_RATIO && ratio.is_finite() {
-            complain(&format!(
+            print_error(&format!(
                 "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
                 WithFourDigits(ratio)
             ));

@@ -11,7 +11,7 @@ use super::files::{input_name, open_courses, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
-use super::{Exit, complain};
+use super::{Exit, print_error};
 use crate::batch::{Question, SolverKind, Timing, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::results::{self, ResultRow};
@@ -51,7 +51,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
     let asked = Asked {
-        claim: known.as_ref().map_or(Claim::First, |_| Claim::Told),
+        claim: known.as_ref().map_or(Claim::First, |_| Claim::FromTable),
         margin: args.margin,
         clearance: None,
     };
@@ -130,7 +130,7 @@ pub(super) fn write_rows(
 ) -> Result<Exit> {
     let all_found = chosen.missing().next().is_none();
     for id in chosen.missing() {
-        complain(&format!("no row has the id {id:?}"));
+        print_error(&format!("no row has the id {id:?}"));
     }
     let mut painter = Painter::new(pair.bodies(), asked);
     let mut views = Vec::new();
@@ -141,10 +141,10 @@ pub(super) fn write_rows(
         }
     }
     if let Some(faults) = chosen.describe_faults() {
-        complain(&faults);
+        print_error(&faults);
     }
     if views.is_empty() {
-        complain("there is no row to show, and no page");
+        print_error("there is no row to show, and no page");
         return Ok(Exit::SomeRowsBad);
     }
     write_page(&painter.page(title, views), out, quiet)?;
@@ -160,7 +160,7 @@ fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
     let told = (!quiet && !out.is_stream()).then(|| out.name());
     out.write(|writer| writer.write_all(html.as_bytes()))?;
     if let Some(name) = told {
-        complain(&format!("open {name} in a browser"));
+        print_error(&format!("open {name} in a browser"));
     }
     Ok(())
 }
@@ -199,7 +199,7 @@ fn view_scene(args: &ViewArgs, path: &Path, how: SceneArgs<'_>) -> Result<()> {
     let title = input_name(path);
     let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
     if !args.quiet {
-        complain(&view.verdict);
+        print_error(&view.verdict);
     }
     let page = Page {
         title: &title,

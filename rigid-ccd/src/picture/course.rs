@@ -1,27 +1,32 @@
 //! Converts the motions of a row to those of a page.
 
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use ccd_core::{InputError, Trajectory};
-use ccd_view::{Key, ShownMotion};
+use ccd_view::{Keyframe, ShownMotion};
 
 /// Returns the motions of both bodies, as a page shows them.
 ///
 /// # Errors
 /// If a path has no pose at one of its times.
-pub fn course(course: &Course) -> Result<[ShownMotion; 2], InputError> {
+pub fn course(course: &Movements) -> Result<[ShownMotion; 2], InputError> {
     let path = match course {
-        Course::Motions(query) => {
+        Movements::Motions(query) => {
             return Ok([ShownMotion::from(&query.a), ShownMotion::from(&query.b)]);
         }
-        Course::Path(path) => path,
+        Movements::Path(path) => path,
     };
     let [a, b] = [&path.a, &path.b].map(|poses| {
         let centre = poses.centre();
         let keys = poses.times().zip(poses.turns()).map(|(time, turn)| {
             let pose = poses.pose(time)?;
-            Ok(Key::new(time, &pose, pose.transform_point(centre), turn?))
+            Ok(Keyframe::new(
+                time,
+                &pose,
+                pose.transform_point(centre),
+                turn?,
+            ))
         });
-        Ok(ShownMotion::Keys {
+        Ok(ShownMotion::Keyframes {
             centre: centre.to_array(),
             keys: keys.collect::<Result<_, InputError>>()?,
         })

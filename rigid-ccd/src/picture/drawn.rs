@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 const DIRECTIONS: u32 = 320;
 
 /// Returns the triangles of a body's surface: the faces of its mesh, or the hulls of its pieces.
-pub fn drawn(body: &Body) -> DrawnMesh {
+pub fn drawn_mesh(body: &Body) -> DrawnMesh {
     let mut sketch = MeshBuilder::default();
     for piece in body.pieces().iter() {
         let mut bare = true;

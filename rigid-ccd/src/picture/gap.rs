@@ -2,7 +2,7 @@
 
 use crate::Solver;
 use crate::batch::Bodies;
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, InputError, Settings, Stretch};
 use ccd_view::{Gap, GapPoint};
@@ -67,7 +67,7 @@ impl GapOverTime {
 pub fn gap(
     solver: &mut Solver,
     bodies: Bodies<'_>,
-    course: &Course,
+    course: &Movements,
     floor: f64,
 ) -> Result<GapOverTime, InputError> {
     solver.set_settings(Settings {
@@ -95,7 +95,7 @@ pub fn gap(
 struct GapSampler<'a> {
     solver: &'a mut Solver,
     bodies: Bodies<'a>,
-    course: &'a Course,
+    course: &'a Movements,
     floor: f64,
     deadline: Instant,
 }
@@ -183,7 +183,7 @@ impl GapSampler<'_> {
         Ok(ClosingSpeed {
             speed: (shift + turns + gains) * ROUNDED_UP,
             // Bound the deviation both at the measured times and between them.
-            deviation: 2.0 * (a.stray.at(reach_a) + b.stray.at(reach_b)) * ROUNDED_UP,
+            deviation: 2.0 * (a.deviation.at(reach_a) + b.deviation.at(reach_b)) * ROUNDED_UP,
         })
     }
 

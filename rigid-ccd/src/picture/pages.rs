@@ -2,7 +2,7 @@
 
 use super::{Asked, PageError, Painter, ViewError};
 use crate::batch::Bodies;
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::results::ResultRow;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,7 @@ impl<'a> Pages<'a> {
     ///
     /// # Errors
     /// [`PagesError`].
-    pub fn write(&mut self, course: &Course, row: &ResultRow) -> Result<PathBuf, PagesError> {
+    pub fn write(&mut self, course: &Movements, row: &ResultRow) -> Result<PathBuf, PagesError> {
         let view = self.painter.view(course, row)?;
         let name = self.name(&row.id);
         let path = self.folder.join(name);

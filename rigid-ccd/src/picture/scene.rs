@@ -1,6 +1,6 @@
 //! Draws a scene of many bodies as a view of a page.
 
-use super::drawn::{drawn, feature_corners};
+use super::drawn::{drawn_mesh, feature_corners};
 use super::verdict::number;
 use crate::scene::{Impact, PairError};
 use ccd_core::HitKind;
@@ -36,7 +36,7 @@ pub(crate) fn scene_view(
         let address: *const Body = shown.body;
         let mesh = *known
             .entry(address)
-            .or_insert_with(|| meshes.add(&drawn(shown.body)));
+            .or_insert_with(|| meshes.add(&drawn_mesh(shown.body)));
         let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
         let color = if moves {
             format!(

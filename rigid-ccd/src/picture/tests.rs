@@ -27,14 +27,14 @@ fn bodies() -> Vec<Body> {
     ]
 }
 
-fn motions(random: &mut impl Rng, spin: f64) -> Course {
+fn motions(random: &mut impl Rng, spin: f64) -> Movements {
     let mut motion = |from: DVec3| {
         let start = pose(random, 1.0).translation() + from;
         let start = Pose::new(start, pose(random, 1.0).rotation()).unwrap();
         let velocity = vector(random, 1.0) - 2.0 * from;
         Motion::about(start, velocity, vector(random, spin), vector(random, 0.5)).unwrap()
     };
-    Course::Motions(Motions {
+    Movements::Motions(Motions {
         id: "throw".to_owned(),
         a: motion(2.0 * DVec3::X),
         b: motion(-2.0 * DVec3::X),
@@ -42,12 +42,12 @@ fn motions(random: &mut impl Rng, spin: f64) -> Course {
     })
 }
 
-fn path(random: &mut impl Rng) -> Course {
+fn path(random: &mut impl Rng) -> Movements {
     let mut poses = || {
         let timed = [0.0, 0.2, 0.9, 1.5].map(|time| (time, pose(random, 3.0)));
         Poses::new(timed.to_vec()).unwrap()
     };
-    Course::Path(Path {
+    Movements::Path(Path {
         id: "visit".to_owned(),
         a: poses(),
         b: poses(),
@@ -117,11 +117,11 @@ fn nothing_touches_before_the_last_step() {
     let mut random = Pcg64Mcg::seed_from_u64(5);
     let mut contacts = 0;
     for k in 0..60 {
-        let Course::Motions(query) = motions(&mut random, 5.0) else {
+        let Movements::Motions(query) = motions(&mut random, 5.0) else {
             continue;
         };
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
-        let course = Course::Motions(query.clone());
+        let course = Movements::Motions(query.clone());
         let found = gap(&mut solver, Bodies { a, b }, &course, 0.0).unwrap();
         solver.set_settings(Settings::DEFAULT);
         let hit = solver
@@ -140,7 +140,7 @@ fn nothing_touches_before_the_last_step() {
 
 #[test]
 fn bodies_are_drawn_by_their_surface() {
-    let [ball, cuboid, capsule, bracket] = [0, 1, 2, 3].map(|k| drawn(&bodies()[k]));
+    let [ball, cuboid, capsule, bracket] = [0, 1, 2, 3].map(|k| drawn_mesh(&bodies()[k]));
     assert!(
         ball.vertices
             .iter()
@@ -221,7 +221,7 @@ fn keys_lead_where_the_engine_goes() {
     let mut random = Pcg64Mcg::seed_from_u64(11);
     for k in 0..60 {
         let mut way = path(&mut random);
-        if let (Course::Path(way), true) = (&mut way, k % 2 == 0) {
+        if let (Movements::Path(way), true) = (&mut way, k % 2 == 0) {
             // The direction of a half turn depends on the sign of the quaternion.
             let sign = if k % 4 == 0 { 1.0 } else { -1.0 };
             let half = DQuat::from_xyzw(0.0, 0.0, sign, 0.0);

@@ -19,15 +19,15 @@ pub enum Claim {
     /// The time of the first contact.
     First,
     /// As [`First`](Claim::First), except for contacts at the start, which are ignored until the bodies part.
-    FirstLater,
+    FirstAfterParting,
     /// The time of some contact, perhaps not the first one.
     Any,
     /// The time at which the distance was measured.
-    Then,
+    MeasurementTime,
     /// The time of the first contact by the published bound, which is no proof.
     Published,
     /// A time from a table of results, whose question and bound are unknown.
-    Told,
+    FromTable,
 }
 
 /// Describes the answer of a row in words, for motions that end at `end`. `end` is the end of its motions, and `proven`
@@ -51,7 +51,7 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
             let (contact, after) = (contact(row), after_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
-        Status::Measured if asked.claim == Claim::Then => {
+        Status::Measured if asked.claim == Claim::MeasurementTime => {
             format!("At {time}: {}.", describe_distance(row))
         }
         Status::Measured => format!("Nearest at {time}: {}.", describe_distance(row)),
@@ -75,8 +75,8 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
         Status::Unresolved => match asked.claim {
             Claim::Published => format!("Not resolved ({reason}) after {time}. Not certified."),
-            Claim::Told => format!("Not resolved ({reason}) after {time}, as the table says."),
-            Claim::FirstLater => format!(
+            Claim::FromTable => format!("Not resolved ({reason}) after {time}, as the table says."),
+            Claim::FirstAfterParting => format!(
                 "Not resolved ({reason}). Proven: nothing touches before {time}, but for a contact at the start that \
                  was let go."
             ),
@@ -118,16 +118,16 @@ fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
             "{first} at {time}: {touching}. Proven: {before}, nor after {}.",
             number_rounded_up(last)
         ),
-        (Claim::FirstLater, _) => format!(
+        (Claim::FirstAfterParting, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
         ),
-        (Claim::Any | Claim::Then, _) => {
+        (Claim::Any | Claim::MeasurementTime, _) => {
             format!("{at} at {time}: {touching}. There may be an earlier one.")
         }
         (Claim::Published, _) => {
             format!("{at} at {time}: {touching}. Not certified: it may be late.")
         }
-        (Claim::Told, _) => format!("{at} at {time}, as the table says: {touching}."),
+        (Claim::FromTable, _) => format!("{at} at {time}, as the table says: {touching}."),
     }
 }
 
@@ -141,8 +141,8 @@ fn describe_free(asked: Asked, end: f64, proven: Option<f64>) -> String {
         (Claim::Published, None) => {
             format!("No contact found, to the end at {end}. Not certified.")
         }
-        (Claim::Told, None) => format!("No contact, to the end at {end}, as the table says."),
-        (Claim::FirstLater, None) => {
+        (Claim::FromTable, None) => format!("No contact, to the end at {end}, as the table says."),
+        (Claim::FirstAfterParting, None) => {
             format!(
                 "No contact, to the end at {end}. Proven, but for one at the start that was let go."
             )

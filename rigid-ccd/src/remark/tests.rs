@@ -39,7 +39,7 @@ fn degrees_are_remarked_upon() {
     ] {
         let remark = Remark::of_spin(spin, duration);
         assert!(
-            matches!(remark, Some(Remark::SpinInDegrees { .. })),
+            matches!(remark, Some(Remark::AngularVelocityInDegrees { .. })),
             "{spin:?} {duration}"
         );
     }

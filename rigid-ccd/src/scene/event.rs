@@ -70,7 +70,7 @@ impl Event {
         Event {
             time: 0.0,
             bodies,
-            what: EventKind::Unresolved(Unresolved::until(0.0, Limit::Undecided)),
+            what: EventKind::Unresolved(Unresolved::from_safe_until(0.0, Limit::Undecided)),
         }
     }
 

@@ -1,8 +1,8 @@
 //! A trajectory from a later time on.
 
-use ccd_core::rounding::U64;
+use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 use ccd_core::vector::length;
-use ccd_core::{InputError, Movement, Stray, Stretch, Trajectory};
+use ccd_core::{DeviationBound, InputError, Movement, Stretch, Trajectory};
 
 /// A trajectory whose time 0 is a given time of another trajectory.
 pub(super) struct TimeShifted<'a> {
@@ -15,15 +15,15 @@ impl Trajectory for TimeShifted<'_> {
         let [first, last] = [from, to].map(|time| self.from + time);
         let stretch = self.inner.stretch(first, last)?;
         // Times are rounded, so that the body is off by its displacement in the rounding error.
-        let time_error = 4.0 * U64 * last;
+        let time_error = 4.0 * UNIT_ROUNDOFF_F64 * last;
         let speed =
             length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);
-        let rounding = Stray {
+        let rounding = DeviationBound {
             shift: speed * time_error,
             turn: length(stretch.motion.spin()) * time_error,
         };
         Ok(Stretch {
-            stray: stretch.stray + rounding,
+            deviation: stretch.deviation + rounding,
             ..stretch
         })
     }

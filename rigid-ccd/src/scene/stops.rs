@@ -10,7 +10,7 @@ use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use ccd_core::order::{greater, lesser};
-use ccd_core::rounding::STRETCH_F64;
+use ccd_core::rounding::RETIMED_POSE_F64;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::vector::length;
 use ccd_core::{
@@ -279,7 +279,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         }
         let (member, time) = (&self.scene.members[index], self.stops[index].time);
         let stretch = member.movement.stretch(time, time)?;
-        Ok(stretch.stray.at(reach(member.body, &stretch)))
+        Ok(stretch.deviation.at(reach(member.body, &stretch)))
     }
 
     fn moves(&self, index: usize) -> bool {
@@ -299,8 +299,8 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
     let reach = reach(body, &stretch);
-    let stray = stretch.stray.at(reach);
-    Ok(stray + STRETCH_F64 * (place + centre + travel + (1.0 + turn) * reach))
+    let stray = stretch.deviation.at(reach);
+    Ok(stray + RETIMED_POSE_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 
 #[cfg(test)]

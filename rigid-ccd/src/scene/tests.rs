@@ -110,7 +110,7 @@ fn contacts_one_by_one(
     let boxes_meet = |a: usize, b: usize| {
         let swept = |k: usize| {
             let (body, motion, ..) = parts[k];
-            let moving = Moving::from((&bodies[body], motion));
+            let moving = MovingBody::from((&bodies[body], motion));
             moving.swept_box(duration, config).unwrap()
         };
         swept(a).meets(&swept(b))
@@ -445,7 +445,7 @@ fn a_fixed_body_takes_no_motion() {
     for (velocity, spin) in [([1.0, 0.0, 0.0], [0.0; 3]), ([0.0; 3], [0.0, 0.0, 1e-300])] {
         let moves = Motion::new(pose, velocity, spin).unwrap();
         let refused = scene.set_movement(fixed, moves).unwrap_err();
-        assert_eq!(refused, FixedBody { index: fixed });
+        assert_eq!(refused, FixedBodyError { index: fixed });
         assert!(refused.to_string().starts_with("body 0 is fixed"));
         assert_eq!(scene.movement(fixed).as_motion(), Some(Motion::STILL));
     }
@@ -478,7 +478,7 @@ fn bodies_on_trajectories_have_the_contacts_of_their_pairs() {
                     Some(hit) => expected.push((hit.time, [a, b], hit)),
                     None => none += 1,
                 }
-                let swept = |moving: Moving<'_>| moving.swept_box(1.0, &settings).unwrap();
+                let swept = |moving: MovingBody<'_>| moving.swept_box(1.0, &settings).unwrap();
                 let apart = !swept(of_a).meets(&swept(of_b));
                 assert!(
                     !apart || answer.hit().unwrap().is_none(),

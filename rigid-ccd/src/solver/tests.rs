@@ -1,4 +1,4 @@
-use crate::trajectory::{Ballistic, Curve, Poses, Spline, Turns};
+use crate::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
 use crate::{Body, Motion, Pose, Settings, Solver};
 use ccd_core::Clearance;
 use ccd_core::Outcome;
@@ -23,7 +23,7 @@ fn bodies_beside_each_other_do_not_overlap() {
     let rises = thrown([0.0, 0.0, 1.5001], [0.0; 3], [0.0, 0.0, 1e-3]);
     let (a, b) = ((&ball, &rises), (&slab, &Motion::STILL));
     let closest = Solver::new().closest_approach(a, b, 1.0).unwrap();
-    let Outcome::Measured { lower, .. } = closest.outcome else {
+    let Outcome::LeastDistance { lower, .. } = closest.outcome else {
         panic!("{closest:?}")
     };
     assert!(lower <= 1e-4 && closest.outcome.upper() >= 1e-4);
@@ -135,7 +135,7 @@ fn settings_at_their_limits_are_answered() {
 fn queries_after_the_end_of_a_trajectory_are_answered() {
     let (a, b) = (ball(0.5), ball(0.5));
     let points = [[1e11, 1.3, 0.0], [1e11 - 1.0, 1.3, 0.0]];
-    let stops = Spline::new(Curve::bezier(&points, 1.0).unwrap(), Turns::NONE);
+    let stops = Spline::new(Curve::bezier(&points, 1.0).unwrap(), OrientationCurve::NONE);
     let stands = Motion::still(Pose::at([1e11, 0.0, 0.0]).unwrap());
     let hit = Solver::new().first_contact((&a, &stops), (&b, &stands), 2.0);
     assert_eq!(hit.unwrap().hit(), Ok(None));

@@ -232,7 +232,7 @@ impl Columns {
     }
 
     /// Returns whether the rows are the poses of paths.
-    pub fn are_of_paths(&self) -> bool {
+    pub fn is_path_table(&self) -> bool {
         self.form == Form::Paths
     }
 

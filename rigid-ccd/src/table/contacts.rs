@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::batch::{Bodies, Question};
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::results::{Column, ResultRow, columns_of};
 use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Settings};
 
@@ -33,7 +33,7 @@ pub(crate) enum ListError {
 /// The query is not valid, or the contacts cannot be listed.
 pub(crate) fn rows(
     bodies: Bodies<'_>,
-    course: &Course,
+    course: &Movements,
     settings: &Settings,
     (question, answer): (Question, &Answer),
 ) -> Result<Vec<ResultRow>, ListError> {
@@ -42,7 +42,9 @@ pub(crate) fn rows(
     };
     let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
-    let row = |pair: &FeaturePair| ResultRow::of_pair(course.id(), course.earliest(time), pair);
+    let row = |pair: &FeaturePair| {
+        ResultRow::of_pair(course.id(), course.table_time_rounded_down(time), pair)
+    };
     Ok(pairs.iter().map(row).collect())
 }
 

@@ -13,43 +13,42 @@ use std::io;
 
 /// The motions or paths of both bodies in one query.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Course {
+pub enum Movements {
     /// Motions at constant velocities.
     Motions(Motions),
     /// Paths from pose to pose.
     Path(Path),
 }
 
-impl Course {
+impl Movements {
     /// Returns the id of the row in the results.
     pub fn id(&self) -> &str {
         match self {
-            Course::Motions(Motions { id, .. }) | Course::Path(Path { id, .. }) => id,
+            Movements::Motions(Motions { id, .. }) | Movements::Path(Path { id, .. }) => id,
         }
     }
 
     /// Returns the duration of the motions or paths, in their unit of time.
     pub fn duration(&self) -> f64 {
         match *self {
-            Course::Motions(Motions { duration, .. }) | Course::Path(Path { duration, .. }) => {
-                duration
-            }
+            Movements::Motions(Motions { duration, .. })
+            | Movements::Path(Path { duration, .. }) => duration,
         }
     }
 
     /// Returns the table's time that corresponds to the query's time 0.
     pub fn start(&self) -> f64 {
         match self {
-            Course::Motions(_) => 0.0,
-            Course::Path(path) => path.start,
+            Movements::Motions(_) => 0.0,
+            Movements::Path(path) => path.start,
         }
     }
 
     /// Returns the trajectories of both bodies.
     pub fn trajectories(&self) -> [&dyn Trajectory; 2] {
         match self {
-            Course::Motions(Motions { a, b, .. }) => [a, b],
-            Course::Path(Path { a, b, .. }) => [a, b],
+            Movements::Motions(Motions { a, b, .. }) => [a, b],
+            Movements::Path(Path { a, b, .. }) => [a, b],
         }
     }
 
@@ -59,24 +58,24 @@ impl Course {
     /// A pose is out of range.
     pub fn poses(&self, time: f64) -> Result<[Pose; 2], InputError> {
         match self {
-            Course::Motions(query) => Ok([query.a.pose(time), query.b.pose(time)]),
-            Course::Path(path) => path.poses(time),
+            Movements::Motions(query) => Ok([query.a.pose(time), query.b.pose(time)]),
+            Movements::Path(path) => path.poses(time),
         }
     }
 
     /// Converts a time measured from the start to the table's time, rounded down.
-    pub fn earliest(&self, time: f64) -> f64 {
+    pub fn table_time_rounded_down(&self, time: f64) -> f64 {
         match self {
-            Course::Motions(_) => time,
-            Course::Path(path) => path.earliest(time),
+            Movements::Motions(_) => time,
+            Movements::Path(path) => path.earliest(time),
         }
     }
 
     /// Converts a time measured from the start to the table's time, rounded up.
-    pub fn latest(&self, time: f64) -> f64 {
+    pub fn table_time_rounded_up(&self, time: f64) -> f64 {
         match self {
-            Course::Motions(_) => time,
-            Course::Path(path) => path.latest(time),
+            Movements::Motions(_) => time,
+            Movements::Path(path) => path.latest(time),
         }
     }
 }
@@ -91,7 +90,7 @@ pub struct Courses<S> {
 }
 
 /// The motions or paths of a query with its position in the table, or the error of a bad row.
-pub type CourseRow = Result<(RowPosition, Course), RowError>;
+pub type CourseRow = Result<(RowPosition, Movements), RowError>;
 
 impl<R: io::Read> Courses<CsvRecords<R>> {
     /// Reads the header of a CSV table.
@@ -110,7 +109,7 @@ impl<S: Records> Courses<S> {
     /// The header has columns that cannot be used, or the first row cannot be read.
     pub fn of(mut records: S, grouping: Grouping) -> Result<Self, TableError> {
         let columns = Columns::of(&records.header()?)?;
-        let paths = columns.are_of_paths();
+        let paths = columns.is_path_table();
         let paths = paths.then(|| Paths::new(&mut records, grouping));
         let paths = paths.transpose()?;
         let rows = MotionRows { records, columns };
@@ -153,9 +152,9 @@ impl<S: Records> Courses<S> {
     fn read(&mut self) -> Result<Option<CourseRow>, TableError> {
         Ok(match &mut self.paths {
             None => (self.rows.next().transpose()?)
-                .map(|row| row.map(|(position, motions)| (position, Course::Motions(motions)))),
+                .map(|row| row.map(|(position, motions)| (position, Movements::Motions(motions)))),
             Some(paths) => (paths.next(&mut self.rows)?)
-                .map(|row| row.map(|(position, path)| (position, Course::Path(path)))),
+                .map(|row| row.map(|(position, path)| (position, Movements::Path(path)))),
         })
     }
 }

@@ -5,7 +5,7 @@ use crate::table::error::{RowProblem, TableError};
 use crate::table::foreign;
 use crate::table::lines::Lines;
 use crate::table::position::RowPosition;
-use crate::table::quotes::Quotes;
+use crate::table::quotes::QuoteTracker;
 use crate::table::records::{Record, Records};
 use std::borrow::Cow;
 use std::io::{self, Read};
@@ -23,7 +23,7 @@ pub struct CsvRecords<R> {
     checksum: crc32fast::Hasher,
 }
 
-type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
+type Reader<R> = csv::Reader<io::Chain<QuoteTracker<Lines<R>>, &'static [u8]>>;
 
 impl<R: Read> CsvRecords<R> {
     /// Reads the header, which becomes the current record.
@@ -36,7 +36,7 @@ impl<R: Read> CsvRecords<R> {
             .has_headers(false)
             // Every line needs a line end, including the last one: the line number of a row is computed from
             // its end.
-            .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
+            .from_reader(QuoteTracker::new(Lines::new(input)).chain(&b"\n"[..]));
         let mut raw = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw)?;
         if let Some(line) = unclosed_quote_line(&reader) {
@@ -75,7 +75,9 @@ impl<R: Read> Records for CsvRecords<R> {
 
     fn bytes(&self) -> u64 {
         let (quotes, _) = self.reader.get_ref().get_ref();
-        quotes.input().behind(self.reader.position().byte())
+        quotes
+            .input()
+            .input_bytes_for(self.reader.position().byte())
     }
 
     fn checksum(&self) -> u32 {
@@ -162,5 +164,5 @@ fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
 /// Returns the line of a quote that the last record opens and does not close; `None` without one.
 fn unclosed_quote_line<R: Read>(reader: &Reader<R>) -> Option<u64> {
     let (quotes, _) = reader.get_ref().get_ref();
-    quotes.unclosed(reader.position().line())
+    quotes.open_quote_line(reader.position().line())
 }

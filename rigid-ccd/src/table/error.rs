@@ -202,7 +202,7 @@ pub enum RowProblem {
         Number(*.time),
         Number(*.first)
     )]
-    TooLate {
+    TimeTooLarge {
         /// The time of the row.
         time: f64,
         /// The time of the path's first row.
@@ -213,7 +213,7 @@ pub enum RowProblem {
     NoId,
     /// The rows of a path are not consecutive.
     #[error("path `{id}` goes on here after rows of other paths; sort the table by id, then by t")]
-    PathApart {
+    PathNotConsecutive {
         /// The id of the path.
         id: String,
     },

@@ -27,7 +27,7 @@ impl<R: Read> Lines<R> {
     }
 
     /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
-    pub fn behind(&self, taken: u64) -> u64 {
+    pub fn input_bytes_for(&self, taken: u64) -> u64 {
         self.bytes.min(taken + self.left_out)
     }
 

@@ -157,7 +157,7 @@ impl Paths {
             return Ok(None);
         };
         if seen {
-            let problem = RowProblem::PathApart { id: id.clone() };
+            let problem = RowProblem::PathNotConsecutive { id: id.clone() };
             bad = Some((position, problem));
         }
         let path = match bad {
@@ -197,7 +197,7 @@ fn check_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem
     }
     // Written so that NaN is refused.
     if !(since > since_before && since.is_finite()) {
-        return Err(RowProblem::TooLate {
+        return Err(RowProblem::TimeTooLarge {
             time,
             first: first.time,
         });

@@ -7,7 +7,7 @@ use std::io::{self, Read};
 
 /// A reader that passes CSV through and tracks its quotes; lines must end in `\n`.
 #[derive(Debug)]
-pub struct Quotes<R> {
+pub struct QuoteTracker<R> {
     input: R,
     state: State,
     /// The current line, counted from 1.
@@ -33,10 +33,10 @@ enum State {
 
 const BYTE_ORDER_MARK: [u8; 3] = *b"\xef\xbb\xbf";
 
-impl<R> Quotes<R> {
+impl<R> QuoteTracker<R> {
     /// Creates a reader of `input`.
     pub fn new(input: R) -> Self {
-        Quotes {
+        QuoteTracker {
             input,
             state: State::Start,
             line: 1,
@@ -54,7 +54,7 @@ impl<R> Quotes<R> {
     ///
     /// Such a record has closed its quotes. An open quote belongs to a later record, on a later line,
     /// unless the record ended with the table.
-    pub fn unclosed(&self, line: u64) -> Option<u64> {
+    pub fn open_quote_line(&self, line: u64) -> Option<u64> {
         (self.state == State::Quoted && self.quote_line < line).then_some(self.quote_line)
     }
 
@@ -85,7 +85,7 @@ impl<R> Quotes<R> {
     }
 }
 
-impl<R: Read> Read for Quotes<R> {
+impl<R: Read> Read for QuoteTracker<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let read = self.input.read(out)?;
         let mut bytes = &out[..read];

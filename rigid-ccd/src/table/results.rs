@@ -12,7 +12,7 @@ pub use columns::{COLUMNS, COUNTERS, Cells, Column, Line, columns, names};
 pub use status::Status;
 
 use crate::batch::question::Question;
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
@@ -21,7 +21,7 @@ use std::io;
 
 /// The clearance that distances are compared with.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Compared {
+pub struct ClearanceComparison {
     /// The required distance of the bodies, if one is given.
     pub clearance: Option<f64>,
     /// The sum of both bodies' [excess](ccd_core::Body::with_excess) over their shapes; named in a reason, never added
@@ -29,7 +29,7 @@ pub struct Compared {
     pub excess: f64,
 }
 
-impl Compared {
+impl ClearanceComparison {
     /// Returns the reason for a clearance that is neither proven kept nor proven violated.
     fn reason_unverified(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
@@ -125,10 +125,10 @@ impl ResultRow {
 
     /// Creates the row of an answer to a question.
     pub fn new(
-        course: &Course,
+        course: &Movements,
         (question, answer): (Question, &Answer),
         micros: f64,
-        compared: Compared,
+        compared: ClearanceComparison,
     ) -> Self {
         let outcome = &answer.outcome;
         let status = Status::of(question, outcome, compared.clearance);
@@ -152,8 +152,8 @@ impl ResultRow {
             row.with_contacts(outcome, course.duration())
         };
         ResultRow {
-            time: row.time.map(|time| course.earliest(time)),
-            last_time: row.last_time.map(|time| course.latest(time)),
+            time: row.time.map(|time| course.table_time_rounded_down(time)),
+            last_time: row.last_time.map(|time| course.table_time_rounded_up(time)),
             ..row
         }
     }
@@ -173,7 +173,7 @@ impl ResultRow {
                 last_time: Some(known.safe_from).filter(|time| time.is_finite()),
                 ..self.at(known.safe_until)
             },
-            Outcome::Measured { .. } => self,
+            Outcome::LeastDistance { .. } => self,
         }
     }
 

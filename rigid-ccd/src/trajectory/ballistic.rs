@@ -5,7 +5,9 @@ use super::checks::finite;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector::length;
-use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
+use ccd_core::{
+    Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
+};
 
 /// A thrown body: its centre has constant acceleration, and the body rotates about it at a constant rate.
 ///
@@ -40,8 +42,8 @@ impl Ballistic {
     }
 }
 
-impl Smooth for Ballistic {
-    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for Ballistic {
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let Ballistic {
             thrown,
             acceleration,
@@ -53,14 +55,14 @@ impl Smooth for Ballistic {
         Motion::about(start, velocity, thrown.spin(), thrown.centre())
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
-        Accelerations {
+    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
+        AccelerationBounds {
             linear: length(self.acceleration),
             angular: 0.0,
         }
     }
 
-    fn osculating(
+    fn osculating_motion(
         &self,
         time: f64,
         _: f64,
@@ -70,11 +72,11 @@ impl Smooth for Ballistic {
             vector: self.acceleration,
             jerk: 0.0,
         };
-        Ok((self.tangent(time)?, Some(acceleration)))
+        Ok((self.tangent_motion(time)?, Some(acceleration)))
     }
 
     /// Bounds the rounding errors of poses between two times.
-    fn rounding(&self, from: f64, to: f64) -> Stray {
+    fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let Ballistic {
             thrown,
             acceleration,
@@ -82,7 +84,7 @@ impl Smooth for Ballistic {
         let time = greater(from.abs(), to.abs());
         let turned = length(thrown.spin()) * time;
         let way = (length(thrown.velocity()) + 0.5 * time * length(*acceleration)) * time;
-        Stray {
+        DeviationBound {
             shift: 16.0 * U * (length(thrown.start().translation()) + way),
             turn: 8.0 * U * turned,
         }

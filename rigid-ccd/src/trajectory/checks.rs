@@ -17,7 +17,7 @@ pub(super) fn finite(vector: impl Into<[f64; 3]>, what: &'static str) -> Result<
     if vector.is_finite() {
         Ok(vector)
     } else {
-        Err(InputError::NotFinite { what })
+        Err(InputError::NotFinite { quantity: what })
     }
 }
 

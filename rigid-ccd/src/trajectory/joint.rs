@@ -91,7 +91,7 @@ impl Joint {
     /// Returns the pose of the link after the joint, in the frame of the link before it.
     ///
     /// # Errors
-    /// [`InputError::JointPosition`] outside of the limits, [`InputError::NotFinite`].
+    /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::NotFinite`].
     pub fn pose(&self, position: f64) -> Result<Pose, InputError> {
         self.check(position, None)?;
         self.pose_up_to_rounding(position)
@@ -111,7 +111,7 @@ impl Joint {
     /// in `duration` at a constant rate.
     ///
     /// # Errors
-    /// [`InputError::JointPosition`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
+    /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
     /// positive and finite, [`InputError::NotFinite`].
     pub fn motion(&self, from: f64, to: f64, duration: f64) -> Result<Motion, InputError> {
         self.check(to, None)?;
@@ -146,7 +146,7 @@ impl Joint {
         if self.is_fixed() || allowed {
             Ok(())
         } else {
-            Err(InputError::JointPosition {
+            Err(InputError::JointOutOfLimits {
                 joint,
                 position,
                 limits: [least, greatest],

@@ -7,7 +7,10 @@ use super::joint::{Joint, Kind};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
-use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
+use ccd_core::{
+    Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
+    Trajectory,
+};
 
 /// The trajectory of a link of a [`Chain`], in the world or in the frame of another link.
 ///
@@ -52,7 +55,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`InputError::NoSuchLink`], [`InputError::JointCount`] for more or fewer positions than joints,
-    /// [`InputError::OutOfRange`] for a duration that is not positive, [`InputError::JointPosition`] for a position
+    /// [`InputError::OutOfRange`] for a duration that is not positive, [`InputError::JointOutOfLimits`] for a position
     /// outside of its joint's limits.
     pub fn link<'c>(
         &'c self,
@@ -96,7 +99,7 @@ impl<'c> Link<'c> {
     /// against that link at rest, [`Motion::STILL`]: what moves both links costs nothing then.
     ///
     /// # Errors
-    /// [`InputError::NotSeenFrom`] if the other link is farther from the base.
+    /// [`InputError::ReferenceLinkTooFar`] if the other link is farther from the base.
     pub fn seen_from(self, link: usize) -> Result<Self, InputError> {
         if link <= self.link {
             Ok(Link {
@@ -104,7 +107,7 @@ impl<'c> Link<'c> {
                 ..self
             })
         } else {
-            Err(InputError::NotSeenFrom {
+            Err(InputError::ReferenceLinkTooFar {
                 from: link,
                 link: self.link,
             })
@@ -163,16 +166,16 @@ impl<'c> Link<'c> {
     }
 }
 
-impl Smooth for Link<'_> {
-    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for Link<'_> {
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         self.state(time)?.tangent()
     }
 
-    fn accelerations(&self, from: f64, to: f64) -> Accelerations {
+    fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds {
         self.link_bounds(from, to).accelerations
     }
 
-    fn osculating(
+    fn osculating_motion(
         &self,
         time: f64,
         from: f64,
@@ -187,7 +190,7 @@ impl Smooth for Link<'_> {
     }
 
     /// Bounds the rounding errors of poses: each joint adds those of a product of poses and of its angle.
-    fn rounding(&self, from: f64, to: f64) -> Stray {
+    fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let LinkBounds {
             joints,
             arms,
@@ -196,7 +199,7 @@ impl Smooth for Link<'_> {
         } = self.link_bounds(from, to);
         let base = length(self.chain.base().translation());
         let turn = U * (24.0 * joints + 4.0 * angles);
-        Stray {
+        DeviationBound {
             shift: turn * arms + 8.0 * U * (base + arms),
             turn,
         }
@@ -259,9 +262,9 @@ impl State {
 #[derive(Clone, Copy, Debug, Default)]
 struct LinkBounds {
     speeds: Speeds,
-    accelerations: Accelerations,
+    accelerations: AccelerationBounds,
     /// The bounds on the derivatives of the accelerations.
-    jerks: Accelerations,
+    jerks: AccelerationBounds,
     /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
     axis: Option<DVec3>,
     /// The number of joints so far, the sum of the arms' lengths, and the sum of the angles in radians.

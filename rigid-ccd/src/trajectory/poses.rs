@@ -9,7 +9,7 @@ use super::checks::{check_later, finite, out_of_range};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
-use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
+use ccd_core::{DeviationBound, InputError, Motion, Pose, Stretch, Trajectory};
 use segment::Segment;
 
 /// A path through poses at given times, for example from a planner or a simulator's log.
@@ -183,7 +183,7 @@ impl Poses {
     fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [begin, end] = [self.at(from, to)?.0.start(), self.at(to, to)?.0.start()];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
-        let mut stray = Stray::NONE;
+        let mut stray = DeviationBound::NONE;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
         let mut last = (from, Deviation::default());
         for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
@@ -198,13 +198,13 @@ impl Poses {
             last = (time, deviation);
         }
         Ok(Stretch {
-            stray,
+            deviation: stray,
             ..Stretch::exact(motion)
         })
     }
 
     /// Bounds the rounding errors of poses between two times, which are computed from the given pose before them.
-    fn rounding(&self, from: f64, to: f64) -> Stray {
+    fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
         let given = &self.poses[first.saturating_sub(1)..(last + 1).min(self.poses.len())];
@@ -215,7 +215,7 @@ impl Poses {
             length(self.spin(first.saturating_sub(1) + k)) * (two[1].0 - two[0].0)
         };
         let turn = given.windows(2).enumerate().map(turn).fold(1.0, greater);
-        Stray {
+        DeviationBound {
             shift: 64.0 * U * place,
             turn: 64.0 * U * turn,
         }
@@ -229,14 +229,14 @@ impl Trajectory for Poses {
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
             if acceleration > 0.0 {
-                stretch.stray.turn = 0.5 * acceleration * (to - from) * (to - from);
+                stretch.deviation.turn = 0.5 * acceleration * (to - from) * (to - from);
             }
             stretch
         } else {
             self.chord(from, to)?
         };
         Ok(Stretch {
-            stray: stretch.stray + self.rounding(from, to),
+            deviation: stretch.deviation + self.rounding(from, to),
             ..stretch
         })
     }

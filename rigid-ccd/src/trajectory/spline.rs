@@ -2,29 +2,31 @@
 
 use super::checks::finite;
 use super::curve::Curve;
-use super::turns::Turns;
+use super::turns::OrientationCurve;
 use ccd_core::glam::DVec3;
-use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
+use ccd_core::{
+    Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
+};
 
-/// A body whose origin follows a [`Curve`], and which [rotates](Turns) about it.
+/// A body whose origin follows a [`Curve`], and which [rotates](OrientationCurve) about it.
 ///
 /// ```
-/// use rigid_ccd::trajectory::{Curve, Spline, Trajectory, Turns};
+/// use rigid_ccd::trajectory::{Curve, Spline, Trajectory, OrientationCurve};
 /// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-/// let path = Spline::new(Curve::bezier(&points, 2.0)?, Turns::NONE);
+/// let path = Spline::new(Curve::bezier(&points, 2.0)?, OrientationCurve::NONE);
 /// assert_eq!(path.pose(1.0)?.translation().to_array(), [0.75, 0.5, 0.0]);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline {
     curve: Curve,
-    turns: Turns,
+    turns: OrientationCurve,
     centre: DVec3,
 }
 
 impl Spline {
     /// Creates a trajectory from the curve of the body's origin and its rotation.
-    pub fn new(curve: Curve, turns: Turns) -> Self {
+    pub fn new(curve: Curve, turns: OrientationCurve) -> Self {
         Spline {
             curve,
             turns,
@@ -42,33 +44,33 @@ impl Spline {
     }
 }
 
-impl Smooth for Spline {
-    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for Spline {
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let (rotation, spin) = self.turns.at(time);
         let origin = self.curve.position(time) - rotation * self.centre;
         let start = Pose::new(origin, rotation)?;
         Motion::about(start, self.curve.velocity(time), spin, self.centre)
     }
 
-    fn accelerations(&self, from: f64, to: f64) -> Accelerations {
-        Accelerations {
+    fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds {
+        AccelerationBounds {
             linear: self.curve.acceleration(from, to),
             angular: self.turns.acceleration(from, to),
         }
     }
 
-    fn osculating(
+    fn osculating_motion(
         &self,
         time: f64,
         from: f64,
         to: f64,
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let acceleration = self.curve.acceleration_at(time, from, to);
-        Ok((self.tangent(time)?, acceleration))
+        Ok((self.tangent_motion(time)?, acceleration))
     }
 
-    fn rounding(&self, _: f64, _: f64) -> Stray {
-        Stray {
+    fn rounding(&self, _: f64, _: f64) -> DeviationBound {
+        DeviationBound {
             shift: self.curve.rounding(),
             turn: self.turns.rounding(),
         }

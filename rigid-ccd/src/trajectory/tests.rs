@@ -41,7 +41,7 @@ fn check<T: Trajectory>(
     for number in 0..TRAJECTORIES {
         let trajectory = make(&mut rng).unwrap();
         let worst =
-            worst_stray(&trajectory, 2.0, 1.5, draw_count() / TRAJECTORIES, number).unwrap();
+            worst_deviation(&trajectory, 2.0, 1.5, draw_count() / TRAJECTORIES, number).unwrap();
         assert!(worst.ratio <= 1.0, "{name} {number}: {worst:?}");
         tightest = ccd_core::order::greater(tightest, worst.ratio);
     }
@@ -213,7 +213,7 @@ fn slerp_of_tiny_turns() {
         let keys: Vec<_> = (0..=count).map(key).collect();
         Ok(Spline::new(
             Curve::bezier(&[[0.0; 3]], 2.0)?,
-            Turns::slerp(&keys)?,
+            OrientationCurve::slerp(&keys)?,
         ))
     });
 }
@@ -224,7 +224,7 @@ fn bezier() {
         let count = rng.random_range(1..7);
         Ok(Spline::new(
             Curve::bezier(&points(rng, count), 2.0)?,
-            Turns::NONE,
+            OrientationCurve::NONE,
         ))
     });
 }
@@ -233,7 +233,7 @@ fn bezier() {
 fn b_spline_and_slerp() {
     check("B-spline, slerp", 0.3, |rng| {
         let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
-        Spline::new(curve, Turns::slerp(&keys(rng, 5))?).about(vector(rng, 1.0))
+        Spline::new(curve, OrientationCurve::slerp(&keys(rng, 5))?).about(vector(rng, 1.0))
     });
 }
 
@@ -326,14 +326,14 @@ fn a_false_bound_is_found() {
     impl Trajectory for FalseBound {
         fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch(from, to)?;
-            stretch.stray.shift *= 0.9;
+            stretch.deviation.shift *= 0.9;
             Ok(stretch)
         }
     }
     let mut rng = Rng::seed_from_u64(2);
     let curve = Curve::bezier(&points(&mut rng, 4), 2.0).unwrap();
-    let spline = Spline::new(curve, Turns::NONE);
-    let worst = worst_stray(&FalseBound(spline), 2.0, 1.0, 1_000, 1).unwrap();
+    let spline = Spline::new(curve, OrientationCurve::NONE);
+    let worst = worst_deviation(&FalseBound(spline), 2.0, 1.0, 1_000, 1).unwrap();
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
@@ -342,7 +342,7 @@ fn a_false_bound_is_found() {
 fn stretches_between_knots_accelerate() {
     let mut rng = Rng::seed_from_u64(4);
     let curve = Curve::b_spline(&points(&mut rng, 7), 2.0).unwrap();
-    let spline = Spline::new(curve, Turns::NONE);
+    let spline = Spline::new(curve, OrientationCurve::NONE);
     for [from, to] in [[0.0, 0.5], [0.25, 0.5], [0.5, 1.0], [0.5, 0.75], [1.5, 2.0]] {
         let stretch = spline.stretch(from, to).unwrap();
         assert!(stretch.acceleration != DVec3::ZERO, "{from} {to}");
@@ -375,16 +375,16 @@ fn tangents_have_the_velocities_of_poses() {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
         let chain = arm(&mut rng, 5, Axes::Any);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
-        let turns = Turns::slerp(&keys(&mut rng, 6)).unwrap();
+        let turns = OrientationCurve::slerp(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
         let thrown = ballistic(&mut rng).unwrap();
-        let all: [&dyn Smooth; 3] = [&link, &spline, &thrown];
+        let all: [&dyn SmoothTrajectory; 3] = [&link, &spline, &thrown];
         let time = rng.random_range(0.1..1.9);
         for (number, smooth) in all.into_iter().enumerate() {
-            let tangent = smooth.tangent(time).unwrap();
+            let tangent = smooth.tangent_motion(time).unwrap();
             let x = vector(&mut rng, 1.0);
             let [before, after] = [-step, step].map(|step| {
-                let pose = smooth.tangent(time + step).unwrap().start();
+                let pose = smooth.tangent_motion(time + step).unwrap().start();
                 pose.transform_point(x)
             });
             let arm = tangent.start().rotation() * (x - tangent.centre());
@@ -418,7 +418,7 @@ fn positions_are_checked_up_to_rounding() {
         let found = chain.pose(1, &[wrong]).unwrap_err();
         assert!(matches!(
             found,
-            InputError::JointPosition { joint: Some(0), .. }
+            InputError::JointOutOfLimits { joint: Some(0), .. }
         ));
     }
     let message = chain.pose(1, &[3.0]).unwrap_err().to_string();

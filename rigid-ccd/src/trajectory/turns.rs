@@ -13,14 +13,14 @@ use ccd_core::{InputError, Pose};
 ///
 /// ```
 /// use rigid_ccd::glam::DQuat;
-/// use rigid_ccd::trajectory::Turns;
+/// use rigid_ccd::trajectory::OrientationCurve;
 /// let keys = [0.0, 1.0, 2.0].map(|t| (t, DQuat::from_rotation_z(t * t / 4.0).to_array()));
-/// let (half, _) = Turns::slerp(&keys)?.at(0.5);
+/// let (half, _) = OrientationCurve::slerp(&keys)?.at(0.5);
 /// assert!(half.angle_between(DQuat::from_rotation_z(1.0 / 8.0)) < 1e-7);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Turns {
+pub struct OrientationCurve {
     segments: Segments<Turn>,
     /// The orientations before the first segment and after the last.
     ends: [DQuat; 2],
@@ -33,9 +33,9 @@ struct Turn {
     spin: DVec3,
 }
 
-impl Turns {
+impl OrientationCurve {
     /// The rotation of a body whose axes stay those of the world.
-    pub const NONE: Turns = Turns {
+    pub const NONE: OrientationCurve = OrientationCurve {
         segments: Segments(Vec::new()),
         ends: [DQuat::IDENTITY; 2],
     };
@@ -54,7 +54,7 @@ impl Turns {
             let course = Turn { start, spin };
             Segment { from, to, course }
         };
-        Ok(Turns {
+        Ok(OrientationCurve {
             segments: Segments(keys.windows(2).map(segment).collect()),
             ends: [keys[0].1, keys[keys.len() - 1].1],
         })

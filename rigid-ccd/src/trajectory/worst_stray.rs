@@ -42,7 +42,7 @@ pub struct Worst {
 /// assert!(worst.ratio <= 1.0, "{worst:?}");
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
-pub fn worst_stray(
+pub fn worst_deviation(
     trajectory: &dyn Trajectory,
     duration: f64,
     reach: f64,
@@ -123,7 +123,7 @@ impl Search<'_> {
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(Worst {
-            ratio: (deviation - rounding) / stretch.stray.at(reach),
+            ratio: (deviation - rounding) / stretch.deviation.at(reach),
             from,
             to,
             time,

@@ -3,7 +3,7 @@
 use crate::case::{Case, Form, Shape};
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
-use ccd_core::{Answer, Body, DistanceOracle, Moving, OrElse, Polytope, Schedule, Settings};
+use ccd_core::{Answer, Body, DistanceOracle, MovingBody, OrElse, Polytope, Schedule, Settings};
 use ccd_decomp::{Detail, TriangleMesh, prepare};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -55,11 +55,11 @@ impl Bodies {
         case: &Case,
         config: &'a Settings,
     ) -> Result<ccd_core::Query<'a>, String> {
-        let moving = |k: usize| -> Result<Moving<'_>, String> {
+        let moving = |k: usize| -> Result<MovingBody<'_>, String> {
             let motion = case.courses[k]
                 .motion(case.duration)
                 .map_err(|e| e.to_string())?;
-            Ok(Moving::from((&self.bodies[k], motion)))
+            Ok(MovingBody::from((&self.bodies[k], motion)))
         };
         ccd_core::Query::new(moving(0)?, moving(1)?, case.duration, config)
             .map_err(|e| e.to_string())

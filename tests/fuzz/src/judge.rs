@@ -186,7 +186,7 @@ impl<'a> Judge<'a> {
                     .into_iter()
                     .for_each(|e| say(Fault::NotSafe, known(e)));
             }
-            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+            Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a first contact")
             }
         }

@@ -1,7 +1,7 @@
 //! Scenes of two solids, and distances of them at sampled times.
 
 use ccd_core::order::lesser;
-use ccd_core::{Body, Moving, Trajectory};
+use ccd_core::{Body, MovingBody, Trajectory};
 use ccd_tests::checks::CheckResult;
 use ccd_tests::courses::{self, KINDS};
 use ccd_tests::law;
@@ -35,7 +35,7 @@ impl Scene {
         }
     }
 
-    pub(super) fn moving(&self) -> [Moving<'_>; 2] {
+    pub(super) fn moving(&self) -> [MovingBody<'_>; 2] {
         [0, 1].map(|k| (&self.bodies[k], self.ways[k].as_ref()).into())
     }
 

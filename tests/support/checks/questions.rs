@@ -39,7 +39,7 @@ impl Judge<'_> {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
-            Outcome::Measured { time, contact, .. } => {
+            Outcome::LeastDistance { time, contact, .. } => {
                 let least = self.least_sampled_distance();
                 law!(
                     lower <= least + rounding,

@@ -2,7 +2,7 @@
 
 use super::{Line, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
-use ccd_core::{Face, Facet, Origin, Polytope, Volume};
+use ccd_core::{Face, Facet, FacetOrigin, Polytope, Volume};
 
 /// Returns a box around the origin: 12 triangles, or one part of six quadrilaterals.
 ///
@@ -20,7 +20,7 @@ pub fn cuboid(half: DVec3) -> Shape {
         [4, 5, 7, 6],
     ];
     let facet = |quad: &[u32; 4]| Facet {
-        origin: Origin::Faces,
+        origin: FacetOrigin::Faces,
         corners: quad.to_vec(),
     };
     let halves = |q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]];

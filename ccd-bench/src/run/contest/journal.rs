@@ -3,7 +3,7 @@
 use crate::run::measured::{Cell, Trial, write};
 use anyhow::{Context, Result};
 use ccd_file::Claim;
-use rigid_ccd::command::complain;
+use rigid_ccd::command::print_error;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::{HashMap, HashSet};
@@ -46,7 +46,7 @@ impl Journal {
                     let aside = folder.join(format!("{name}.old"));
                     fs::rename(&path, &aside).with_context(|| path.display().to_string())?;
                     let (path, aside) = (path.display(), aside.display());
-                    complain(&format!(
+                    print_error(&format!(
                         "{path} is of another build, or of other settings: it is now {aside}"
                     ));
                 }

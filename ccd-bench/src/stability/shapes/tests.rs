@@ -45,7 +45,7 @@ fn cubes_in_a_field_are_turned_inside_out_one_by_one() {
     let field = field_of_cubes(5).unwrap();
     assert_eq!(field.faces().len(), 60);
     let topology = Topology::of(&field);
-    assert_eq!(topology.wrong_way.count(), 2, "{topology:?}");
+    assert_eq!(topology.wrong_shells.count(), 2, "{topology:?}");
     assert!(field.vertices().iter().all(|p| p.z <= 0.0));
 }
 
@@ -63,5 +63,5 @@ fn bad_faces_are_repaired_or_kept_without_moving_the_surface() {
     let bad = with_bad_faces(&cube, 30).unwrap();
     assert_eq!(bad.vertices(), cube.vertices());
     let repairs = bad.repairs();
-    assert!(!repairs.collapsed.is_empty() && !repairs.duplicates.is_empty());
+    assert!(!repairs.collapsed_faces.is_empty() && !repairs.duplicate_faces.is_empty());
 }

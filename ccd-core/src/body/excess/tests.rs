@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::round::Round;
+use crate::body::round::SolidOfRevolution;
 
 #[test]
 fn lengths_are_taken_and_all_else_is_refused() {
@@ -19,8 +19,11 @@ fn lengths_are_taken_and_all_else_is_refused() {
 
 #[test]
 fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
-    for round in [Round::cylinder(1.0, 2.0), Round::cone(1.0, 2.0)] {
-        let about = round.unwrap().enclosed(1e-3).unwrap();
+    for round in [
+        SolidOfRevolution::cylinder(1.0, 2.0),
+        SolidOfRevolution::cone(1.0, 2.0),
+    ] {
+        let about = round.unwrap().enclose(1e-3).unwrap();
         let body = about.body().unwrap();
         assert!(body.excess() == about.excess() && body.excess() > 1e-4);
         // The triangles that replace the body represent the same shape.
@@ -55,7 +58,10 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
     );
     assert_eq!(both.upper_bound_of_shapes(f64::INFINITY), f64::INFINITY);
     // A surface that exceeds the shape makes its body exceed it.
-    let about = Round::cylinder(1.0, 1.0).unwrap().enclosed(0.1).unwrap();
+    let about = SolidOfRevolution::cylinder(1.0, 1.0)
+        .unwrap()
+        .enclose(0.1)
+        .unwrap();
     let whole = Body::polytope(about.polytope().clone()).unwrap();
     let (triangles, numbers) = about.triangles();
     let pieces = crate::Pieces::triangles(&about.polytope().points, &triangles, &numbers).unwrap();

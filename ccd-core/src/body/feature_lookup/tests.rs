@@ -22,8 +22,8 @@ fn prism() -> Pieces {
     let caps = [(0..count).rev().collect(), (count..2 * count).collect()];
     let facet = |(k, corners)| Facet {
         origin: match k % 3 {
-            0 => Origin::Virtual,
-            _ => Origin::Face(k),
+            0 => FacetOrigin::Virtual,
+            _ => FacetOrigin::Face(k),
         },
         corners,
     };

@@ -123,7 +123,7 @@ fn facets_by_point(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
 fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     if let Some(point) = too_fine(&piece.points) {
         let point = point as u32;
-        return Err(HullFault::TooFine { point }.at(at));
+        return Err(HullFault::CoordinateTooSmall { point }.at(at));
     }
     let facet_data = FacetData::facets_of_piece(&piece);
     let loops = piece.facets.into_iter().map(|facet| facet.corners);

@@ -54,13 +54,13 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
         }
         for (from, to) in edges_of(corners) {
             if from == to || !edges.insert((from, to)) {
-                return Err(HullFault::Open { facet });
+                return Err(HullFault::OpenSurface { facet });
             }
         }
     }
     for (facet, corners) in (0..).zip(hull.facets.iter()) {
         if edges_of(corners).any(|(from, to)| !edges.contains(&(to, from))) {
-            return Err(HullFault::Open { facet });
+            return Err(HullFault::OpenSurface { facet });
         }
     }
     Ok(())

@@ -33,7 +33,7 @@ pub enum HullFault {
         facet: u32,
     },
     /// The facets do not close a surface: an edge does not occur exactly once in reverse in another facet.
-    Open {
+    OpenSurface {
         /// The index of the facet with that edge.
         facet: u32,
     },
@@ -45,7 +45,7 @@ pub enum HullFault {
         point: u32,
     },
     /// A point has a coordinate too close to 0 for exact predicates.
-    TooFine {
+    CoordinateTooSmall {
         /// The index of the point.
         point: u32,
     },
@@ -82,11 +82,11 @@ impl fmt::Display for HullFault {
         match self {
             Self::ForeignPoint { point } => write!(f, "point {point} is none of its children's"),
             Self::BadFacet { facet } => write!(f, "facet {facet} names a missing corner"),
-            Self::Open { facet } => write!(f, "facet {facet} has an edge that is open"),
+            Self::OpenSurface { facet } => write!(f, "facet {facet} has an edge that is open"),
             Self::ChildOutside { child, point } => {
                 write!(f, "point {point} of its child {child} is outside")
             }
-            Self::TooFine { point } => {
+            Self::CoordinateTooSmall { point } => {
                 write!(f, "point {point} has a coordinate too near to 0")
             }
             Self::NotAPiece => write!(f, "it is a leaf, but none of the body's pieces"),

@@ -1,6 +1,6 @@
 //! The input format of the nodes of a hull tree.
 
-use super::loops::Loops;
+use super::loops::PolygonList;
 use glam::DVec3;
 
 /// A node of a hull tree, as input of [`HullTree::new`](super::HullTree::new).
@@ -22,7 +22,7 @@ pub struct Hull {
     /// The facets, as loops of indices into the points, counterclockwise seen from outside. They are convex polygons,
     /// no two of them coplanar, that close the hull. A flat polygon has two facets; a hull of one or two points has
     /// none.
-    pub facets: Loops,
+    pub facets: PolygonList,
 }
 
 /// Where a facet of a node's hull lies relative to the mesh and the pieces below; better classes come first.

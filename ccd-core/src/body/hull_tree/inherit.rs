@@ -7,14 +7,14 @@ use super::edges::{EdgeMap, edges_of};
 use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar, non_collinear_corners};
 use super::node::{FacetData, Node};
-use crate::body::polytope::{Face, Origin, Polytope};
+use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
 
 impl FacetData {
     const BRIDGE: FacetData = FacetData {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         class: FacetClass::Free,
         faces: Vec::new(),
     };
@@ -36,8 +36,8 @@ impl FacetData {
             facet_data.push(FacetData {
                 origin: facet.origin,
                 class: match facet.origin {
-                    Origin::Face(_) | Origin::Faces => FacetClass::Original,
-                    Origin::Virtual => FacetClass::Contained,
+                    FacetOrigin::Face(_) | FacetOrigin::Faces => FacetClass::Original,
+                    FacetOrigin::Virtual => FacetClass::Contained,
                 },
                 faces: near.filter(within).collect(),
             });
@@ -50,8 +50,8 @@ impl FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
             origin: match class {
-                FacetClass::Original => Origin::Faces,
-                FacetClass::Contained | FacetClass::Free => Origin::Virtual,
+                FacetClass::Original => FacetOrigin::Faces,
+                FacetClass::Contained | FacetClass::Free => FacetOrigin::Virtual,
             },
             class,
             faces: parts.iter().flat_map(|part| part.mesh_faces()).collect(),
@@ -59,7 +59,7 @@ impl FacetData {
     }
 }
 
-/// A child of a node, with its points numbered as in [`Identity`](super::identity::Identity).
+/// A child of a node, with its points numbered as in [`PointNumbering`](super::identity::PointNumbering).
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
     node: &'a Node<'a>,
@@ -116,7 +116,7 @@ impl ChildFacet<'_> {
     fn mesh_faces(&self) -> Vec<Face> {
         let node = self.child.node;
         match self.facet.origin {
-            Origin::Face(id) => (1..self.corners.len() - 1)
+            FacetOrigin::Face(id) => (1..self.corners.len() - 1)
                 .map(|k| {
                     let corners = [0, k, k + 1].map(|k| self.corners[k]);
                     Face {
@@ -126,7 +126,7 @@ impl ChildFacet<'_> {
                     }
                 })
                 .collect(),
-            Origin::Faces | Origin::Virtual => self.facet.faces.clone(),
+            FacetOrigin::Faces | FacetOrigin::Virtual => self.facet.faces.clone(),
         }
     }
 }
@@ -190,8 +190,8 @@ fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
         origin: match child.node.leaf_faces.as_deref().unwrap_or_default() {
-            [face] => Origin::Face(face.id),
-            _ => Origin::Virtual,
+            [face] => FacetOrigin::Face(face.id),
+            _ => FacetOrigin::Virtual,
         },
         class: FacetClass::Original,
         faces: Vec::new(),

@@ -1,7 +1,7 @@
 //! Tests exactly whether points are in a convex hull `[SHE97]`.
 
-use super::loops::Loops;
-use crate::math::exact::{is_degenerate, side, turn_along};
+use super::loops::PolygonList;
+use crate::math::exact::{is_degenerate, line_side_along, side};
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
@@ -18,7 +18,7 @@ pub(super) struct PreparedHull<'a> {
 impl<'a> PreparedHull<'a> {
     /// Prepares a hull for tests whether it contains points. Every edge of the facets must occur exactly once in
     /// reverse in another facet.
-    pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
+    pub(super) fn new(points: &'a [DVec3], facets: &PolygonList) -> Self {
         let at = |&v: &u32| points[v as usize];
         let fan = |corners: &[u32]| {
             let corners: Vec<DVec3> = corners.iter().map(at).collect();
@@ -90,7 +90,7 @@ fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
 pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     projectable_corners(polygon).is_some_and(|(fan, axis)| {
         let in_plane = |&p: &DVec3| side(fan, p).is_eq();
-        let turn = |[a, b, c]: [DVec3; 3]| turn_along(axis, [a, b], c);
+        let turn = |[a, b, c]: [DVec3; 3]| line_side_along(axis, [a, b], c);
         let same_side = turn(fan).is_gt() == turn(triangle).is_gt();
         same_side && triangle.iter().all(in_plane)
     })
@@ -106,7 +106,7 @@ fn projectable_corners(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
         let [a, b, c] = fan;
-        let axis = (0..3).find(|&axis| turn_along(axis, [a, b], c).is_ne())?;
+        let axis = (0..3).find(|&axis| line_side_along(axis, [a, b], c).is_ne())?;
         Some((fan, axis))
     })
 }
@@ -117,7 +117,7 @@ fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
         return false;
     };
     let [a, b, c] = fan;
-    let front = turn_along(axis, [a, b], c);
+    let front = line_side_along(axis, [a, b], c);
     let in_plane = |p: &DVec3| side(fan, *p).is_eq();
     if !(in_plane(&point) && corners.iter().all(in_plane)) {
         return false;
@@ -125,7 +125,7 @@ fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     let mut inner = false;
     for (k, &from) in corners.iter().enumerate() {
         let to = corners[(k + 1) % corners.len()];
-        let turn = turn_along(axis, [from, to], point);
+        let turn = line_side_along(axis, [from, to], point);
         if turn.is_eq() {
             continue;
         }

@@ -4,8 +4,8 @@
 /// points.
 ///
 /// ```
-/// use ccd_core::Loops;
-/// let tetrahedron = Loops::from_iter([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
+/// use ccd_core::PolygonList;
+/// let tetrahedron = PolygonList::from_iter([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
 /// assert_eq!(tetrahedron.len(), 4);
 /// assert_eq!(tetrahedron.get(2), Some(&[1, 2, 3][..]));
 /// assert!(tetrahedron.iter().all(|corners| corners.len() == 3));
@@ -13,16 +13,16 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "Vec<Vec<u32>>"))]
-pub struct Loops {
+pub struct PolygonList {
     corners: Vec<u32>,
     /// The end of each polygon's corners.
     ends: Vec<usize>,
 }
 
-impl Loops {
+impl PolygonList {
     /// Creates an empty list with capacity for this many polygons, and this many corners in total.
     pub fn with_capacity(loops: usize, corners: usize) -> Self {
-        Loops {
+        PolygonList {
             corners: Vec::with_capacity(corners),
             ends: Vec::with_capacity(loops),
         }
@@ -67,9 +67,9 @@ impl Loops {
     }
 }
 
-impl<L: AsRef<[u32]>> FromIterator<L> for Loops {
+impl<L: AsRef<[u32]>> FromIterator<L> for PolygonList {
     fn from_iter<I: IntoIterator<Item = L>>(iter: I) -> Self {
-        let mut loops = Loops::default();
+        let mut loops = PolygonList::default();
         for corners in iter {
             loops.push(corners.as_ref());
         }
@@ -77,7 +77,7 @@ impl<L: AsRef<[u32]>> FromIterator<L> for Loops {
     }
 }
 
-impl From<Vec<Vec<u32>>> for Loops {
+impl From<Vec<Vec<u32>>> for PolygonList {
     fn from(loops: Vec<Vec<u32>>) -> Self {
         loops.into_iter().collect()
     }
@@ -85,7 +85,7 @@ impl From<Vec<Vec<u32>>> for Loops {
 
 /// Serialises the polygons as a list of lists.
 #[cfg(feature = "serde")]
-impl serde::Serialize for Loops {
+impl serde::Serialize for PolygonList {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.iter())
     }

@@ -1,8 +1,8 @@
 //! A node of a hull tree during assembly.
 
 use super::hull::FacetClass;
-use super::loops::Loops;
-use crate::body::polytope::{Face, Origin};
+use super::loops::PolygonList;
+use crate::body::polytope::{Face, FacetOrigin};
 use glam::DVec3;
 use std::borrow::Cow;
 
@@ -12,7 +12,7 @@ pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
     /// The mesh's vertex number of each point of the hull.
     pub(super) vertex_ids: Vec<u32>,
-    pub(super) loops: Cow<'a, Loops>,
+    pub(super) loops: Cow<'a, PolygonList>,
     /// The origin, class and mesh faces of each facet.
     pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf; `None` for an inner node, which has those of its facets.
@@ -25,7 +25,7 @@ pub(super) struct Node<'a> {
 /// The origin, class and mesh faces of one facet.
 #[derive(Clone, Debug)]
 pub(super) struct FacetData {
-    pub(super) origin: Origin,
+    pub(super) origin: FacetOrigin,
     pub(super) class: FacetClass,
     /// The mesh's triangles in the facet; empty if the facet is one face.
     pub(super) faces: Vec<Face>,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::feature::Feature;
-use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::body::{Body, Volume};
 use crate::error::InputError;
 use glam::DVec3;
@@ -28,7 +28,7 @@ fn corners(lo: DVec3, hi: DVec3) -> Vec<DVec3> {
 /// Creates a box between two values of x, 1 high and 1 wide. Its faces are numbered from `first` on.
 fn block(from: f64, to: f64, first: u32) -> Polytope {
     let facet = |(k, corners): (usize, &[u32; 4])| Facet {
-        origin: Origin::Face(first + k as u32),
+        origin: FacetOrigin::Face(first + k as u32),
         corners: corners.to_vec(),
     };
     Polytope {
@@ -79,9 +79,9 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     .unwrap();
     assert_eq!(whole.facet_classes(0), [Original; 6]);
     let root = whole.hulls().get(0);
-    let origins = [Origin::Face(0), Origin::Face(7)];
+    let origins = [FacetOrigin::Face(0), FacetOrigin::Face(7)];
     assert_eq!(root.facets.origins()[..2], origins);
-    assert_eq!(root.facets.origins()[2..], [Origin::Faces; 4]);
+    assert_eq!(root.facets.origins()[2..], [FacetOrigin::Faces; 4]);
     // The mesh's faces are found again on a tiled side.
     let top = Combination::segment([4, 7], 0.25);
     assert_eq!(whole.hulls().feature(0, &top), Feature::Face(5));
@@ -107,11 +107,14 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
 #[test]
 fn virtual_facets_stay_contained() {
     let mut left = block(0.0, 1.0, 0);
-    left.facets[5].origin = Origin::Virtual;
+    left.facets[5].origin = FacetOrigin::Virtual;
     let whole = tree(&[left, block(1.0, 3.0, 6)], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.facet_classes(1)[5], FacetClass::Contained);
     assert_eq!(whole.facet_classes(0)[5], FacetClass::Contained);
-    assert_eq!(whole.hulls().get(0).facets.origins()[5], Origin::Virtual);
+    assert_eq!(
+        whole.hulls().get(0).facets.origins()[5],
+        FacetOrigin::Virtual
+    );
 }
 
 #[test]
@@ -166,7 +169,7 @@ fn triangles_segments_and_points_join() {
     let pieces = Pieces::triangles(&[a, b, c, d], &[[0, 1, 2], [0, 2, 3]], &[8, 9]).unwrap();
     let square = Hull {
         points: vec![a, b, c, d],
-        facets: Loops::from_iter([[0, 1, 2, 3], [3, 2, 1, 0]]),
+        facets: PolygonList::from_iter([[0, 1, 2, 3], [3, 2, 1, 0]]),
     };
     let nodes = |hull| {
         vec![
@@ -183,7 +186,7 @@ fn triangles_segments_and_points_join() {
     let along = |x: f64| x * DVec3::X;
     let segment = Hull {
         points: vec![along(0.0), along(3.0)],
-        facets: Loops::default(),
+        facets: PolygonList::default(),
     };
     let beads = [
         flat(&[along(0.0), along(1.0)]),
@@ -200,7 +203,7 @@ fn triangles_segments_and_points_join() {
         tree(&off, segment.clone()),
         Err(HullTreeError::Node {
             node: 2,
-            fault: HullFault::TooFine { point: 0 }
+            fault: HullFault::CoordinateTooSmall { point: 0 }
         })
     ));
     let off = [
@@ -212,7 +215,7 @@ fn triangles_segments_and_points_join() {
     let same = [flat(&[c]), flat(&[c])];
     let point = Hull {
         points: vec![c],
-        facets: Loops::default(),
+        facets: PolygonList::default(),
     };
     assert!(tree(&same, point).is_ok());
 }
@@ -221,7 +224,7 @@ fn triangles_segments_and_points_join() {
 fn flat_hulls_contain_only_points_in_their_plane_and_outline() {
     let square = Hull {
         points: corners(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0))[..4].to_vec(),
-        facets: Loops::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
+        facets: PolygonList::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
     };
     let plate = flat(&square.points);
     let holds = |p: DVec3| tree(&[plate.clone(), flat(&[p])], square.clone()).is_ok();
@@ -239,7 +242,7 @@ fn containment_is_exact() {
     let tetrahedron = [6.0 * DVec3::X, 3.0 * DVec3::Y, 2.0 * DVec3::Z, DVec3::ZERO];
     let hull = Hull {
         points: tetrahedron.to_vec(),
-        facets: Loops::from_iter([[0, 1, 2], [1, 0, 3], [2, 1, 3], [0, 2, 3]]),
+        facets: PolygonList::from_iter([[0, 1, 2], [1, 0, 3], [2, 1, 3], [0, 2, 3]]),
     };
     let holds = |p: DVec3| tree(&[flat(&tetrahedron), flat(&[p])], hull.clone()).is_ok();
     let on = DVec3::new(1.0, 1.0, 1.0);
@@ -281,11 +284,11 @@ fn invalid_hulls_are_refused() {
     );
     assert_eq!(
         refused(&|facets| drop(facets.pop())),
-        HullFault::Open { facet: 0 }
+        HullFault::OpenSurface { facet: 0 }
     );
     assert_eq!(
         refused(&|facets| facets.push(BOX_FACETS[0].to_vec())),
-        HullFault::Open { facet: 6 }
+        HullFault::OpenSurface { facet: 6 }
     );
     // The hulls are inside out, too small, or without facets.
     let outside = |child, point| HullFault::ChildOutside { child, point };

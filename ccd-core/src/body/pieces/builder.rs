@@ -1,7 +1,7 @@
 //! Builds a list of pieces, one by one.
 
 use super::{Pieces, Radii, Shape, Surfaces};
-use crate::body::polytope::{Face, Origin, Polytope};
+use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
@@ -96,7 +96,7 @@ impl PiecesBuilder {
         &mut self,
         polytope: PolytopeParts<
             'a,
-            impl Iterator<Item = (&'a [u32], Origin)>,
+            impl Iterator<Item = (&'a [u32], FacetOrigin)>,
             impl Iterator<Item = Face>,
         >,
     ) -> Result<(), InputError> {

@@ -74,7 +74,7 @@ fn invalid_polytopes_are_refused() {
     assert_eq!(Pieces::polytopes(&[]).err(), Some(InputError::NoPieces));
     for corners in [vec![0, 1], vec![0, 1, 4], vec![]] {
         let facet = |corners: Vec<u32>| Facet {
-            origin: Origin::Face(0),
+            origin: FacetOrigin::Face(0),
             corners,
         };
         let polytope = Polytope {
@@ -152,7 +152,7 @@ proptest! {
                 points: (0..=k).map(|p| DVec3::splat((10 * k + p) as f64)).collect(),
                 vertex_ids: (0..=k as u32).map(|p| 100 * k as u32 + p).collect(),
                 facets: (2..k as u32)
-                    .map(|c| Facet { origin: Origin::Face(1000 * k as u32 + c), corners: vec![0, c - 1, c] })
+                    .map(|c| Facet { origin: FacetOrigin::Face(1000 * k as u32 + c), corners: vec![0, c - 1, c] })
                     .collect(),
                 faces: Vec::new(),
                 radius: k as f64,
@@ -195,8 +195,8 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     let polytope = Polytope {
         points: (0..8).map(corner).collect(),
         facets: vec![
-            facet(Origin::Faces, &[0, 2, 3, 1]),
-            facet(Origin::Virtual, &[4, 5, 7, 6]),
+            facet(FacetOrigin::Faces, &[0, 2, 3, 1]),
+            facet(FacetOrigin::Virtual, &[4, 5, 7, 6]),
         ],
         faces: vec![
             Face {
@@ -233,7 +233,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
 fn a_polytope_of_virtual_facets_has_no_names() {
     let loops = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
     let facets = loops.map(|corners| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners: corners.to_vec(),
     });
     let hull = Polytope {

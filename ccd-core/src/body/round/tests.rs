@@ -2,11 +2,11 @@ use super::*;
 use crate::tests::rational::exact;
 use dashu_ratio::Relaxed;
 
-fn cylinder_and_cone(radius: f64, half_height: f64) -> [Round; 2] {
-    let cylinder = Round::cylinder(radius, half_height).expect("it is one");
+fn cylinder_and_cone(radius: f64, half_height: f64) -> [SolidOfRevolution; 2] {
+    let cylinder = SolidOfRevolution::cylinder(radius, half_height).expect("it is one");
     [
         cylinder,
-        Round::cone(radius, half_height).expect("it is one"),
+        SolidOfRevolution::cone(radius, half_height).expect("it is one"),
     ]
 }
 
@@ -42,7 +42,7 @@ fn enclosures_hold_their_shapes_exactly() {
         let radius = [1.0, 0.1, 3.7e5, 1e-90, 6.3e11, 1e-310][k as usize % 6];
         let half_height = 0.3 * f64::from(k % 5);
         for round in cylinder_and_cone(radius, half_height) {
-            let about = round.enclosed(share * radius).expect("it can be had");
+            let about = round.enclose(share * radius).expect("it can be had");
             let points = &about.polytope().points;
             let (base, rest) = points.split_at(match round.kind {
                 Kind::Cylinder => points.len() / 2,
@@ -68,9 +68,9 @@ fn enclosures_hold_their_shapes_exactly() {
 #[test]
 fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
     for radius in [1.0, 0.03, 2e7] {
-        for share in [2.0, 0.3, EXCESS_SHARE, 1e-6] {
+        for share in [2.0, 0.3, DEFAULT_EXCESS_SHARE, 1e-6] {
             for round in cylinder_and_cone(radius, 1.0) {
-                let about = round.enclosed(share * radius).expect("it can be had");
+                let about = round.enclose(share * radius).expect("it can be had");
                 assert!(about.excess() <= share * radius, "{round:?} {share}");
                 let reach = |p: &DVec3| exact(p.x) * exact(p.x) + exact(p.y) * exact(p.y);
                 let most = exact(radius) + exact(about.excess());
@@ -90,7 +90,7 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
 #[test]
 fn enclosures_touch_their_shapes_along_the_axes() {
     for round in cylinder_and_cone(1.0, 2.0) {
-        let about = round.enclosed(round.usual_excess()).expect("it can be had");
+        let about = round.enclose(round.usual_excess()).expect("it can be had");
         for axis in [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y] {
             let heights = about.polytope().points.iter().map(|p| p.dot(axis));
             let reach = heights.fold(0.0, greater);
@@ -102,7 +102,7 @@ fn enclosures_touch_their_shapes_along_the_axes() {
 #[test]
 fn facets_close_the_polytope_and_point_outward() {
     for round in cylinder_and_cone(2.0, 1.0) {
-        let about = round.enclosed(0.1).expect("it can be had");
+        let about = round.enclose(0.1).expect("it can be had");
         let points = &about.polytope().points;
         let mut volume = 0.0;
         for corners in about.triangles().0 {
@@ -123,23 +123,23 @@ fn facets_close_the_polytope_and_point_outward() {
 
 #[test]
 fn what_is_no_length_is_refused_by_its_name() {
-    let named = |made: Result<Round, InputError>, name: &str| match made {
+    let named = |made: Result<SolidOfRevolution, InputError>, name: &str| match made {
         Err(InputError::OutOfRange { what, .. }) => assert_eq!(what, name),
         other => panic!("{other:?}"),
     };
     for bad in [-1.0, f64::NAN, f64::INFINITY, 1.1e12] {
-        named(Round::cylinder(bad, 1.0), "radius");
-        named(Round::cone(1.0, bad), "half height");
+        named(SolidOfRevolution::cylinder(bad, 1.0), "radius");
+        named(SolidOfRevolution::cone(1.0, bad), "half height");
     }
-    let cylinder = Round::cylinder(2.0, 1.0).expect("it is one");
+    let cylinder = SolidOfRevolution::cylinder(2.0, 1.0).expect("it is one");
     for bad in [0.0, 1e-12, 1e-8, -1.0, f64::NAN] {
-        let refused = cylinder.enclosed(bad);
+        let refused = cylinder.enclose(bad);
         assert!(
             matches!(refused, Err(InputError::OutOfRange { what: "excess", .. })),
             "{refused:?}"
         );
     }
-    assert!(cylinder.enclosed(cylinder.least_excess()).is_ok());
+    assert!(cylinder.enclose(cylinder.least_excess()).is_ok());
     let widest = Body::cylinder(MAX_COORDINATE, 1.0);
     assert!(matches!(
         widest,

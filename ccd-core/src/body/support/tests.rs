@@ -5,14 +5,14 @@ mod tree;
 use super::*;
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
-use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::math::order::greater;
 use crate::rounding::HEIGHT_F64;
 use crate::tests::scene::{RngExt, direction, magnitude, rng};
 
 fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
     let facet = |corners| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners,
     };
     let polytope = Polytope {

@@ -7,7 +7,7 @@ use super::group::{Node, NodeChildren};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
-use crate::rounding::{FRAME_F64, U64};
+use crate::rounding::{FRAME_F64, UNIT_ROUNDOFF_F64};
 use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
 
@@ -117,7 +117,7 @@ impl FittedBox {
             square = greater(square, way.length_squared());
         }
         // A product that cancels is off by this much, which `round_up_to_f32` does not cover in a flat box.
-        let rounding = 8.0 * U64 * square.sqrt();
+        let rounding = 8.0 * UNIT_ROUNDOFF_F64 * square.sqrt();
         let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
         Node {
             centre,

@@ -2,7 +2,7 @@
 
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
-use crate::rounding::{BOX_F64, SQUARES, THIN_F32, U64};
+use crate::rounding::{FLAT_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARES, UNIT_ROUNDOFF_F64};
 use glam::{DVec3, Vec3};
 
 /// The number of children in a group.
@@ -243,18 +243,20 @@ impl Node {
 
     /// Returns whether the box is thin enough for the node to count as flat.
     pub(crate) fn is_thin(&self) -> bool {
-        self.half[2] <= THIN_F32 * self.radius
+        self.half[2] <= FLAT_THICKNESS_F32 * self.radius
     }
 
     /// Returns half the extent of the box along one of its axes, widened because the axes are rounded.
     pub(super) fn half_extent(&self, axis: usize) -> f64 {
-        f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
+        f64::from(self.half[axis])
+            + f64::from(self.rounding)
+            + RAY_BOX_WIDENING_F64 * f64::from(self.radius)
     }
 
     /// Returns whether a point is in the box, or within about `reach` of it.
     pub(super) fn is_near(&self, point: DVec3, reach: f64) -> bool {
         let way = point - self.centre;
-        let reach = reach + 8.0 * U64 * way.abs().element_sum();
+        let reach = reach + 8.0 * UNIT_ROUNDOFF_F64 * way.abs().element_sum();
         (0..3)
             .all(|k| way.dot(self.axes[k].as_dvec3()).abs() <= self.half_extent(k) + 1.001 * reach)
     }

@@ -3,7 +3,7 @@
 use super::waiting::NodeStack;
 use super::{NodeChildren, Tree};
 use crate::body::pieces::Pieces;
-use crate::rounding::SIGN_F64;
+use crate::rounding::DETERMINANT_F64;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -76,7 +76,7 @@ pub(crate) fn is_farther_than(triangle: [DVec3; 3], point: DVec3, reach: f64) ->
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {
-        let beyond = |p: &DVec3| axis.dot(*p) > (reach + SIGN_F64 * size(*p)) * size(axis);
+        let beyond = |p: &DVec3| axis.dot(*p) > (reach + DETERMINANT_F64 * size(*p)) * size(axis);
         corners.iter().all(beyond)
     };
     let [a, b, c] = corners;

@@ -4,7 +4,7 @@ use super::waiting::NodeStack;
 use super::{Node, NodeChildren, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
-use crate::rounding::{SIGN_F64, U64};
+use crate::rounding::{DETERMINANT_F64, UNIT_ROUNDOFF_F64};
 use crate::tuning::MAX_RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -98,7 +98,7 @@ fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();
         // Positions along the ray are off by the rounding of the distance to the box.
-        let half = node.half_extent(k) + 32.0 * U64 * way.abs().element_sum();
+        let half = node.half_extent(k) + 32.0 * UNIT_ROUNDOFF_F64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray parallel to a slab, within it, gives an infinity on either side. NaN counts as met.
@@ -117,10 +117,10 @@ enum Sign {
 }
 
 impl Sign {
-    /// Returns the sign of a number with an error of at most [`SIGN_F64`] times `size`.
+    /// Returns the sign of a number with an error of at most [`DETERMINANT_F64`] times `size`.
     fn of_number(number: f64, size: f64) -> Sign {
         // Written so that NaN is unclear. Products that underflow are off by less than the added term.
-        let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
+        let rounding = DETERMINANT_F64 * size + f64::MIN_POSITIVE;
         match () {
             () if number > rounding => Sign::Positive,
             () if number < -rounding => Sign::Negative,
@@ -149,7 +149,7 @@ impl Crossings {
         if sides.contains(&Sign::Unclear) {
             // The ray may pass a triangle that is too small or too thin for its edges to decide.
             let reach =
-                greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
+                greater(size(b - a), size(c - a)) + DETERMINANT_F64 * (size(a) + size(b) + size(c));
             return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());
         }
         let sign = match sides[0] {

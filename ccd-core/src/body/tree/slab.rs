@@ -2,7 +2,7 @@
 
 use crate::math::order::greater;
 use crate::math::vector::unit;
-use crate::rounding::U64;
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tuning::MAX_FLAT_THICKNESS;
 use glam::DVec3;
 
@@ -31,7 +31,7 @@ impl Slab {
             size = greater(size, way.abs().max_element());
         }
         // Differences are off by 1u, products with a unit vector and their sum by 3u of √3.
-        half += 16.0 * U64 * size;
+        half += 16.0 * UNIT_ROUNDOFF_F64 * size;
         // Written so that NaN is not flat.
         (half <= MAX_FLAT_THICKNESS * size).then_some(Slab { normal, half })
     }

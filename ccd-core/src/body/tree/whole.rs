@@ -3,7 +3,7 @@
 use super::fit::{NodePoints, Sample, best_frame};
 use crate::math::order::greater;
 use crate::math::vector::length;
-use crate::rounding::U64;
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use glam::{DMat3, DVec3};
 
 /// The oriented bounding box of a body, as tight as f64 allows. The root's own box is rounded to f32: with it, bodies
@@ -56,8 +56,8 @@ impl BodyBox {
             centre,
             axes,
             half,
-            radius: (radius + node_points.radius) * (1.0 + 8.0 * U64),
-            slack: node_points.radius + (3.0 * largest + 32.0 * U64) * radius,
+            radius: (radius + node_points.radius) * (1.0 + 8.0 * UNIT_ROUNDOFF_F64),
+            slack: node_points.radius + (3.0 * largest + 32.0 * UNIT_ROUNDOFF_F64) * radius,
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
 use crate::problem::Problem;
-use crate::rounding::BOX_F64;
+use crate::rounding::RAY_BOX_WIDENING_F64;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{direction, long_box};
@@ -16,7 +16,7 @@ use crate::tests::worst::{Worst, share};
 fn worst_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::sphere(0.1).unwrap();
-    let found = Worst::of("BOX_F64", 10_000).search(|tape| {
+    let found = Worst::of("RAY_BOX_WIDENING_F64", 10_000).search(|tape| {
         let points = long_box(tape);
         let of = Polytope {
             points: points.clone(),
@@ -30,7 +30,7 @@ fn worst_box() {
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
         let [_, high] = node.projection_on(n);
         let axes = node.axes.map(|axis| axis.dot(n).abs());
-        let allowed = BOX_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
+        let allowed = RAY_BOX_WIDENING_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
         let middle = Double3::from(n).dot(Double3::from(node.centre));
         let lost = |p| {
             let height = Double3::from(n).dot(Double3::from(p));

@@ -9,7 +9,7 @@ fn slab_with_centre_points(half: DVec3) -> Body {
     let mut points = Mesh::cuboid(half).points;
     points.extend([-half.z * DVec3::Z, half.z * DVec3::Z]);
     let side = |corners: &[u32]| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners: corners.to_vec(),
     };
     let walls = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]];
@@ -92,7 +92,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
     let ball = uv_sphere(32, 34);
     let count = ball.faces.len() as u64;
     let facet = |(k, corners): (u32, &[u32; 3])| Facet {
-        origin: Origin::Face(k),
+        origin: FacetOrigin::Face(k),
         corners: corners.to_vec(),
     };
     let hull = Body::polytope(Polytope {
@@ -133,7 +133,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
     };
     let refused = still(&hull, &socket, shifted, &config).contacts_at(0.0);
     let budget = 2 * count;
-    assert_eq!(refused, Err(ContactsError::TooMany { budget }));
+    assert_eq!(refused, Err(ContactsError::TooManyPairs { budget }));
 }
 
 /// Tests two pieces with different radii that share a corner: the one with the larger radius is nearer.

@@ -2,12 +2,12 @@
 
 use super::containment_at_start;
 use crate::answer::{Limit, Outcome, Overlap};
-use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::meshes::{cube, inside_out, translated_triangles};
 use crate::tests::nearest::Triangle;
@@ -27,7 +27,7 @@ fn contained(a: &Body, b: &Body) -> Option<Overlap> {
 }
 
 fn containment_of(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Option<Outcome> {
-    let moving = |body| Moving::from((body, Motion::still(Pose::IDENTITY)));
+    let moving = |body| MovingBody::from((body, Motion::still(Pose::IDENTITY)));
     let problem = Problem::about(moving(a), moving(b), 1.0, &Settings::DEFAULT).unwrap();
     containment_at_start(&problem, touching, &mut Vec::new())
 }
@@ -326,7 +326,7 @@ fn only_thin_pieces_are_examined_beside_edges() {
             &[2, 5, 3, 0],
         ];
         let facet = |corners: &[u32]| Facet {
-            origin: Origin::Virtual,
+            origin: FacetOrigin::Virtual,
             corners: corners.to_vec(),
         };
         let prism = Polytope {

@@ -39,18 +39,18 @@ fn a_combination_names_a_point_of_the_hull() {
             .zip(weights)
             .map(|(&p, w)| p * (w / sum))
             .sum();
-        assert!(out.of(&points).unwrap().distance(exact) < 1e-8);
-        let half = Combination::segment([0, 1], 0.5).of(&points).unwrap();
+        assert!(out.position(&points).unwrap().distance(exact) < 1e-8);
+        let half = Combination::segment([0, 1], 0.5).position(&points).unwrap();
         assert!(half.distance(points[0].midpoint(points[1])) < 1e-9);
     }
     let points = [DVec3::ONE];
-    assert_eq!(Combination::point(0).of(&points), Some(DVec3::ONE));
-    assert_eq!(Combination::point(1).of(&points), None);
-    assert_eq!(Combination::segment([0, 1], 0.5).of(&points), None);
-    assert_eq!(Combination::EMPTY.of(&points), None);
+    assert_eq!(Combination::point(0).position(&points), Some(DVec3::ONE));
+    assert_eq!(Combination::point(1).position(&points), None);
+    assert_eq!(Combination::segment([0, 1], 0.5).position(&points), None);
+    assert_eq!(Combination::EMPTY.position(&points), None);
 }
 
-fn ask<O: DistanceOracle>(oracle: &mut O) -> Result<Claim, GiveUp> {
+fn ask<O: DistanceOracle>(oracle: &mut O) -> Result<Claim, GiveUpReason> {
     let points = [DVec3::ZERO];
     let piece = Piece::from_points(&points);
     let pair = PiecePair {
@@ -72,16 +72,16 @@ fn the_second_oracle_is_asked_where_the_first_gives_up() {
     let mut sure = ConstantOracle(Ok(first)).or_else(ConstantOracle(Ok(second)));
     assert_eq!(ask(&mut sure), Ok(first));
     assert_eq!(sure.fallbacks(), 0);
-    let mut unsure = ConstantOracle(Err(GiveUp::Cycle)).or_else(ConstantOracle(Ok(second)));
+    let mut unsure = ConstantOracle(Err(GiveUpReason::Cycle)).or_else(ConstantOracle(Ok(second)));
     assert_eq!(ask(&mut unsure), Ok(second));
     assert_eq!(ask(&mut unsure), Ok(second));
     assert_eq!(unsure.fallbacks(), 2);
-    let mut hopeless =
-        ConstantOracle(Err(GiveUp::Cycle)).or_else(ConstantOracle(Err(GiveUp::StepCap)));
-    assert_eq!(ask(&mut hopeless), Err(GiveUp::StepCap));
+    let mut hopeless = ConstantOracle(Err(GiveUpReason::Cycle))
+        .or_else(ConstantOracle(Err(GiveUpReason::StepCap)));
+    assert_eq!(ask(&mut hopeless), Err(GiveUpReason::StepCap));
     // This is a chain of three oracles.
-    let mut chain = ConstantOracle(Err(GiveUp::Cycle))
-        .or_else(ConstantOracle(Err(GiveUp::StepCap)))
+    let mut chain = ConstantOracle(Err(GiveUpReason::Cycle))
+        .or_else(ConstantOracle(Err(GiveUpReason::StepCap)))
         .or_else(ConstantOracle(Ok(first)));
     assert_eq!(ask(&mut chain), Ok(first));
 }

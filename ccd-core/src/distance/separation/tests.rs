@@ -76,7 +76,7 @@ fn bounds_hold_for_any_claim() {
         assert!((between - checked.core_distance).abs() < 1e-14);
         // The features consist of points that exist.
         for (combination, points) in [(checked.claim.a, a), (checked.claim.b, b)] {
-            assert!(combination.of(&points).is_some());
+            assert!(combination.position(&points).is_some());
         }
         replaced += usize::from(checked.claim.a != claim.a);
     }

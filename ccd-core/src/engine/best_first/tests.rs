@@ -6,12 +6,12 @@ use crate::answer::{Contact, Stats};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Combination;
 use crate::body::{Body, Volume};
-use crate::distance::oracle::{Claim, GiveUp};
+use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::BodyWithPath;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::nearest::{Triangle, nearest};
@@ -242,7 +242,10 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
             a: Combination::point(rng.random_range(0..5)),
             b: Combination::point(rng.random_range(0..5)),
         };
-        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
+        for oracle in [
+            ConstantOracle(Ok(lie)),
+            ConstantOracle(Err(GiveUpReason::Cycle)),
+        ] {
             let answer = BestFirst::default().solve(&problem, &mut { oracle });
             match answer.outcome {
                 Outcome::Unresolved(Unresolved { safe_until, .. }) => {
@@ -274,7 +277,7 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     ]]);
     let outcome = |height: f64, speed: f64, start: StartPolicy| {
         let at = Pose::at(DVec3::new(0.3, 0.3, height)).unwrap();
-        let moving = |body, motion| Moving::from((body, motion));
+        let moving = |body, motion| MovingBody::from((body, motion));
         let config = Settings {
             start,
             ..Settings::DEFAULT
@@ -358,7 +361,7 @@ fn a_million_groups_of_pairs_wait_at_once() {
         };
         let rising = Motion::new(Pose::IDENTITY, DVec3::Z, DVec3::ZERO).unwrap();
         let motions = [rising, Motion::still(Pose::IDENTITY)];
-        let moving = |k: usize| Moving::from((&bodies[k], motions[k]));
+        let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         solve(&Problem::about(moving(0), moving(1), 1.0, &config).unwrap())
     };
     // Every plate meets the one above it at once.
@@ -406,7 +409,7 @@ fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
         corner(0.0, 200.0),
     ]]);
     let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.4 * DVec3::Y).unwrap();
-    let moving = |body, motion| Moving::from((body, motion));
+    let moving = |body, motion| MovingBody::from((body, motion));
     let (large, field) = (
         moving(&large, spin),
         moving(&field, Motion::still(Pose::IDENTITY)),

@@ -36,7 +36,7 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
     let problem = limited_problem(&ball, &config);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
-    meter.stats.point_looks += 3 * EVALUATIONS_PER_VISIT;
+    meter.stats.point_evaluations += 3 * EVALUATIONS_PER_VISIT;
     assert_eq!(meter.count_visit(&problem), Ok(()));
     assert_eq!(meter.stats.work(), 5);
     assert_eq!(meter.count_visit(&problem), Err(Limit::Budget));
@@ -70,7 +70,7 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
-    meter.stats.point_looks += WORK_BETWEEN_CLOCK_READS * EVALUATIONS_PER_VISIT;
+    meter.stats.point_evaluations += WORK_BETWEEN_CLOCK_READS * EVALUATIONS_PER_VISIT;
     assert_eq!(meter.count_visit(&problem), Err(Limit::Deadline));
 }
 

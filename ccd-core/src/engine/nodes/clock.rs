@@ -1,7 +1,7 @@
 //! Computes for how long gaps stay open, in f32.
 
 use crate::math::simd::splat;
-use crate::rounding::{CLOCK_F32, LEAST_BEND_F32, U32};
+use crate::rounding::{FREE_TIME_FACTOR_F32, LEAST_SECOND_DERIVATIVE_F32, UNIT_ROUNDOFF_F32};
 use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
 /// Returns the largest τ with `apart ≥ rate τ + second_derivative τ²/2`. It is 0 for NaN, and for a pair that is apart
@@ -14,8 +14,8 @@ pub(crate) fn free_time<L: Simd>(
     second_derivative: f32x8<L>,
 ) -> f32x8<L> {
     let root = (rate * rate + second_derivative * 2.0 * apart).sqrt();
-    let approaching = apart * (2.0 * CLOCK_F32) / (rate + root);
-    let receding = (root - rate) / (second_derivative * (1.0 / CLOCK_F32));
+    let approaching = apart * (2.0 * FREE_TIME_FACTOR_F32) / (rate + root);
+    let receding = (root - rate) / (second_derivative * (1.0 / FREE_TIME_FACTOR_F32));
     let tau = rate.simd_gt(0.0).select(approaching, receding);
     // An overflowed root proves nothing.
     let proven = apart.simd_gt(closed) & tau.simd_gt(0.0) & root.simd_le(f32::MAX);
@@ -32,12 +32,17 @@ pub(crate) fn free_time_decelerating<L: Simd>(
     second_derivative: f32x8<L>,
 ) -> f32x8<L> {
     let level = apart.token();
-    let accelerating = free_time(apart, closed, rate, second_derivative.max(LEAST_BEND_F32));
+    let accelerating = free_time(
+        apart,
+        closed,
+        rate,
+        second_derivative.max(LEAST_SECOND_DERIVATIVE_F32),
+    );
     let (square, lost) = (rate * rate, second_derivative * -2.0 * apart);
     // A sum that is lost to rounding or to underflow counts as zero.
-    let left = (square - lost) + (square + lost) * (16.0 * U32) + f32::MIN_POSITIVE;
+    let left = (square - lost) + (square + lost) * (16.0 * UNIT_ROUNDOFF_F32) + f32::MIN_POSITIVE;
     let meets = rate.simd_gt(0.0) & left.simd_ge(0.0);
-    let closing = apart * (2.0 * CLOCK_F32) / (rate + left.sqrt());
+    let closing = apart * (2.0 * FREE_TIME_FACTOR_F32) / (rate + left.sqrt());
     let parts = meets.select(closing, splat(level, f32::INFINITY));
     // Written so that neither NaN nor an overflow proves anything.
     let known = square.simd_le(f32::MAX) & lost.simd_le(f32::MAX);
@@ -59,5 +64,5 @@ pub(crate) fn free_time_at_constant_rate<L: Simd>(
         .simd_le(0.0)
         .select(splat(level, f32::INFINITY), apart / rate);
     let proven = apart.simd_gt(closed) & tau.simd_gt(0.0);
-    proven.select(tau * CLOCK_F32, splat(level, 0.0))
+    proven.select(tau * FREE_TIME_FACTOR_F32, splat(level, 0.0))
 }

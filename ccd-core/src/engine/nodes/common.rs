@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::relative::RelativePath;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
-use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32};
+use crate::rounding::{ARM_DISTANCE_SHARE, LEAST_GAP_F32, RATE_F32};
 use crate::shortcuts::Shortcut;
 use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
 use glam::Vec3;
@@ -48,7 +48,7 @@ fn speed(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
         let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
         let start = distance(other.path.point_at_start(ball), own.path.centre_at(0.0));
         let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
-        own.path.rate * (reach(own) + PLACES * places)
+        own.path.rate * (reach(own) + ARM_DISTANCE_SHARE * places)
     };
     straight + turning(a, b) + turning(b, a)
 }

@@ -4,7 +4,9 @@ use super::axis::Axis;
 use super::clock;
 use super::shape::{Children, OtherNode};
 use crate::math::simd::{Vec3x8, splat};
-use crate::rounding::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
+use crate::rounding::{
+    CROSS_PRODUCT_F32, LEAST_SECOND_DERIVATIVE_F32, RATE_F32, SECOND_DERIVATIVE_FACTOR_F32,
+};
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
@@ -92,7 +94,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
-        let mut second_derivative = splat(axis.n.level(), LEAST_BEND_F32);
+        let mut second_derivative = splat(axis.n.level(), LEAST_SECOND_DERIVATIVE_F32);
         if motion.split.is_turning {
             let m = motion.split.cross_angular_velocity(axis.n);
             rate += self.children.extent_along(m);
@@ -129,7 +131,7 @@ pub(crate) fn second_derivative_bound<L: Simd>(
     rate: f32,
     speed: f32x8<L>,
 ) -> f32x8<L> {
-    (m.length() * BEND_F32 + ACROSS_F32 * rate) * speed
+    (m.length() * SECOND_DERIVATIVE_FACTOR_F32 + CROSS_PRODUCT_F32 * rate) * speed
 }
 
 /// The angular velocity of a body, with its centre of rotation.

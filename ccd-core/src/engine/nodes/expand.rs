@@ -12,7 +12,7 @@ use crate::math::order::greater;
 use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
 use crate::motion::relative::{RelativePath, RelativeState};
 use crate::problem::{BodyWithPath, WhichBody};
-use crate::rounding::{REACH_F32, WAY_F32};
+use crate::rounding::{GAP_PER_DISTANCE_F32, GAP_PER_RADIUS_F32};
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
@@ -324,7 +324,8 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();
-        let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (radius + self.members.reach);
+        let rounding =
+            GAP_PER_DISTANCE_F32 * (x + y + z) + GAP_PER_RADIUS_F32 * (radius + self.members.reach);
         (rounding + self.motion.common.rounding).next_up()
     }
 }

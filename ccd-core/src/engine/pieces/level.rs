@@ -5,9 +5,9 @@ use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
 use crate::problem::{Problem, WhichBody};
-use crate::rounding::RESTING;
+use crate::rounding::RESTING_DECREASE;
 use crate::touching_plane::TouchingPlane;
-use crate::tuning::RESTED;
+use crate::tuning::RESTED_SLACK;
 use glam::DVec3;
 
 /// How a [`TouchingPlane`] keeps two pieces apart.
@@ -30,7 +30,7 @@ impl TouchingPlane {
         let [frame_a, frame_b] = &snapshot.frames;
         let from = frame_a.inverse_point(problem.local(contact.separation.witness_a));
         let gap = snapshot.gap_across(normal, from);
-        let resting = RESTING * problem.rounding;
+        let resting = RESTING_DECREASE * problem.rounding;
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
             normals: [frame_a, frame_b].map(|frame| frame.inverse_vector(normal)),
@@ -51,7 +51,7 @@ impl Snapshot<'_> {
         ids: [u32; 2],
         from: DVec3,
     ) -> Option<PlaneContact> {
-        let resting = RESTING * self.problem.rounding;
+        let resting = RESTING_DECREASE * self.problem.rounding;
         let of = |plane_body: WhichBody| {
             let normal = self.plane_normal(plane_body)?;
             let gap = self.gap_across(normal, from);
@@ -78,7 +78,7 @@ impl Snapshot<'_> {
         };
         let slack = self.gap_across(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
-        if slack > RESTED * self.problem.rounding {
+        if slack > RESTED_SLACK * self.problem.rounding {
             self.plane_free_time(&Plane { normal, slack })
         } else {
             Some(0.0)
@@ -103,7 +103,8 @@ impl Snapshot<'_> {
     /// Returns whether the plane with this normal has the solids of the two pieces on different sides. Two pieces that
     /// both lie in the plane are apart on either side of it, wherever the solids are.
     fn is_between_solids(&self, [a, b]: [u32; 2], normal: DVec3, from: DVec3) -> bool {
-        let in_one_plane = self.gap_across(-normal, from) >= -2.0 * RESTING * self.problem.rounding;
+        let in_one_plane =
+            self.gap_across(-normal, from) >= -2.0 * RESTING_DECREASE * self.problem.rounding;
         if !in_one_plane {
             return true;
         }

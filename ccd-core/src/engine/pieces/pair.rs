@@ -11,7 +11,7 @@ use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::RESTING;
+use crate::rounding::RESTING_DECREASE;
 use crate::settings::StartPolicy;
 use glam::DVec3;
 
@@ -140,7 +140,7 @@ impl<C: Default + Clone> Pair<C> {
             Goal::Resting { floor } => (floor, true),
             Goal::PlaneContact(level) => {
                 let free = snapshot.plane_time(&level, checked.witness_a);
-                meter.stats.point_looks += snapshot.evaluations();
+                meter.stats.point_evaluations += snapshot.evaluations();
                 return step_after(s, free).unwrap_or_else(|| in_contact(&checked));
             }
         };
@@ -167,7 +167,7 @@ impl<C: Default + Clone> Pair<C> {
             self.goal = Goal::PlaneContact(level);
             step_after(s, snapshot.plane_time(&level, checked.witness_a))
         });
-        meter.stats.point_looks += snapshot.evaluations();
+        meter.stats.point_evaluations += snapshot.evaluations();
         match step {
             Some(step) => step,
             None if is_resting => in_contact(&checked),
@@ -190,13 +190,13 @@ impl<C: Default + Clone> Pair<C> {
         let start = snapshot.query_oracle(oracle, &mut C::default(), meter)?;
         let start = improve_axis(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, as is a pair without a separating axis.
-        let resting =
-            start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
+        let resting = start.upper <= problem.contact_distance()
+            && start.lower >= -RESTING_DECREASE * problem.rounding;
         if !resting {
             return None;
         }
         Some(Goal::Resting {
-            floor: start.lower - RESTING * problem.rounding,
+            floor: start.lower - RESTING_DECREASE * problem.rounding,
         })
     }
 }

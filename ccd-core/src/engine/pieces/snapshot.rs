@@ -8,15 +8,15 @@ use crate::distance::separation::{self, CheckedClaim};
 use crate::engine::meter::Meter;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
-use crate::motion::bound::{Bound, published_bound, sound_bound};
+use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::{RATE_F64, RESTING};
+use crate::rounding::{RATE_F64, RESTING_DECREASE};
 use crate::shortcuts::Shortcut;
 use crate::shortcuts::turning_pieces::{MovingPiece, TurningPiece};
 use crate::tuning::{
-    ASSUMED_STEPS, MAX_NEWTON_STEPS, RESTED, ROTATION_GAP_SHARE, SUFFICIENT_FIRST_FREE_TIME,
+    ASSUMED_STEPS, MAX_NEWTON_STEPS, RESTED_SLACK, ROTATION_GAP_SHARE, SUFFICIENT_FIRST_FREE_TIME,
 };
 use glam::DVec3;
 use std::cell::Cell;
@@ -76,7 +76,7 @@ impl<'p> Snapshot<'p> {
         stats.oracle_calls += 1;
         let before = oracle.effort().steps;
         let claim = oracle.separation(&self.pieces, cache);
-        stats.point_looks += match oracle.effort().steps.saturating_sub(before) {
+        stats.point_evaluations += match oracle.effort().steps.saturating_sub(before) {
             0 => ASSUMED_STEPS * self.pieces.points(),
             steps => ASSUMED_STEPS * steps,
         };
@@ -135,12 +135,12 @@ impl<'p> Snapshot<'p> {
     /// §4.2]`. `reaches` are the largest distances of the pieces' points from their body's axis of rotation.
     ///
     /// # Guarantee
-    /// No guarantee with [`Bound::Published`].
+    /// No guarantee with [`VelocityBound::Published`].
     pub(crate) fn free_time_along_axis(
         &self,
         checked: &CheckedClaim,
         kept: f64,
-        bound: Bound,
+        bound: VelocityBound,
         reaches: [f64; 2],
     ) -> Option<f64> {
         let Problem { a, b, .. } = self.problem;
@@ -153,8 +153,8 @@ impl<'p> Snapshot<'p> {
         for (side, n, piece, frame, reach) in sides {
             let motion = side.path.velocities();
             rate += match bound {
-                Bound::Sound => sound_bound(&motion, n, reach),
-                Bound::Published => published_bound(&motion, n, |c| {
+                VelocityBound::Sound => sound_bound(&motion, n, reach),
+                VelocityBound::Published => published_bound(&motion, n, |c| {
                     let farthest = piece.farthest(frame.inverse_vector(c));
                     frame.rotation * (farthest - side.path.centre)
                 }),
@@ -195,7 +195,7 @@ impl<'p> Snapshot<'p> {
         let rounding = self.problem.rounding;
         let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
         // Written so that NaN counts as no slack.
-        let is_left = |slack: f64| slack > RESTED * rounding;
+        let is_left = |slack: f64| slack > RESTED_SLACK * rounding;
         let anyhow = || {
             if is_left(checked.lower - kept) {
                 self.free_time(checked, kept)
@@ -204,7 +204,7 @@ impl<'p> Snapshot<'p> {
             }
         };
         // This includes pieces that have passed the plane by the rounding of resting.
-        let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
+        let in_one_plane = slack(-checked.axis) >= -RESTING_DECREASE * rounding;
         if !in_one_plane {
             return anyhow();
         }

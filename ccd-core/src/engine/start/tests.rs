@@ -3,13 +3,13 @@
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
 use crate::body::piece::Combination;
-use crate::distance::oracle::{Claim, GiveUp};
+use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::Solve;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::rounding::SKIPPED_NEARER_SHARE;
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
@@ -43,7 +43,8 @@ fn tori<R>(
     then: impl FnOnce(&Problem<'_>) -> R,
 ) -> R {
     let torus = body(&torus(cuts.around_axis, cuts.about));
-    let moving = |x: f64| Moving::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
+    let moving =
+        |x: f64| MovingBody::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
@@ -237,7 +238,10 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
             a: Combination::point(rng.random_range(0..3)),
             b: Combination::point(rng.random_range(0..3)),
         };
-        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
+        for oracle in [
+            ConstantOracle(Ok(lie)),
+            ConstantOracle(Err(GiveUpReason::Cycle)),
+        ] {
             let answer = BestFirst::default().solve(&problem, &mut { oracle });
             if let Outcome::Touching { contact } = answer.outcome {
                 touching += 1;
@@ -255,7 +259,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
 #[test]
 fn single_pieces_are_measured_once() {
     let ball = Body::sphere(1.0).unwrap();
-    let moving = |x: f64| Moving::from((&ball, Motion::still(Pose::at(x * DVec3::X).unwrap())));
+    let moving = |x: f64| MovingBody::from((&ball, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     let config = Settings {
         margin: 10.0,
         ..Settings::DEFAULT

@@ -1,7 +1,7 @@
 //! Compares lengths and unit vectors with double-double arithmetic, for all magnitudes.
 
 use super::{across, distance, length, normal, unit};
-use crate::rounding::U64;
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::Double3;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use glam::DVec3;
@@ -51,9 +51,12 @@ fn units_are_units_of_the_same_direction() {
         };
         denormal += usize::from(v.abs().max_element() < f64::MIN_POSITIVE);
         let n = Double3::from(n);
-        assert!((n.length().get() - 1.0).abs() <= 4.0 * U64, "{v:?}");
+        assert!(
+            (n.length().get() - 1.0).abs() <= 4.0 * UNIT_ROUNDOFF_F64,
+            "{v:?}"
+        );
         let off = (n - Double3::from(near_one(v)).unit()).length().get();
-        assert!(off <= 4.0 * U64, "{v:?}: {off:e}");
+        assert!(off <= 4.0 * UNIT_ROUNDOFF_F64, "{v:?}: {off:e}");
     }
     assert!(denormal > 1_000, "{denormal}");
     for none in [DVec3::ZERO, -DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
@@ -62,7 +65,7 @@ fn units_are_units_of_the_same_direction() {
     assert_eq!(unit(DVec3::new(f64::NAN, 1.0, 0.0)), None);
     assert_eq!(unit(DVec3::splat(f64::from_bits(1))), unit(DVec3::ONE));
     let huge = unit(DVec3::X * f64::MAX).unwrap();
-    assert!((huge.x - 1.0).abs() <= U64);
+    assert!((huge.x - 1.0).abs() <= UNIT_ROUNDOFF_F64);
 }
 
 #[test]
@@ -84,7 +87,7 @@ fn lengths_are_right() {
         let exact = Double3::from(v * half * half).length().get() / half / half;
         let least = f64::from_bits(1);
         assert!(
-            (length(v) - exact).abs() <= 4.0 * U64 * exact + least,
+            (length(v) - exact).abs() <= 4.0 * UNIT_ROUNDOFF_F64 * exact + least,
             "{v:?}"
         );
     }
@@ -103,7 +106,7 @@ fn normals_are_those_of_triangles_of_any_size() {
         let found = normal([DVec3::ZERO, u * p, v * q]).unwrap();
         let exact = Double3::from(u).cross(Double3::from(v)).unit();
         let off = (Double3::from(found) - exact).length().get();
-        assert!(off < 100.0 * U64, "{p:e} {q:e}: {off:e}");
+        assert!(off < 100.0 * UNIT_ROUNDOFF_F64, "{p:e} {q:e}: {off:e}");
     }
     // The corners are on one line, or at one point.
     assert_eq!(normal([DVec3::ZERO, DVec3::X, 3.0 * DVec3::X]), None);

@@ -4,7 +4,7 @@ use super::Path;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::rounding::place_rounding;
+use crate::rounding::position_rounding;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use crate::tests::worst::{RandomCase, Worst, share};
@@ -110,7 +110,7 @@ fn worst_part() {
             let x = path.centre + arm;
             let error = exact_place(&part, share_of_time, x) - exact_place(&path, s, x);
             let way = path.centre_at(0.0).length() + path.speed();
-            let allowed = place_rounding(x.distance(path.centre), path.rate, way);
+            let allowed = position_rounding(x.distance(path.centre), path.rate, way);
             Some(share(error.length().get(), allowed))
         });
     found.is_within(100.0);

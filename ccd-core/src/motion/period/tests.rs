@@ -3,7 +3,7 @@
 use super::*;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::rounding::place_rounding;
+use crate::rounding::position_rounding;
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use glam::DVec3;
 
@@ -33,7 +33,7 @@ fn distances_change_by_no_more_than_said() {
         let points = paths.map(|path| path.centre + point_in_ball(&mut rng, reach));
         let rounding = paths
             .iter()
-            .map(|path| place_rounding(reach, path.rate, 10.0))
+            .map(|path| position_rounding(reach, path.rate, 10.0))
             .sum::<f64>();
         let distance = |s: f64| {
             let [a, b] = [0, 1].map(|k| paths[k].frame(s).point(points[k]));

@@ -46,7 +46,7 @@ fn invalid_poses_are_refused() {
         Pose::new(DVec3::ZERO, zero),
         Err(InputError::ZeroQuaternion)
     );
-    let not_finite = |what| Err(InputError::NotFinite { what });
+    let not_finite = |what| Err(InputError::NotFinite { quantity: what });
     for bad in [f64::NAN, f64::INFINITY] {
         let far = DVec3::new(0.0, bad, 0.0);
         assert_eq!(Pose::at(far), not_finite("position"));

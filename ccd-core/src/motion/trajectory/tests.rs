@@ -10,7 +10,7 @@ use glam::DVec3;
 /// stretch.
 fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();
-    let bound = stretch.stray.at(reach);
+    let bound = stretch.deviation.at(reach);
     let centre = stretch.motion.centre();
     let mut rng = rng((1e6 * from) as u64);
     let mut worst = 0.0;
@@ -54,7 +54,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         assert_eq!(whole, Stretch::exact(motion));
         let from = rng.random_range(0.0..1.0);
         let later = motion.stretch(from, 1.0).unwrap();
-        assert!(later.stray.at(1.0) < 1e-10);
+        assert!(later.deviation.at(1.0) < 1e-10);
         // The compared poses are rounded, too, by about as much.
         assert!(worst(&motion, from, 1.0, 1.0) <= 2.0);
     }
@@ -62,13 +62,13 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
 
 #[test]
 fn no_turn_is_no_stray_at_any_reach() {
-    assert_eq!(Stray::NONE.at(f64::INFINITY), 0.0);
-    let shifted = Stray {
+    assert_eq!(DeviationBound::NONE.at(f64::INFINITY), 0.0);
+    let shifted = DeviationBound {
         shift: 2.0,
         turn: 0.0,
     };
     assert_eq!(shifted.at(f64::INFINITY), 2.0);
-    let turned = Stray {
+    let turned = DeviationBound {
         turn: 0.5,
         ..shifted
     };
@@ -78,7 +78,7 @@ fn no_turn_is_no_stray_at_any_reach() {
 #[test]
 fn what_is_no_bound_bounds_nothing() {
     for no_bound in [f64::NAN, -1e-300, -1.0] {
-        let turned = Stray {
+        let turned = DeviationBound {
             shift: 1.0,
             turn: no_bound,
         };
@@ -92,7 +92,10 @@ fn trajectories_have_the_poses_of_their_tangents() {
     let swing = SwingingTrajectory::draw(&mut rng, 3.0);
     for k in 0..10 {
         let t = f64::from(k) / 10.0;
-        let [pose, tangent] = [swing.pose(t), swing.tangent(t).map(|motion| motion.start())];
+        let [pose, tangent] = [
+            swing.pose(t),
+            swing.tangent_motion(t).map(|motion| motion.start()),
+        ];
         let [pose, tangent] = [pose.unwrap(), tangent.unwrap()];
         assert!(pose.translation().distance(tangent.translation()) < 1e-14);
         assert!(pose.rotation().dot(tangent.rotation()).abs() > 1.0 - 1e-15);
@@ -104,7 +107,7 @@ fn trajectories_have_the_poses_of_their_tangents() {
 fn deviations_after_times_whose_square_is_zero_are_bounded() {
     let (time, acceleration) = (1e-162, 1e304);
     assert_eq!(time * time, 0.0);
-    let stray = Accelerations {
+    let stray = AccelerationBounds {
         linear: acceleration,
         angular: acceleration,
     }

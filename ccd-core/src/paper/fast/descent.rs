@@ -10,7 +10,7 @@ use crate::engine::pieces::pair::Step;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::engine::proven::ProvenFacts;
 use crate::math::order::lesser;
-use crate::motion::bound::Bound;
+use crate::motion::bound::VelocityBound;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use crate::tuning::{JOIN_DISTANCE_RATIO, SPLIT_OVERLAP};
@@ -22,7 +22,7 @@ use std::ops::ControlFlow;
 pub(super) struct Descent<'s, 'p, C> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullPair<'p>,
-    pub(super) bound: Bound,
+    pub(super) bound: VelocityBound,
     pub(super) front: &'s mut Front<C>,
     pub(super) reaches: &'s mut AxisDistances,
     pub(super) proven: &'s ProvenFacts,
@@ -129,7 +129,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
         if depth.is_some_and(|depth| depth > SPLIT_OVERLAP) {
-            self.meter.stats.point_looks += snapshot.pieces.points();
+            self.meter.stats.point_evaluations += snapshot.pieces.points();
             found.open.push(node.open_unmeasured(at, s));
             return;
         }

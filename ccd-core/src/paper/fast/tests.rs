@@ -2,18 +2,18 @@
 
 use super::{BestFirst, Fast};
 use crate::answer::{Answer, Limit, Outcome, Unresolved};
-use crate::body::hull_tree::{Hull, HullNode, HullTree, Loops};
+use crate::body::hull_tree::{Hull, HullNode, HullTree, PolygonList};
 use crate::body::piece::Combination;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
-use crate::distance::oracle::{Claim, GiveUp};
+use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::Solve;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::schedule::Naive;
 use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
@@ -53,7 +53,7 @@ fn chain(rng: &mut Pcg64, count: usize) -> Body {
         let ends = [first, end - 1].map(|k| balls[k].points[0]);
         let hull = Hull {
             points: ends.to_vec(),
-            facets: Loops::default(),
+            facets: PolygonList::default(),
         };
         nodes[node] = HullNode::Inner([left as u32, left as u32 + 1], hull);
         nodes.extend([HullNode::Leaf(0), HullNode::Leaf(0)]);
@@ -112,7 +112,7 @@ impl Scene {
     }
 
     fn problem(&self) -> Problem<'_> {
-        let moving = |k: usize| Moving::from((&self.bodies[k], self.motions[k]));
+        let moving = |k: usize| MovingBody::from((&self.bodies[k], self.motions[k]));
         Problem::about(moving(0), moving(1), 1.0, &self.config).unwrap()
     }
 }
@@ -209,7 +209,7 @@ fn trees_spare_most_pairs_of_pieces() {
     let far = Pose::at(2e3 * DVec3::Y).unwrap();
     let motion = Motion::new(far, -1e3 * DVec3::Y, DVec3::X).unwrap();
     let still = Motion::still(Pose::IDENTITY);
-    let moving = |k: usize, motion| Moving::from((&bodies[k], motion));
+    let moving = |k: usize, motion| MovingBody::from((&bodies[k], motion));
     let config = Settings::DEFAULT;
     let problem = Problem::about(moving(0, motion), moving(1, still), 1.5, &config).unwrap();
     let answer = solve(&problem);
@@ -224,11 +224,11 @@ fn a_brief_motion_splits_nothing_that_stays_apart() {
     let still = Motion::still(Pose::IDENTITY);
     let calls = |height: f64, speed: f64| {
         let pose = Pose::at(height * DVec3::Z).unwrap();
-        let moving = Moving::from((
+        let moving = MovingBody::from((
             &bodies[0],
             Motion::new(pose, -speed * DVec3::Z, 1e-3 * DVec3::X).unwrap(),
         ));
-        let other = Moving::from((&bodies[1], still));
+        let other = MovingBody::from((&bodies[1], still));
         let problem = Problem::about(moving, other, 1.0, &Settings::DEFAULT).unwrap();
         let answer = solve(&problem);
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
@@ -294,7 +294,10 @@ fn false_claims_and_give_ups_never_make_it_late() {
             a: Combination::point(rng.random_range(0..3)),
             b: Combination::point(rng.random_range(0..3)),
         };
-        let wrong = [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))];
+        let wrong = [
+            ConstantOracle(Ok(lie)),
+            ConstantOracle(Err(GiveUpReason::Cycle)),
+        ];
         for mut oracle in wrong {
             match Fast::default().solve(&problem, &mut oracle).outcome {
                 Outcome::Unresolved(Unresolved {
@@ -336,8 +339,8 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     let above = Pose::at(DVec3::new(0.25, 0.25, 2.25)).unwrap();
     let falling = Motion::new(above, -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
     let problem = Problem::about(
-        Moving::from((&ball, falling)),
-        Moving::from((&soup, Motion::still(Pose::IDENTITY))),
+        MovingBody::from((&ball, falling)),
+        MovingBody::from((&soup, Motion::still(Pose::IDENTITY))),
         1.0,
         &Settings::DEFAULT,
     )
@@ -368,8 +371,9 @@ fn contacts_at_the_start_are_reported_or_let_go() {
     let outcome = |speed: f64, start| {
         let place = top + (radius + 0.05 + 1e-5) * way;
         let pose = Pose::at(place).unwrap();
-        let moving = Moving::from((&ball, Motion::new(pose, speed * way, DVec3::ZERO).unwrap()));
-        let still = Moving::from((&bodies[0], Motion::still(Pose::IDENTITY)));
+        let moving =
+            MovingBody::from((&ball, Motion::new(pose, speed * way, DVec3::ZERO).unwrap()));
+        let still = MovingBody::from((&bodies[0], Motion::still(Pose::IDENTITY)));
         let config = Settings {
             start,
             ..Settings::DEFAULT

@@ -269,7 +269,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         let problem = pose.problem(self.query, &terms)?;
         let answer = self.schedule.approach_of_bodies(&problem, oracle);
         stretches.stats.add(&answer.stats);
-        let Outcome::Measured { contact, .. } = answer.outcome else {
+        let Outcome::LeastDistance { contact, .. } = answer.outcome else {
             return Ok(None);
         };
         let found = &mut self.found;

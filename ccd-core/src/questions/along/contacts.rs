@@ -61,7 +61,7 @@ impl ProvenGap {
                 StretchResult::Done
             }
             Outcome::Overlapping { overlap, .. } => StretchResult::Near(0.0, overlap.contact()),
-            Outcome::Interval { .. } | Outcome::Measured { .. } => {
+            Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a search for contacts")
             }
         })

@@ -8,9 +8,9 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::Motion;
-use crate::motion::trajectory::{Stray, Stretch, Trajectory};
-use crate::query::{Movement, Moving, Query};
-use crate::rounding::U64;
+use crate::motion::trajectory::{DeviationBound, Stretch, Trajectory};
+use crate::query::{Movement, MovingBody, Query};
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use std::time::Instant;
 
 impl<O: DistanceOracle> BestFirst<O> {
@@ -51,11 +51,11 @@ impl<O: DistanceOracle> BestFirst<O> {
             duration,
         });
         let mut back = Query {
-            a: Moving {
+            a: MovingBody {
                 body: query.a.body,
                 movement: Movement::Trajectory(&a),
             },
-            b: Moving {
+            b: MovingBody {
                 body: query.b.body,
                 movement: Movement::Trajectory(&b),
             },
@@ -110,9 +110,9 @@ impl Trajectory for Reversed<'_> {
         let stretch = self.of.stretch(first, last)?;
         let end = stretch.with_start_at(last - first)?;
         // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
-        let off = 2.0 * U64 * self.duration;
+        let off = 2.0 * UNIT_ROUNDOFF_F64 * self.duration;
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
-        let moved = Stray {
+        let moved = DeviationBound {
             // The speed is largest at an end.
             shift: greater(before, after) * off,
             turn: length(stretch.motion.spin()) * off,
@@ -122,7 +122,7 @@ impl Trajectory for Reversed<'_> {
         let [velocity, spin] = [-motion.velocity(), -motion.spin()];
         Ok(Stretch {
             motion: Motion::about(motion.start(), velocity, spin, motion.centre())?,
-            stray: end.stray + moved + rounding,
+            deviation: end.deviation + moved + rounding,
             ..end
         })
     }

@@ -8,8 +8,8 @@ use crate::math::vector::length;
 use crate::motion::trajectory::Stretch;
 use crate::motion::trajectory::Trajectory;
 use crate::problem::Problem;
-use crate::query::{Moving, Query};
-use crate::rounding::STRETCH_F64;
+use crate::query::{MovingBody, Query};
+use crate::rounding::RETIMED_POSE_F64;
 use crate::settings::{QuerySettings, StartPolicy};
 use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
@@ -56,7 +56,7 @@ impl StretchMotions {
         let bodies = [&query.a, &query.b];
         let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.to));
         let stretches = [a?, b?];
-        let stray = |k: usize| stretches[k].stray.at(reach(bodies[k], &stretches[k]));
+        let stray = |k: usize| stretches[k].deviation.at(reach(bodies[k], &stretches[k]));
         Ok(StretchMotions {
             stray: rounded_up_sum(stray(0), stray(1)),
             stretches,
@@ -69,7 +69,7 @@ impl StretchMotions {
         let time = self.span.length();
         for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
-            self.stray = rounded_up_sum(self.stray, far * (1.0 + STRETCH_F64));
+            self.stray = rounded_up_sum(self.stray, far * (1.0 + RETIMED_POSE_F64));
             stretch.acceleration = DVec3::ZERO;
         }
         self
@@ -201,7 +201,7 @@ impl StretchMotions {
 }
 
 /// Returns an upper bound of the distances of a body's points from the centre of a stretch's motion.
-fn reach(moving: &Moving<'_>, stretch: &Stretch) -> f64 {
+fn reach(moving: &MovingBody<'_>, stretch: &Stretch) -> f64 {
     let (centre, radius) = moving.body.tree().bounding_ball();
     centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
 }

@@ -9,7 +9,7 @@ use crate::engine::start::at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
-use crate::query::{Moving, Query};
+use crate::query::{MovingBody, Query};
 use crate::settings::QuerySettings;
 use crate::tuning::{CUT_DEVIATION_RATIO, DEVIATION_SHARE, MAX_BUDGET_PARTS, MIN_CUT_SHARE};
 use std::sync::atomic::Ordering;
@@ -281,7 +281,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     pub(super) fn cut_parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span { from, to, part } = span;
         let Query { a, b, .. } = self.query;
-        let corner = |body: &Moving<'_>| {
+        let corner = |body: &MovingBody<'_>| {
             let corner = body.movement.corner(from, to)?;
             (corner > from && corner < to).then_some(corner)
         };

@@ -10,7 +10,7 @@ use crate::engine::answer::Solve;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::motion::Motion;
-use crate::motion::trajectory::{Accelerations, Smooth};
+use crate::motion::trajectory::{AccelerationBounds, SmoothTrajectory};
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::query::Query;
 use crate::schedule::{BestFirst, DepthFirst, Naive, Schedule};
@@ -203,7 +203,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         let answer = answer.unwrap();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
-            Outcome::Measured { time, .. } => {
+            Outcome::LeastDistance { time, .. } => {
                 assert!(
                     upper - lower <= swings.config.tolerance,
                     "{number}: {answer:?}"
@@ -244,14 +244,14 @@ impl Trajectory for HiddenMotion {
     }
 }
 
-impl Smooth for UserTrajectory {
-    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+impl SmoothTrajectory for UserTrajectory {
+    fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let (velocity, spin, centre) = (self.0.velocity(), self.0.spin(), self.0.centre());
         Motion::about(self.0.pose(time), velocity, spin, centre)
     }
 
-    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
-        Accelerations::default()
+    fn accelerations(&self, _: f64, _: f64) -> AccelerationBounds {
+        AccelerationBounds::default()
     }
 }
 

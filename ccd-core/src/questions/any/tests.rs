@@ -5,7 +5,7 @@ use crate::answer::Unresolved;
 use crate::body::Body;
 use crate::body::Volume;
 use crate::body::piece::Combination;
-use crate::distance::oracle::{Claim, GiveUp, PiecePair};
+use crate::distance::oracle::{Claim, GiveUpReason, PiecePair};
 use crate::engine::answer::Solve;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -148,7 +148,10 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
             a: Combination::point(rng.random_range(0..5)),
             b: Combination::point(rng.random_range(0..5)),
         };
-        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
+        for oracle in [
+            ConstantOracle(Ok(lie)),
+            ConstantOracle(Err(GiveUpReason::Cycle)),
+        ] {
             let answer = DepthFirst::default().any_contact_of(&problem, &mut { oracle });
             match answer.outcome {
                 Outcome::Unresolved(Unresolved { safe_until, .. }) => {
@@ -180,9 +183,9 @@ struct LimitedOracle {
 impl DistanceOracle for LimitedOracle {
     type Cache = ();
 
-    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
         let left = self.calls_left.checked_sub(1);
-        self.calls_left = left.ok_or(GiveUp::BadFacets)?;
+        self.calls_left = left.ok_or(GiveUpReason::BadFacets)?;
         ExhaustiveOracle.separation(pair, &mut ())
     }
 }

@@ -41,7 +41,7 @@ impl LeastDistanceSearch {
     ) -> Result<Outcome, FartherThanCutoff> {
         let best = self.best.ok_or(FartherThanCutoff { lower })?;
         let contact = best.contact.cap_lower_bound(lower);
-        Ok(Outcome::Measured {
+        Ok(Outcome::LeastDistance {
             lower,
             time: problem.time(best.clock),
             contact,

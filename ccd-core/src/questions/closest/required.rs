@@ -39,7 +39,7 @@ impl RequiredClearance {
         // A finer tolerance may not be certified in f64.
         decision.query_tolerance = greater(decision.query_tolerance, near.tolerance);
         let outcome = match self.decision_for(near.outcome) {
-            Outcome::Measured { time, contact, .. } if self.violation_distance() > 0.0 => {
+            Outcome::LeastDistance { time, contact, .. } if self.violation_distance() > 0.0 => {
                 decision.decide_nearer(time, contact)?
             }
             found => found,
@@ -161,7 +161,7 @@ impl<E, F: FnMut(MarginQuery) -> Result<Answer, E>> Decision<F> {
 
 fn bracket(lower: f64, time: f64, contact: Contact) -> Outcome {
     let lower = lesser(lower, contact.separation.upper);
-    Outcome::Measured {
+    Outcome::LeastDistance {
         lower,
         time,
         contact: contact.cap_lower_bound(lower),

@@ -7,7 +7,7 @@ mod required;
 use super::*;
 use crate::answer::Clearance;
 use crate::body::piece::Combination;
-use crate::distance::oracle::{Claim, GiveUp};
+use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::Solve;
 use crate::math::order::lesser;
 use crate::motion::Motion;
@@ -41,7 +41,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
         let slack = 2.0 * problem.rounding;
         let found = sampled(&problem, 64);
         match outcome {
-            Outcome::Measured {
+            Outcome::LeastDistance {
                 lower,
                 time,
                 contact,
@@ -90,7 +90,7 @@ fn bodies_are_free_with_less_than_the_bracket_as_a_margin_and_meet_with_more() {
         let Answer {
             outcome, tolerance, ..
         } = approach(&scene.problem());
-        let Outcome::Measured { lower, .. } = outcome else {
+        let Outcome::LeastDistance { lower, .. } = outcome else {
             continue;
         };
         let mut at = |margin: f64| {
@@ -188,7 +188,10 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
             a: Combination::point(rng.random_range(0..5)),
             b: Combination::point(rng.random_range(0..5)),
         };
-        for oracle in [ConstantOracle(Ok(lie)), ConstantOracle(Err(GiveUp::Cycle))] {
+        for oracle in [
+            ConstantOracle(Ok(lie)),
+            ConstantOracle(Err(GiveUpReason::Cycle)),
+        ] {
             let answer = DepthFirst::default().closest_approach_of(&problem, &mut { oracle });
             let outcome = answer.outcome;
             assert!(
@@ -238,7 +241,7 @@ fn bodies_at_rest_have_a_distance() {
         let found = distance(&problem, 0.0);
         let slack = 2.0 * problem.rounding;
         match outcome {
-            Outcome::Measured { lower, contact, .. } => {
+            Outcome::LeastDistance { lower, contact, .. } => {
                 apart += 1;
                 let upper = contact.separation.upper;
                 assert!(lower <= found + slack && found <= upper * (1.0 + 1e-9) + slack);

@@ -15,35 +15,39 @@ fn covers(name: &str, taken: f64, derived: f64) {
 
 #[test]
 fn units_of_rounding_are_half_of_the_last_place() {
-    assert!(1.0 + U64 == 1.0 && 1.0 + U64.next_up() > 1.0);
-    assert!(1.0 + U32 == 1.0 && 1.0 + U32.next_up() > 1.0);
+    assert!(1.0 + UNIT_ROUNDOFF_F64 == 1.0 && 1.0 + UNIT_ROUNDOFF_F64.next_up() > 1.0);
+    assert!(1.0 + UNIT_ROUNDOFF_F32 == 1.0 && 1.0 + UNIT_ROUNDOFF_F32.next_up() > 1.0);
 }
 
 #[test]
 fn constants_cover_the_operations_that_they_count() {
-    let u = f64::from(U32);
+    let u = f64::from(UNIT_ROUNDOFF_F32);
     for (name, taken, derived) in [
-        ("WAY_F32", WAY_F32, 11.0),
-        ("REACH_F32", REACH_F32, 28.0),
+        ("GAP_PER_DISTANCE_F32", GAP_PER_DISTANCE_F32, 11.0),
+        ("GAP_PER_RADIUS_F32", GAP_PER_RADIUS_F32, 28.0),
         ("RATE_F32", RATE_F32, 32.0),
-        ("CLOCK_F32", 1.0 - CLOCK_F32, 8.0),
-        ("BEND_F32", BEND_F32 - 1.0, 16.0),
-        ("ACROSS_F32", ACROSS_F32, 5.0),
+        ("FREE_TIME_FACTOR_F32", 1.0 - FREE_TIME_FACTOR_F32, 8.0),
+        (
+            "SECOND_DERIVATIVE_FACTOR_F32",
+            SECOND_DERIVATIVE_FACTOR_F32 - 1.0,
+            16.0,
+        ),
+        ("CROSS_PRODUCT_F32", CROSS_PRODUCT_F32, 5.0),
         ("DISC_F32", DISC_F32, 59.0),
         ("DISC_TILT_F32", DISC_TILT_F32, 45.0),
         ("BOX_AXES_F32", BOX_AXES_F32 as f32, 3.5),
-        ("THIN_F32", THIN_F32, 4.0),
+        ("FLAT_THICKNESS_F32", FLAT_THICKNESS_F32, 4.0),
     ] {
         covers(name, f64::from(taken) / u, derived);
     }
     for (name, taken, derived) in [
         ("RATE_F64", RATE_F64, 14.0),
-        ("SIGN_F64", SIGN_F64, 8.0),
+        ("DETERMINANT_F64", DETERMINANT_F64, 8.0),
         ("HEIGHT_F64", HEIGHT_F64, 3.0),
         ("TURNED_SUPPORT", TURNED_SUPPORT, 60.0),
         ("ADVANCE_F64", ADVANCE_F64, 18.0),
     ] {
-        covers(name, taken / U64, derived);
+        covers(name, taken / UNIT_ROUNDOFF_F64, derived);
     }
 }
 
@@ -52,7 +56,7 @@ fn functions_cover_the_operations_that_they_count() {
     for (turns, span, way) in [([0.0; 2], 192.0, 56.0), ([0.0, 3.0], 300.0, 96.0)] {
         let derived = span * 7.0 + (span + 5.0 * turns[1]) * 11.0 + way * 13.0;
         let taken = distance_rounding([7.0, 11.0], turns, 13.0);
-        covers("distance_rounding", taken / U64, derived);
+        covers("distance_rounding", taken / UNIT_ROUNDOFF_F64, derived);
     }
     assert!(distance_rounding([0.0; 2], [0.0; 2], 0.0) > 0.0);
     let [still, turning] = [0.0, 1e-9].map(|turn| distance_rounding([7.0; 2], [turn; 2], 13.0));
@@ -60,33 +64,33 @@ fn functions_cover_the_operations_that_they_count() {
     covers("least_tolerance", least_tolerance(3.0), 4.0 * 3.0);
     covers(
         "attached_rounding",
-        attached_rounding(5.0) / U64,
+        turning_axis_rounding(5.0) / UNIT_ROUNDOFF_F64,
         78.0 + 8.0 * 5.0,
     );
     let sides = [DVec3::new(2.0, -3.0, 0.5), DVec3::new(0.0, 1.0, -5.0)];
     let derived = 108.0 * 3.0 * 5.0 * 7.0;
     covers(
         "height_rounding",
-        height_rounding(sides, 7.0) / U64,
+        height_rounding(sides, 7.0) / UNIT_ROUNDOFF_F64,
         derived,
     );
     assert!(height_rounding(sides, 0.0) > 0.0);
     for tilt in [0.0_f64, 11.0, -11.0] {
         let derived = 41.0 * (0.25 + 0.25 + 0.25 * tilt.abs()) * (5.0 + 7.0);
         let taken = profile_rounding([0.25; 2], [5.0, 7.0], tilt);
-        covers("profile_rounding", taken / U64, derived);
+        covers("profile_rounding", taken / UNIT_ROUNDOFF_F64, derived);
     }
 }
 
 #[test]
 fn extreme_lengths_scale_to_ordinary_squares() {
-    assert_eq!(SCALE, 2f64.powi(700));
+    assert_eq!(EXTREME_VECTOR_SCALE, 2f64.powi(700));
     let least = f64::from_bits(1);
     for length in [least, SQUARES.start().sqrt()] {
-        assert!((length * SCALE).powi(2).is_normal());
+        assert!((length * EXTREME_VECTOR_SCALE).powi(2).is_normal());
     }
     for length in [SQUARES.end().sqrt(), f64::MAX] {
-        assert!((length * SCALE.recip()).powi(2).is_normal());
+        assert!((length * EXTREME_VECTOR_SCALE.recip()).powi(2).is_normal());
     }
 }
 
@@ -94,11 +98,11 @@ fn extreme_lengths_scale_to_ordinary_squares() {
 fn shares_are_shares() {
     for share in [
         SKIPPED_NEARER_SHARE,
-        PLACES,
+        ARM_DISTANCE_SHARE,
         ROTATION_GAP_SHARE,
         SUFFICIENT_FIRST_FREE_TIME,
         MIN_NEWTON_GROWTH,
-        RESTED,
+        RESTED_SLACK,
         NODE_GAP,
         CLOSED_GAP,
         MIN_BOX_FILL,

@@ -4,8 +4,8 @@ use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
 use crate::rounding::{
-    FRAME_F64, HEIGHT_F64, LEAST_ROUNDING, SIGN_F64, SQUARES, TURNS_F64, U64, distance_rounding,
-    height_rounding,
+    DETERMINANT_F64, FRAME_F64, HEIGHT_F64, LEAST_ROUNDING, SQUARES, TURN_COUNT_WIDENING,
+    UNIT_ROUNDOFF_F64, distance_rounding, height_rounding,
 };
 use crate::tests::double::{Double, Double3};
 use crate::tests::rational::{Exact3, error_of};
@@ -50,11 +50,11 @@ fn height_f64() {
 /// Tests the sign of a corner's position along a ray.
 #[test]
 fn sign_f64_of_a_product() {
-    let found = Worst::of("SIGN_F64, a product", 40_000).search(|tape| {
+    let found = Worst::of("DETERMINANT_F64, a product", 40_000).search(|tape| {
         let ([from, corner], n) = (corners(tape), axis(tape)?);
         let way = corner - from;
         let exact = Exact3::of(n).dot(&Exact3::of(corner).minus(&Exact3::of(from)));
-        let allowed = SIGN_F64 * size(way) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_F64 * size(way) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(way), &exact), allowed))
     });
     found.is_within(12.0);
@@ -63,12 +63,12 @@ fn sign_f64_of_a_product() {
 /// Tests the sign that says on which side of an edge a ray passes.
 #[test]
 fn sign_f64_of_a_ray_and_an_edge() {
-    let found = Worst::of("SIGN_F64, a ray and an edge", 40_000).search(|tape| {
+    let found = Worst::of("DETERMINANT_F64, a ray and an edge", 40_000).search(|tape| {
         let ([from, p, q], n) = (corners(tape), axis(tape)?);
         let [a, b, c] = [from, p, q].map(Exact3::of);
         let exact = Exact3::of(n).dot(&b.minus(&a).cross(&c.minus(&a)));
         let (p, q) = (p - from, q - from);
-        let allowed = SIGN_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
     found.is_within(9.0);
@@ -77,13 +77,13 @@ fn sign_f64_of_a_ray_and_an_edge() {
 /// Tests the sign that says on which side of a triangle a ray starts.
 #[test]
 fn sign_f64_of_three_corners() {
-    let found = Worst::of("SIGN_F64, three corners", 30_000).search(|tape| {
+    let found = Worst::of("DETERMINANT_F64, three corners", 30_000).search(|tape| {
         let [from, of @ ..]: [DVec3; 4] = corners(tape);
         let start = Exact3::of(from);
         let [a, b, c] = of.map(|p| Exact3::of(p).minus(&start));
         let exact = a.dot(&b.cross(&c));
         let [a, b, c] = of.map(|p| p - from);
-        let allowed = SIGN_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
         Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
     found.is_within(9.0);
@@ -165,7 +165,11 @@ fn orthonormality_error(frame: &DMat3) -> f64 {
 fn units_and_lengths() {
     for (name, exponents, looseness) in [
         ("unit and length: 4u", -300..=300, 3.0),
-        ("SQUARES and SCALE: 4u of lengths", -520..=-320, 3.0),
+        (
+            "SQUARES and EXTREME_VECTOR_SCALE: 4u of lengths",
+            -520..=-320,
+            3.0,
+        ),
     ] {
         let found = Worst::of(name, 40_000).search(|tape| {
             let v = DVec3::from(tape.vector(exponents.clone()));
@@ -177,7 +181,7 @@ fn units_and_lengths() {
             let off = Double::from(length(v) * up) - scaled.length();
             let of_unit = Double3::from(n).length() - Double::from(1.0);
             let error = greater(off.get().abs() / exact, of_unit.get().abs());
-            Some(share(error, 4.0 * U64))
+            Some(share(error, 4.0 * UNIT_ROUNDOFF_F64))
         });
         found.is_within(looseness);
     }
@@ -216,14 +220,14 @@ fn turns_f64() {
         let rough = Double::from(std::f64::consts::TAU);
         rough - rough.sin_cos().0
     };
-    let found = Worst::of("TURNS_F64", 20_000).search(|tape| {
+    let found = Worst::of("TURN_COUNT_WIDENING", 20_000).search(|tape| {
         let [from, width, ahead] = [0; 3].map(|_| tape.any(-20..=20));
         let turns = (from - width - ahead) / std::f64::consts::TAU;
         let exact = (Double::from(from) - Double::from(width) - Double::from(ahead)) / tau;
         let off = (Double::from(turns) - exact).get().abs();
         // Angles that cancel are off by the last digits of their terms.
         let most = [from, width, ahead].map(f64::abs).into_iter();
-        let allowed = TURNS_F64 * (1.0 + most.fold(turns.abs(), greater));
+        let allowed = TURN_COUNT_WIDENING * (1.0 + most.fold(turns.abs(), greater));
         Some(share(off, allowed))
     });
     found.is_within(1e8);

@@ -301,7 +301,7 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
         let whole = problem(1_000.0);
         sampled += usize::from(Sample::for_problem(&whole.for_distances()).is_some());
         let (lower, upper) = (many.outcome.lower(), many.outcome.upper());
-        if let Outcome::Measured { time, .. } = many.outcome {
+        if let Outcome::LeastDistance { time, .. } = many.outcome {
             assert!(upper - lower <= config.tolerance + 1e-12, "{number}");
             assert!(
                 (distance(&whole, time) - upper).abs() <= config.tolerance,

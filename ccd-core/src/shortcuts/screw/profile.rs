@@ -11,7 +11,7 @@ use super::outline::{LinearApproximation, Outline};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::track::sin_cos;
-use crate::rounding::{RATE_F64, TURNS_F64, profile_rounding};
+use crate::rounding::{RATE_F64, TURN_COUNT_WIDENING, profile_rounding};
 use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -212,7 +212,7 @@ fn intersection([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 
 /// Returns the least and the greatest whole number in an interval, which is widened first to allow for rounding.
 fn whole_numbers_in([least, most]: [f64; 2]) -> [f64; 2] {
-    let width = TURNS_F64 * (1.0 + greater(least.abs(), most.abs()));
+    let width = TURN_COUNT_WIDENING * (1.0 + greater(least.abs(), most.abs()));
     [(least - width).ceil(), (most + width).floor()]
 }
 

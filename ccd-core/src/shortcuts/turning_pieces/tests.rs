@@ -12,7 +12,7 @@ use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::scene::{
@@ -221,7 +221,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
     let ball = Body::sphere(0.1).unwrap();
     let above = Pose::at(DVec3::new(0.0, 3.0, 0.5)).unwrap();
     let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, DVec3::Y).unwrap();
-    let moving = |body, motion| Moving::from((body, motion));
+    let moving = |body, motion| MovingBody::from((body, motion));
     let (plate, ball) = (moving(&plate, spin), moving(&ball, Motion::still(above)));
     for swapped in [false, true] {
         let (a, b) = if swapped {

@@ -1,7 +1,7 @@
 use super::write_obj_pieces;
 use crate::{Format, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
-use ccd_core::{Body, Facet, Origin, Pieces, Polytope};
+use ccd_core::{Body, Facet, FacetOrigin, Pieces, Polytope};
 
 fn written(pieces: &Pieces) -> String {
     let mut bytes = Vec::new();
@@ -33,7 +33,7 @@ fn facets_are_polygons_that_name_their_own_group_s_vertices() {
         .map(|body| {
             let piece = body.pieces().get(0);
             let facet = |corners: &[u32]| Facet {
-                origin: Origin::Virtual,
+                origin: FacetOrigin::Virtual,
                 corners: corners.to_vec(),
             };
             Polytope {

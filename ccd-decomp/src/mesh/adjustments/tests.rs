@@ -4,18 +4,18 @@ use super::*;
 fn adjustments_add_up() {
     let small = Adjustments::NONE.scaled(0.5).unwrap().mirrored(Axis::Y);
     let both = small
-        .and(&Adjustments::NONE.scaled(4.0).unwrap().hollow())
+        .combined_with(&Adjustments::NONE.scaled(4.0).unwrap().hollow())
         .unwrap();
     assert_eq!(both.to_string(), "@scale=2@mirror=y@surface");
     assert_eq!(
         both.map().unwrap().apply(DVec3::ONE),
         DVec3::new(2.0, -2.0, 2.0)
     );
-    let twice = small.and(&small).unwrap();
+    let twice = small.combined_with(&small).unwrap();
     assert_eq!(twice.to_string(), "@scale=0.25");
     let stated = Adjustments::NONE.stated_in(Unit::Inch);
     let wanted = Adjustments::NONE.converted_to(Unit::Metre);
-    let units = stated.and(&wanted).unwrap();
+    let units = stated.combined_with(&wanted).unwrap();
     assert_eq!(
         (units.stated_unit, units.target_unit),
         (Some(Unit::Inch), Some(Unit::Metre))
@@ -35,6 +35,6 @@ fn factors_are_positive_numbers_and_stay_so() {
     for (one, other) in [(1e200, 1e200), (1e-200, 1e-200)] {
         let scaled = Adjustments::NONE.scaled(one).unwrap();
         assert!(scaled.scaled(other).is_err());
-        assert!(scaled.and(&scaled).is_err());
+        assert!(scaled.combined_with(&scaled).is_err());
     }
 }

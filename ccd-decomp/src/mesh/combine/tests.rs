@@ -48,7 +48,7 @@ fn a_mirror_turns_the_faces_round() {
 #[test]
 fn a_flattened_mesh_is_repaired() {
     let flat = cube().transformed(stretched(1.0, 1.0, 0.0)).unwrap();
-    assert_eq!(flat.repairs().collapsed.count(), 8);
+    assert_eq!(flat.repairs().collapsed_faces.count(), 8);
     assert_eq!(flat.faces().len(), 4);
     assert_eq!(volume(&flat), 0.0);
     assert!(body_from_mesh(&flat, Detail::Auto).is_ok());
@@ -64,7 +64,7 @@ fn images_out_of_range_are_refused() {
     let fault = |map: AffineMap| cube().transformed(map).unwrap_err().fault;
     let far = fault(AffineMap::from(Pose::at([2e12, 0.0, 0.0]).unwrap()));
     assert!(
-        matches!(far, MeshFault::TooLarge { vertex: 0, .. }),
+        matches!(far, MeshFault::CoordinateTooLarge { vertex: 0, .. }),
         "{far}"
     );
     for bad in [f64::NAN, f64::INFINITY, 1e308] {
@@ -72,7 +72,7 @@ fn images_out_of_range_are_refused() {
         let fault = fault(DAffine3::from_mat3(matrix).into());
         let named = matches!(
             fault,
-            MeshFault::NotFinite { .. } | MeshFault::TooLarge { .. }
+            MeshFault::NotFinite { .. } | MeshFault::CoordinateTooLarge { .. }
         );
         assert!(named, "{bad}: {fault}");
     }
@@ -92,9 +92,9 @@ fn numbers_go_on_in_merged_meshes() {
     assert_eq!(both.faces()[4], [5, 7, 8]);
     let repairs = both.repairs();
     assert_eq!(repairs.polygons.first(), [0, 3, 6]);
-    assert_eq!(repairs.collapsed.first(), [1, 4, 7]);
-    assert_eq!(repairs.unreferenced.first(), [4, 9, 14]);
-    assert_eq!(repairs.duplicates.first(), [6, 6, 8]);
+    assert_eq!(repairs.collapsed_faces.first(), [1, 4, 7]);
+    assert_eq!(repairs.unreferenced_vertices.first(), [4, 9, 14]);
+    assert_eq!(repairs.duplicate_faces.first(), [6, 6, 8]);
     let error = TriangleMesh::merge([]).unwrap_err();
     assert!(matches!(error.fault, MeshFault::NoVertices), "{error}");
 }

@@ -36,7 +36,7 @@ impl Allowance {
                 self.remaining = left;
                 Ok(())
             }
-            None => Err(MeshFault::Repeats { limit: self.limit }),
+            None => Err(MeshFault::TooManyRepeats { limit: self.limit }),
         }
     }
 }

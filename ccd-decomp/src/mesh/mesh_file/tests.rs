@@ -141,7 +141,7 @@ mod beside {
         let path = folder.write("part.gltf", gltf.text_at("./deep%20er//da%74a.bin"));
         let error = TriangleMesh::read(&path).unwrap_err();
         assert!(
-            matches!(error.fault, MeshFault::LinkedFile { .. }),
+            matches!(error.fault, MeshFault::UnreadableLinkedFile { .. }),
             "{error}"
         );
         let message = error.to_string();

@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
 use crate::test_meshes::{block, cubes, merged_meshes, placed, reversed_faces, tetrahedron};
-use ccd_core::Origin;
+use ccd_core::FacetOrigin;
 use ccd_core::glam::dvec3;
 
 fn polytope(mesh: &TriangleMesh) -> Result<Polytope, DecomposeError> {
@@ -14,7 +14,12 @@ fn a_block_has_eight_corners_and_six_sides() {
     let polytope = polytope(&cubes(&block([3, 2, 4]))).unwrap();
     assert_eq!(polytope.points.len(), 8);
     assert_eq!(polytope.facets.len(), 6);
-    assert!(polytope.facets.iter().all(|f| f.origin == Origin::Faces));
+    assert!(
+        polytope
+            .facets
+            .iter()
+            .all(|f| f.origin == FacetOrigin::Faces)
+    );
     assert_eq!(polytope.faces.len(), 2 * 2 * (6 + 8 + 12));
 }
 
@@ -22,9 +27,9 @@ fn a_block_has_eight_corners_and_six_sides() {
 fn faces_keep_their_numbers() {
     let mesh = reversed_faces(&tetrahedron());
     let polytope = polytope(&mesh).unwrap();
-    let mut faces: Vec<Origin> = polytope.facets.iter().map(|f| f.origin).collect();
+    let mut faces: Vec<FacetOrigin> = polytope.facets.iter().map(|f| f.origin).collect();
     faces.sort_by_key(|origin| format!("{origin:?}"));
-    assert_eq!(faces, [0, 1, 2, 3].map(Origin::Face));
+    assert_eq!(faces, [0, 1, 2, 3].map(FacetOrigin::Face));
     assert_eq!(polytope.vertex_ids, [0, 1, 2, 3]);
 }
 

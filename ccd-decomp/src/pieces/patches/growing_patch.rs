@@ -10,7 +10,7 @@ use crate::solid::flats::ConvexPolygons;
 use crate::solid::manifold::Manifold;
 use crate::tolerance::MAX_PATCH_CORNERS;
 use crate::work::Work;
-use ccd_core::Loops;
+use ccd_core::PolygonList;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -42,7 +42,7 @@ impl GrowingPatch {
     }
 
     /// Returns the facets of the hull, with coplanar triangles merged; a flat hull has two facets.
-    pub(super) fn facets(&self, points: &[DVec3]) -> Loops {
+    pub(super) fn facets(&self, points: &[DVec3]) -> PolygonList {
         if self.has_volume {
             return merged_polygons(points, self.hull.facets());
         }
@@ -51,7 +51,7 @@ impl GrowingPatch {
         front.rotate_left(least.unwrap_or(0));
         let mut back = front.clone();
         back[1..].reverse();
-        Loops::from_iter([front, back])
+        PolygonList::from_iter([front, back])
     }
 
     /// Adds a polygon if the result is a valid patch. The result is meaningful only if work is left.

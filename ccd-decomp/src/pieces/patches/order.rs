@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 
 /// The order in which patches start at polygons, and grow to adjacent ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Order {
+pub enum PatchOrder {
     /// Patches start at the polygons farthest from reflex edges, and grow breadth first.
     #[default]
     Cresting,
@@ -20,10 +20,10 @@ pub enum Order {
 pub(super) fn seed_order(
     manifold: &Manifold<'_>,
     flats: &ConvexPolygons,
-    order: Order,
+    order: PatchOrder,
 ) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
-    if order == Order::Cresting {
+    if order == PatchOrder::Cresting {
         let height = steps_to_reflex(manifold, flats);
         seeds.sort_by_key(|&flat| std::cmp::Reverse(height[flat as usize]));
     }
@@ -56,12 +56,12 @@ fn steps_to_reflex(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> 
     height
 }
 
-impl Order {
+impl PatchOrder {
     /// Removes the polygon that a growing patch tries next from those that wait.
     pub(super) fn pop(self, waiting: &mut VecDeque<u32>) -> Option<u32> {
         match self {
-            Order::Cresting | Order::BreadthFirst => waiting.pop_front(),
-            Order::DepthFirst => waiting.pop_back(),
+            PatchOrder::Cresting | PatchOrder::BreadthFirst => waiting.pop_front(),
+            PatchOrder::DepthFirst => waiting.pop_back(),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::pieces::polytope::{CoveredFacet, polytope};
 use crate::solid::flats::{ConvexPolygons, Flat};
 use crate::solid::manifold::Manifold;
 use ccd_core::glam::DVec3;
-use ccd_core::{Origin, Polytope};
+use ccd_core::{FacetOrigin, Polytope};
 use std::cmp::Ordering;
 
 /// A convex part of a mesh's surface, and its convex hull.
@@ -43,7 +43,7 @@ impl Patch {
     /// Returns the number of facets that are not entirely covered by faces of the mesh.
     pub fn virtual_facets(&self) -> usize {
         let facets = self.polytope.facets.iter();
-        facets.filter(|f| f.origin == Origin::Virtual).count()
+        facets.filter(|f| f.origin == FacetOrigin::Virtual).count()
     }
 }
 

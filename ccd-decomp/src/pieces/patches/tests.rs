@@ -5,11 +5,15 @@ use crate::test_meshes::{
     block, cubes, merged_meshes, placed, prism, prism_under_prism, reversed_faces, star,
     tetrahedron, toothed_disc_outline,
 };
-use ccd_core::Origin;
+use ccd_core::FacetOrigin;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
+const ORDERS: [PatchOrder; 3] = [
+    PatchOrder::Cresting,
+    PatchOrder::BreadthFirst,
+    PatchOrder::DepthFirst,
+];
 
 /// Checks that every triangle is in exactly one patch, and that the facets name the faces that lie in them.
 fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
@@ -20,20 +24,20 @@ fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
         let whole = polytope
             .facets
             .iter()
-            .filter(|f| matches!(f.origin, Origin::Face(_)));
+            .filter(|f| matches!(f.origin, FacetOrigin::Face(_)));
         assert_eq!(whole.count() + polytope.faces.len(), patch.faces.len());
         assert!(polytope.facets.len() >= 2);
         let virtual_facets = polytope
             .facets
             .iter()
-            .filter(|f| f.origin == Origin::Virtual);
+            .filter(|f| f.origin == FacetOrigin::Virtual);
         assert_eq!(virtual_facets.count(), patch.virtual_facets());
     }
     assert!(seen.iter().all(|&count| count == 1), "{seen:?}");
 }
 
 fn patches(mesh: &TriangleMesh) -> Vec<usize> {
-    let count = |&order: &Order| {
+    let count = |&order: &PatchOrder| {
         let decomposition = decompose(mesh, order).unwrap();
         check(mesh, &decomposition);
         decomposition.patches.len()
@@ -48,7 +52,7 @@ fn patches(mesh: &TriangleMesh) -> Vec<usize> {
 fn convex_solids_are_one_patch(#[case] mesh: TriangleMesh) {
     assert_eq!(patches(&mesh), [1, 1, 1]);
     assert_eq!(
-        decompose(&mesh, Order::Cresting).unwrap().patches[0].virtual_facets(),
+        decompose(&mesh, PatchOrder::Cresting).unwrap().patches[0].virtual_facets(),
         0
     );
 }
@@ -181,7 +185,7 @@ fn patches_are_capped() {
         })
         .collect();
     let cone = crate::test_meshes::mesh(vertices, &faces);
-    let decomposition = decompose(&cone, Order::Cresting).unwrap();
+    let decomposition = decompose(&cone, PatchOrder::Cresting).unwrap();
     check(&cone, &decomposition);
     let largest = decomposition.patches.iter().map(|p| p.faces.len()).max();
     assert!(largest >= Some(MAX_PATCH_POLYGONS), "{largest:?}");
@@ -201,7 +205,8 @@ fn patches_of_slivers_take_linear_work() {
         let manifold = solid_surface(&mesh).unwrap();
         let flats = ConvexPolygons::new(&manifold);
         let work = Work::with_steps(1_000 * u64::from(corners));
-        let decomposition = decompose_polygons(&manifold, &flats, Order::default(), &work).unwrap();
+        let decomposition =
+            decompose_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
         check(&mesh, &decomposition);
         assert_eq!(decomposition.patches.len(), corners as usize / 2);
     }
@@ -219,7 +224,8 @@ fn steps_per_face_stay_bounded() {
                 Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
             let work = Work::unbounded();
             let flats = ConvexPolygons::new(&manifold);
-            let found = decompose_polygons(&manifold, &flats, Order::default(), &work).unwrap();
+            let found =
+                decompose_polygons(&manifold, &flats, PatchOrder::default(), &work).unwrap();
             check(&mesh, &found);
             let steps = work.steps_spent() / mesh.faces().len() as u64;
             assert!(steps < 8_000, "{count}: {steps}");

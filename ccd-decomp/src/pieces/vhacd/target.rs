@@ -1,7 +1,7 @@
 //! The solid or surface to approximate, with distance queries.
 
 use crate::bounds::Bounds;
-use crate::exact::predicates::{side, turn_along};
+use crate::exact::predicates::{line_side_along, side};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
@@ -184,7 +184,7 @@ fn ray_crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
     let around: i32 = [(a, b), (b, c), (c, a)]
         .into_iter()
         .map(|(v, w)| {
-            let turn = || turn_along(2, [v, w], point);
+            let turn = || line_side_along(2, [v, w], point);
             match (v.y <= point.y, w.y <= point.y) {
                 (true, false) => i32::from(turn().is_gt()),
                 (false, true) => -i32::from(turn().is_lt()),

@@ -5,11 +5,11 @@ use crate::test_meshes::{block, cubes, merged_meshes, placed, tetrahedron};
 use crate::tolerance::AUTO_WORK;
 use ccd_core::glam::DVec3;
 
-fn chosen_reason(mesh: &TriangleMesh) -> Why {
+fn chosen_reason(mesh: &TriangleMesh) -> PieceReason {
     let (parts, why) = choose(mesh, &Topology::of(mesh), &Work::with_steps(AUTO_WORK));
     let fits = match why {
-        Why::Convex => matches!(parts, Parts::Hull(_)),
-        Why::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
+        PieceReason::Convex => matches!(parts, Parts::Hull(_)),
+        PieceReason::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
         _ => matches!(parts, Parts::Triangles),
     };
     assert!(fits, "{why}");
@@ -18,8 +18,11 @@ fn chosen_reason(mesh: &TriangleMesh) -> Why {
 
 #[test]
 fn convex_solids_are_hulls() {
-    assert_eq!(chosen_reason(&tetrahedron()), Why::Convex);
-    assert_eq!(chosen_reason(&cubes(&block([3, 3, 3]))), Why::Convex);
+    assert_eq!(chosen_reason(&tetrahedron()), PieceReason::Convex);
+    assert_eq!(
+        chosen_reason(&cubes(&block([3, 3, 3]))),
+        PieceReason::Convex
+    );
 }
 
 /// Tests that a solid with large planar parts becomes patches if these have many triangles, and stays triangles if
@@ -27,12 +30,15 @@ fn convex_solids_are_hulls() {
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
-    assert!(matches!(chosen_reason(&coarse), Why::TrianglesFaster(_)));
+    assert!(matches!(
+        chosen_reason(&coarse),
+        PieceReason::TrianglesFaster(_)
+    ));
     let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let fine = cubes(&cells.collect::<Vec<_>>());
     assert!(
-        matches!(chosen_reason(&fine), Why::PatchesFaster(_)),
+        matches!(chosen_reason(&fine), PieceReason::PatchesFaster(_)),
         "{}",
         chosen_reason(&fine)
     );
@@ -101,10 +107,10 @@ fn meshes_without_a_solid_stay_triangles() {
     let pierced = merged_meshes(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
     assert!(matches!(
         chosen_reason(&pierced),
-        Why::TrianglesFaster(_) | Why::NothingElse(_)
+        PieceReason::TrianglesFaster(_) | PieceReason::OnlyTrianglesExact(_)
     ));
     let open = crate::test_meshes::mesh(one.vertices().to_vec(), &one.faces()[1..]);
-    let Why::NothingElse(error) = chosen_reason(&open) else {
+    let PieceReason::OnlyTrianglesExact(error) = chosen_reason(&open) else {
         panic!("an open mesh bounds no solid");
     };
     assert!(error.to_string().contains("edges with one face"));
@@ -117,7 +123,7 @@ fn slow_decompositions_stay_triangles() {
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
         let (parts, why) = choose(&mesh, &Topology::of(&mesh), &Work::with_steps(steps));
-        assert_eq!(why, Why::TooLong);
+        assert_eq!(why, PieceReason::WorkBudgetExceeded);
         assert!(matches!(parts, Parts::Triangles));
     }
 }
@@ -138,7 +144,7 @@ fn folded_meshes_stay_triangles() {
     ] {
         assert!(matches!(
             chosen_reason(mesh),
-            Why::TrianglesFaster(_) | Why::NothingElse(_)
+            PieceReason::TrianglesFaster(_) | PieceReason::OnlyTrianglesExact(_)
         ));
     }
 }

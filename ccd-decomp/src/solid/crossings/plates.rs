@@ -58,7 +58,7 @@ const STEPS_PER_PLATE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
     /// Finds the plates of a surface; `None` if no polygon has a large fan, so that the boxes of all triangles
-    /// suffice. O(n log n), the time of [`Flats::new`].
+    /// suffice. O(n log n), the time of [`ConvexPolygons::new`].
     pub(super) fn find(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {

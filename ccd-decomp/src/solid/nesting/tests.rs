@@ -27,7 +27,7 @@ fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
 
 fn counts(mesh: &TriangleMesh) -> [usize; 2] {
     let topology = Topology::of(mesh);
-    [topology.wrong_way.count(), topology.unclear.count()]
+    [topology.wrong_shells.count(), topology.unclear.count()]
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn nested_shells_alternate() {
         let cube = |half: f64| 8.0 * half * half * half;
         let exact = cube(4.0) - cube(3.0) + cube(2.0) - cube(1.0);
         assert!((volume - exact).abs() < 1e-9, "{flips:b} {volume} {exact}");
-        for detail in [Detail::Patches(crate::Order::default()), Detail::Auto] {
+        for detail in [Detail::Patches(crate::PatchOrder::default()), Detail::Auto] {
             let prepared = body_from_mesh(&mesh, detail).unwrap();
             assert_eq!(prepared.body.volume(), Volume::Solid);
         }
@@ -116,7 +116,7 @@ fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (dvec3(1.0, 1.0, 0.0), 0.5, other)]);
         let topology = Topology::of(&mesh);
-        assert_eq!(topology.shared.count(), 1);
+        assert_eq!(topology.shared_edges.count(), 1);
         assert_eq!(counts(&mesh), [usize::from(one != other), 0]);
         assert!((topology.signed_volume - 2.0).abs() < 1e-12);
     }
@@ -142,7 +142,7 @@ fn shells_that_share_faces_are_distinguished() {
         assert!(volume.abs() < 1e-9, "{seed}");
         let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
         assert_eq!(prepared.body.volume(), Volume::Solid);
-        shared += usize::from(topology.shared.count() > 4);
+        shared += usize::from(topology.shared_edges.count() > 4);
     }
     assert!(shared > 40, "{shared}");
 }

@@ -65,7 +65,7 @@ fn a_flipped_face_is_found_at_its_edges() {
     let flipped = topology(cube_points(), &faces);
     assert!(!flipped.is_closed());
     assert_eq!(
-        flipped.flipped.first(),
+        flipped.flipped_edges.first(),
         [Edge(0, 4), Edge(0, 6), Edge(4, 6)]
     );
     assert!(flipped.boundary.is_empty());
@@ -84,7 +84,7 @@ fn two_shells_that_share_an_edge_are_closed_but_no_manifold() {
     let other = TETRAHEDRON.map(|face| face.map(|v| [0, 1, 4, 5][v as usize]));
     let both = topology(points, &[TETRAHEDRON, other].concat());
     assert!(both.is_closed() && !both.is_manifold(), "{both}");
-    assert_eq!(both.shared.first(), [Edge(0, 1)]);
+    assert_eq!(both.shared_edges.first(), [Edge(0, 1)]);
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn a_fin_on_an_edge_opens_a_shell() {
     let fin = [TETRAHEDRON.as_slice(), &[[0, 1, 4]]].concat();
     let topology = topology(points, &fin);
     assert!(!topology.is_closed());
-    assert_eq!(topology.branching.first(), [Edge(0, 1)]);
+    assert_eq!(topology.branching_edges.first(), [Edge(0, 1)]);
     assert_eq!(topology.boundary.count(), 2);
 }
 
@@ -104,7 +104,7 @@ fn a_moebius_strip_cannot_be_oriented() {
     let faces: Vec<[u32; 3]> = (0..5).map(|k| [k, (k + 1) % 5, (k + 2) % 5]).collect();
     let strip = topology(points.collect(), &faces);
     assert_eq!(strip.boundary.count(), 5);
-    assert_eq!(strip.flipped.count(), 5);
+    assert_eq!(strip.flipped_edges.count(), 5);
 }
 
 #[test]
@@ -130,10 +130,10 @@ fn a_klein_bottle_has_no_rim_and_is_not_closed() {
     let points = (0..16).map(|k| dvec3(f64::from(k), f64::from(k * k), f64::from(k % 3)));
     let bottle = topology(points.collect(), &faces);
     assert!(
-        bottle.boundary.is_empty() && bottle.branching.is_empty(),
+        bottle.boundary.is_empty() && bottle.branching_edges.is_empty(),
         "{bottle}"
     );
-    assert!(!bottle.flipped.is_empty() && !bottle.is_closed());
+    assert!(!bottle.flipped_edges.is_empty() && !bottle.is_closed());
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn piece() -> impl Strategy<Value = Polytope> {
 fn polytope(points: &[DVec3]) -> Polytope {
     let hull = hull(points).unwrap();
     let facet = |corners: &[u32]| ccd_core::Facet {
-        origin: ccd_core::Origin::Virtual,
+        origin: ccd_core::FacetOrigin::Virtual,
         corners: corners.to_vec(),
     };
     Polytope {
@@ -127,7 +127,7 @@ proptest! {
             let hull = tree.hulls().get(at);
             let below = leaves(&tree, at);
             let real = |combination: &Combination| {
-                let point = combination.of(hull.points).unwrap();
+                let point = combination.position(hull.points).unwrap();
                 let near = |&leaf: &usize| holds(&tree.hulls().get(leaf), point, 1e-9);
                 tree.class_of(at as u32, combination) == FacetClass::Free
                     || below.iter().any(near)
@@ -237,7 +237,7 @@ fn coordinates_too_fine_are_an_error() {
     assert_eq!(error, BuildError::OutOfRange(DVec3::new(1e-300, 0.0, 0.0)));
     let alone = Pieces::polytopes(&[bead(1e-300)]).unwrap();
     let error = build_hull_tree(&alone).unwrap_err();
-    let fault = HullFault::TooFine { point: 0 };
+    let fault = HullFault::CoordinateTooSmall { point: 0 };
     assert_eq!(error, HullTreeError::Node { node: 0, fault }.into());
 }
 

@@ -50,7 +50,13 @@ fn errors_have_a_reason() {
     let rests = NonlinearRigidMotion::identity();
     let told = try_cast_shapes_nonlinear(&rests, &ball, &rests, &bad, [0.0, 1.0], true);
     assert!(
-        matches!(told, Err(CastError::Shape { which: 2, .. })),
+        matches!(
+            told,
+            Err(CastError::Shape {
+                shape_number: 2,
+                ..
+            })
+        ),
         "{told:?}"
     );
     let silent = cast_shapes_nonlinear(&rests, &ball, &rests, &bad, 0.0, 1.0, true);

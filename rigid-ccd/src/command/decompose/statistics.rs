@@ -43,7 +43,7 @@ impl Statistics {
             why: report.why.to_string(),
             triangles: report.triangles,
             pieces: report.pieces,
-            virtual_faces: report.virtual_faces,
+            virtual_faces: report.virtual_facets,
             tree_nodes: report.tree_nodes,
             hulls: model
                 .hull_tree
@@ -51,7 +51,7 @@ impl Statistics {
                 .map_or(0, |tree| tree.hulls().len()),
             // Round to the microsecond.
             build_ms: (build_ms * 1e3).round() / 1e3,
-            bytes: body.bytes(),
+            bytes: body.memory_usage(),
             exact: report.is_exact(),
             sticks_out: report.sticks_out,
             inflated_by: report.inflated_by,

@@ -5,7 +5,7 @@ use super::journal::Checkpoint;
 use super::summary::Summary;
 use super::{exit, print_summary};
 use crate::command::files::{Rows, input_name};
-use crate::command::{Exit, complain};
+use crate::command::{Exit, print_error};
 use anyhow::{Context, Result, bail};
 
 /// Prints the row at which a resumed run continues.
@@ -16,9 +16,9 @@ pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
     match earlier {
         Some(_) if args.quiet => {}
         Some(Checkpoint { rows, .. }) => {
-            complain(&format!("--resume: continues at row {rows} of the motions"));
+            print_error(&format!("--resume: continues at row {rows} of the motions"));
         }
-        None => complain("--resume: found no interrupted run; starts at the first row"),
+        None => print_error("--resume: found no interrupted run; starts at the first row"),
     }
 }
 
@@ -51,7 +51,7 @@ pub(super) fn skip_rows(
 /// Warns that the page of a resumed run shows only the rows answered in this run.
 fn warn_of_page(args: &QueryArgs) {
     if args.html.is_some() {
-        complain(
+        print_error(
             "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
         );
     }
@@ -71,7 +71,7 @@ pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint
         );
     }
     if !args.quiet {
-        complain(&format!(
+        print_error(&format!(
             "--resume: {out} already has all rows of this query; it is unchanged"
         ));
         print_summary(args, &Summary::new(args.tolerance).with_earlier(end.counts));

@@ -10,7 +10,7 @@ use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
 use crate::command::view::ChosenRows;
 use crate::table::contacts;
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::motions::RowPosition;
 use crate::table::results::Line;
 use anyhow::{Context, Result};
@@ -82,7 +82,7 @@ impl Run<'_> {
     /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
     fn write_contacts(
         &mut self,
-        answered: &[(RowPosition, &Course, &TimedAnswer)],
+        answered: &[(RowPosition, &Movements, &TimedAnswer)],
     ) -> Result<(), CannotWrite> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());

@@ -1,6 +1,6 @@
 //! Chooses the rows to draw on a page.
 
-use crate::table::courses::Course;
+use crate::table::courses::Movements;
 use crate::table::results::{ResultRow, Status};
 
 /// The maximum number of rows of each status on a page, if no ids are given.
@@ -13,7 +13,7 @@ const MOST_ROWS: usize = 100;
 pub(in crate::command) struct ChosenRows {
     /// The ids to show; if empty, some rows of each status.
     ids: Vec<String>,
-    rows: Vec<(Course, ResultRow)>,
+    rows: Vec<(Movements, ResultRow)>,
     /// The number of chosen rows that cannot be drawn, and the message about the first.
     omitted_count: usize,
     first_fault: Option<String>,
@@ -40,7 +40,7 @@ impl ChosenRows {
     }
 
     /// Adds a row if it is one of the wanted ids, or if there are few of its status.
-    pub(in crate::command) fn add_if_wanted(&mut self, course: &Course, row: &ResultRow) {
+    pub(in crate::command) fn add_if_wanted(&mut self, course: &Movements, row: &ResultRow) {
         let wanted = self.is_requested(&row.id).unwrap_or_else(|| {
             let alike = self
                 .rows
@@ -73,7 +73,7 @@ impl ChosenRows {
     }
 
     /// Removes the chosen rows, and returns them in the order in which they were added.
-    pub(super) fn take_rows(&mut self) -> Vec<(Course, ResultRow)> {
+    pub(super) fn take_rows(&mut self) -> Vec<(Movements, ResultRow)> {
         std::mem::take(&mut self.rows)
     }
 

@@ -390,7 +390,7 @@ struct UncertainMotion {
 impl Trajectory for UncertainMotion {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let mut stretch = self.motion.stretch(from, to)?;
-        stretch.stray.shift += self.shift;
+        stretch.deviation.shift += self.shift;
         Ok(stretch)
     }
 }

@@ -5,7 +5,7 @@ use crate::{Body, Motion, Pose, Settings, Solver};
 use ccd_core::Clearance;
 use ccd_core::Outcome;
 use ccd_core::glam::DQuat;
-use ccd_core::{Answer, Round};
+use ccd_core::{Answer, SolidOfRevolution};
 
 /// The radius of both cylinders.
 const RADIUS: f64 = 1.0;
@@ -25,7 +25,7 @@ struct Pair {
 impl Pair {
     /// Creates the scene with a number that determines the cylinders' rotations.
     fn new(number: u32) -> Self {
-        let round = Round::cylinder(RADIUS, 2.0).unwrap();
+        let round = SolidOfRevolution::cylinder(RADIUS, 2.0).unwrap();
         let apart = 2.05 + 0.03 * f64::from(number % 9);
         let turned = |angle: f64, place: [f64; 3]| {
             let rotation = DQuat::from_rotation_z(angle);
@@ -33,7 +33,7 @@ impl Pair {
         };
         let angle = 0.037 * f64::from(number);
         Pair {
-            body: round.enclosed(EXCESS).unwrap().body().unwrap(),
+            body: round.enclose(EXCESS).unwrap().body().unwrap(),
             places: [
                 turned(angle, [0.0, -1.0, 0.0]),
                 turned(angle, [0.0, 1.0, 0.0]),
@@ -201,7 +201,7 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
     let prepared = body_from_mesh(&mesh, Detail::Vhacd { hulls: 1 }).unwrap();
     let body = &prepared.body;
     assert!(body.excess() == prepared.report.sticks_out && body.excess() >= 1.0);
-    let again = Model::of_body(body).unwrap().body().unwrap();
+    let again = Model::from_body(body).unwrap().body().unwrap();
     assert_eq!(again.excess(), body.excess());
     let radius = 0.3;
     let ball = super::ball(radius);

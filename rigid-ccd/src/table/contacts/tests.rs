@@ -53,13 +53,13 @@ fn outcomes_without_a_contact_have_no_rows() {
     let body = ccd_core::Body::sphere(1.0).unwrap();
     let bodies = Bodies { a: &body, b: &body };
     let still = ccd_core::Motion::still(ccd_core::Pose::IDENTITY);
-    let course = Course::Motions(Motions {
+    let course = Movements::Motions(Motions {
         id: String::new(),
         a: still,
         b: still,
         duration: 1.0,
     });
-    let unresolved = Outcome::Unresolved(Unresolved::until(0.5, Limit::Budget));
+    let unresolved = Outcome::Unresolved(Unresolved::from_safe_until(0.5, Limit::Budget));
     for outcome in [Outcome::Free { proven_gap: 1.0 }, unresolved] {
         let answer = Answer {
             outcome,

@@ -1,5 +1,5 @@
 use super::*;
-use crate::table::courses::{Course, CourseRow, Courses};
+use crate::table::courses::{CourseRow, Courses, Movements};
 use ccd_core::glam::DVec3;
 
 fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
@@ -12,7 +12,7 @@ fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
 fn paths(text: &str) -> Vec<Path> {
     let rows = rows(text, Grouping::ById).into_iter();
     rows.map(|row| match row {
-        Ok((_, Course::Path(path))) => path,
+        Ok((_, Movements::Path(path))) => path,
         other => panic!("no path: {other:?}"),
     })
     .collect()
@@ -64,7 +64,7 @@ fn each_row_may_be_a_pose_at_rest() {
     let read: Vec<(usize, String, f64, f64)> = rows
         .into_iter()
         .map(|row| match row {
-            Ok((position, Course::Path(path))) => {
+            Ok((position, Movements::Path(path))) => {
                 let x = path.poses(0.0).unwrap()[0].translation().x;
                 (position.row, path.id.clone(), path.earliest(0.0), x)
             }

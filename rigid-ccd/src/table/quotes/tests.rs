@@ -2,10 +2,10 @@ use super::*;
 
 /// Returns the line of an unclosed quote in a text, read in chunks of `size` bytes.
 fn unclosed_line(text: impl AsRef<[u8]>, size: usize) -> Option<u64> {
-    let mut quotes = Quotes::new(text.as_ref());
+    let mut quotes = QuoteTracker::new(text.as_ref());
     let mut piece = vec![0; size];
     while quotes.read(&mut piece).unwrap() > 0 {}
-    quotes.unclosed(u64::MAX)
+    quotes.open_quote_line(u64::MAX)
 }
 
 #[test]

@@ -88,7 +88,7 @@ impl From<&Outcome> for Status {
             Outcome::Touching { .. } => Status::Touching,
             Outcome::Overlapping { .. } => Status::Overlapping,
             Outcome::Interval { first, .. } => Status::from(&first.kind),
-            Outcome::Measured { .. } => Status::Measured,
+            Outcome::LeastDistance { .. } => Status::Measured,
             Outcome::Unresolved(_) => Status::Unresolved,
         }
     }

@@ -31,8 +31,8 @@ fn contact() -> Contact {
 }
 
 /// Returns a query of two bodies at rest with the given duration.
-fn course(duration: f64) -> Course {
-    Course::Motions(Motions {
+fn course(duration: f64) -> Movements {
+    Movements::Motions(Motions {
         id: "a,b".into(),
         a: Motion::STILL,
         b: Motion::STILL,
@@ -57,7 +57,7 @@ fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
 
 /// Returns the cells that are written for any answer, by column.
 fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static str, String)> {
-    let compared = Compared {
+    let compared = ClearanceComparison {
         clearance,
         excess: 0.0,
     };
@@ -66,7 +66,7 @@ fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static
 
 fn cells_compared(
     (question, outcome): (Question, Outcome),
-    compared: Compared,
+    compared: ClearanceComparison,
 ) -> Vec<(&'static str, String)> {
     let row = ResultRow::new(&course(2.5), (question, &answer(outcome)), 12.75, compared);
     let columns = with_counters(question);
@@ -144,7 +144,10 @@ fn contacts_at_the_start_have_time_0() {
 
 #[test]
 fn an_unresolved_row_has_its_safe_time_and_its_limit() {
-    let row = written(Outcome::Unresolved(Unresolved::until(0.75, Limit::Budget)));
+    let row = written(Outcome::Unresolved(Unresolved::from_safe_until(
+        0.75,
+        Limit::Budget,
+    )));
     assert_eq!(
         (cell(&row, "status"), cell(&row, "time")),
         ("unresolved".into(), "0.75".into())
@@ -193,7 +196,7 @@ fn counters_follow_the_other_columns() {
         &course(2.5),
         (Question::FirstContact, &answer),
         12.75,
-        Compared::default(),
+        ClearanceComparison::default(),
     );
     let plain = table(&COLUMNS, &row);
     let counted = table(&with_counters(Question::FirstContact), &row);
@@ -243,7 +246,7 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
 
 #[test]
 fn distances_are_compared_to_the_clearance() {
-    let measured = |lower| Outcome::Measured {
+    let measured = |lower| Outcome::LeastDistance {
         lower,
         time: 1.5,
         contact: contact(),
@@ -253,7 +256,7 @@ fn distances_are_compared_to_the_clearance() {
         lower: 0.01,
         upper: contact().separation.upper,
         at: Some((1.5, contact())),
-        ..Unresolved::until(0.0, Limit::Budget)
+        ..Unresolved::from_safe_until(0.0, Limit::Budget)
     });
     let farther = Outcome::Free { proven_gap: 0.3 };
     let nearer = Outcome::Contact {
@@ -305,7 +308,7 @@ fn the_excess_of_bodies_is_reported() {
         (inside, Some(0.005), "unverified", "0.01"),
         (pieces, Some(0.005), "unverified", upper.as_str()),
     ] {
-        let compared = Compared {
+        let compared = ClearanceComparison {
             clearance,
             excess: 0.01,
         };

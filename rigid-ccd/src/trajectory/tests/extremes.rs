@@ -9,12 +9,12 @@ fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, r
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let stretch = trajectory.stretch(a, b).unwrap();
         assert!(
-            stretch.stray.shift >= 0.0 && stretch.stray.turn >= 0.0,
+            stretch.deviation.shift >= 0.0 && stretch.deviation.turn >= 0.0,
             "{name}"
         );
         let time = rng.random_range(a..=b);
         let exact = trajectory.stretch(time, time).unwrap();
-        let allowed = stretch.stray + exact.stray;
+        let allowed = stretch.deviation + exact.deviation;
         let near = stretch.pose(time - a);
         let there = exact.motion.start();
         let centre = stretch.motion.centre();
@@ -40,7 +40,7 @@ fn times_may_be_far_from_0() {
         };
         let keys: Vec<_> = (0..50).map(&mut key).collect();
         let point = Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
-        let slerp = Spline::new(point, Turns::slerp(&keys).unwrap());
+        let slerp = Spline::new(point, OrientationCurve::slerp(&keys).unwrap());
         check_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
         let thrown = ballistic(&mut rng).unwrap();
         check_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
@@ -67,7 +67,7 @@ fn places_may_come_from_afar() {
 fn trajectories_rest_after_their_end() {
     let mut rng = Rng::seed_from_u64(7);
     let curve = Curve::bezier(&points(&mut rng, 4), 1.0).unwrap();
-    let spline = Spline::new(curve, Turns::slerp(&keys(&mut rng, 3)).unwrap());
+    let spline = Spline::new(curve, OrientationCurve::slerp(&keys(&mut rng, 3)).unwrap());
     let stops = [0.0, 1.0].map(|time| (time, motion(&mut rng).unwrap().start()));
     let poses = Poses::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
@@ -78,7 +78,7 @@ fn trajectories_rest_after_their_end() {
             poses.stretch(1.0, 1.0 + time),
         ];
         for stretch in strays {
-            let Stray { shift, turn } = stretch.unwrap().stray;
+            let DeviationBound { shift, turn } = stretch.unwrap().deviation;
             assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
         }
     }
@@ -96,7 +96,10 @@ fn axes_have_any_length_but_0() {
             (2.0 * DVec3::Z, 3.0 * DVec3::Z)
         );
         let keys = [(0.0, [0.0, 0.0, 0.0, length])];
-        assert_eq!(Turns::slerp(&keys).unwrap().at(0.0).0, DQuat::IDENTITY);
+        assert_eq!(
+            OrientationCurve::slerp(&keys).unwrap().at(0.0).0,
+            DQuat::IDENTITY
+        );
     }
     assert!(Joint::prismatic(Pose::IDENTITY, [0.0; 3]).is_err());
     assert!(screw(Pose::IDENTITY, [0.0; 3], [f64::NAN, 0.0, 0.0], 1.0, 1.0).is_err());
@@ -112,9 +115,9 @@ fn differences_that_overflow_are_unbounded() {
             (duration, [0.0, 0.0, 0.6, 0.8]),
         ];
         let curve = Curve::bezier(&points, duration).unwrap();
-        let spline = Spline::new(curve, Turns::slerp(&keys).unwrap());
+        let spline = Spline::new(curve, OrientationCurve::slerp(&keys).unwrap());
         if let Ok(stretch) = spline.stretch(0.0, duration) {
-            let deviation = stretch.stray.shift;
+            let deviation = stretch.deviation.shift;
             assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
         }
     }

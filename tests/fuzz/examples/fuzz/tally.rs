@@ -98,7 +98,7 @@ fn status(outcome: &Outcome) -> &'static str {
         Outcome::Touching { .. } => "touching",
         Outcome::Overlapping { .. } => "overlapping",
         Outcome::Unresolved(_) => "unresolved",
-        Outcome::Interval { .. } | Outcome::Measured { .. } => "not of a first contact",
+        Outcome::Interval { .. } | Outcome::LeastDistance { .. } => "not of a first contact",
     }
 }
 

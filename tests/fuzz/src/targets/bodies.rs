@@ -2,7 +2,7 @@
 
 use crate::engine::Method;
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Body, Motion, Moving, Outcome, Pose, Settings};
+use ccd_core::{Answer, Body, Motion, MovingBody, Outcome, Pose, Settings};
 use ccd_decomp::Model;
 
 /// The work budget of each query, in iterations.
@@ -50,8 +50,8 @@ pub(super) fn check_queries(body: &Body) {
         budget: BUDGET,
         ..Settings::DEFAULT
     };
-    let ball = Moving::from((&ball, falls));
-    let still = Moving::from((body, Motion::STILL));
+    let ball = MovingBody::from((&ball, falls));
+    let still = MovingBody::from((body, Motion::STILL));
     let Ok(problem) = ccd_core::Query::new(ball, still, 1.0, &config) else {
         return;
     };

@@ -1,7 +1,7 @@
 //! The fuzz target that reads tables of paths.
 
 use super::motions::{OneByteReader, within_limits};
-use rigid_ccd::table::courses::{Course, CourseRow, Courses};
+use rigid_ccd::table::courses::{CourseRow, Courses, Movements};
 use rigid_ccd::table::motions::{RowPosition, TableError};
 use rigid_ccd::table::paths::Grouping;
 use std::io::Read;
@@ -44,10 +44,13 @@ fn check_row(row: &CourseRow) {
     match row {
         Ok((_, course)) => {
             assert!(course.duration() >= 0.0 && course.duration().is_finite());
-            let [first, last] = [course.earliest(0.0), course.latest(course.duration())];
+            let [first, last] = [
+                course.table_time_rounded_down(0.0),
+                course.table_time_rounded_up(course.duration()),
+            ];
             // Written so that NaN fails.
             assert!(first <= last, "{first} {last}");
-            if let Course::Path(path) = course {
+            if let Movements::Path(path) = course {
                 assert!(path.poses(path.duration).is_ok());
             }
         }

@@ -2,12 +2,12 @@
 
 use super::is_convex;
 use crate::body::pieces::Pieces;
-use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use glam::DVec3;
 
 fn convex(points: &[[f64; 3]], facets: &[&[u32]]) -> bool {
     let facet = |corners: &&[u32]| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners: corners.to_vec(),
     };
     let polytope = Polytope {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::hull_tree::Loops;
+use crate::body::hull_tree::PolygonList;
 use std::collections::HashMap;
 
 /// Numbers the points by a table, point after point, as a reference.
@@ -37,7 +37,7 @@ fn points_get_the_numbers_that_a_table_gives() {
         let [left, right] = [points(7), points(9)].map(node);
         let hull = Hull {
             points: [&left.points[..4], &right.points[3..5]].concat(),
-            facets: Loops::default(),
+            facets: PolygonList::default(),
         };
         let found = PointNumbering::new(&hull, [&left, &right]).unwrap();
         let (numbers, positions) = reference_numbering(&hull.points, [&left.points, &right.points]);

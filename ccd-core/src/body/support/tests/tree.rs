@@ -42,7 +42,9 @@ fn searching_agrees_with_a_scan() {
         let reach = reach.fold(0.0, crate::math::order::greater);
         let (middle, radius) = tree.bounding_ball();
         for p in &points {
-            assert!(p.distance(middle) <= radius * (1.0 + 16.0 * crate::rounding::U64));
+            assert!(
+                p.distance(middle) <= radius * (1.0 + 16.0 * crate::rounding::UNIT_ROUNDOFF_F64)
+            );
         }
         for look in directions_with_ties(200) {
             let height = |p: &DVec3| look.dot(*p);

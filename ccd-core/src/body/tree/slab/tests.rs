@@ -1,6 +1,6 @@
 use super::Slab;
 use crate::math::order::greater;
-use crate::rounding::U64;
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
@@ -25,10 +25,10 @@ fn worst_slab() {
         let size = |&p: &DVec3| (p - centre).abs().max_element();
         let size = corners.iter().map(size).fold(0.0, greater);
         let highest = corners.iter().map(height).fold(0.0, greater);
-        let found = Double::from(slab.half) - Double::from(16.0 * U64 * size);
+        let found = Double::from(slab.half) - Double::from(16.0 * UNIT_ROUNDOFF_F64 * size);
         Some(share(
             (Double::from(highest) - found).get(),
-            16.0 * U64 * size,
+            16.0 * UNIT_ROUNDOFF_F64 * size,
         ))
     });
     found.is_within(30.0);

@@ -3,7 +3,7 @@
 
 use super::points_beside_edges;
 use crate::body::Body;
-use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::rounding::BESIDE_EDGE;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use glam::{DVec2, DVec3};
@@ -99,7 +99,7 @@ fn plate(outline: &[DVec2], placement: &Placement) -> Body {
 
 fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
     let facet = |corners: &&[u32]| Facet {
-        origin: Origin::Virtual,
+        origin: FacetOrigin::Virtual,
         corners: corners.to_vec(),
     };
     Body::polytope(Polytope {

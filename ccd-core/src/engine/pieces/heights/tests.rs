@@ -71,7 +71,7 @@ fn many_points_are_bounded_like_all_of_them() {
         // The rounding is that of heights about the centre, and of the positions from which they are computed.
         let span = problem.a.body.tree().span() + side.path.centre.length();
         let slack = 128.0
-            * crate::rounding::U64
+            * crate::rounding::UNIT_ROUNDOFF_F64
             * (span + velocity.length() + linear_acceleration.length());
         assert!((heights.least_height() - twin.least_height()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {

@@ -3,10 +3,10 @@
 use super::*;
 use crate::body::Body;
 use crate::body::piece::Combination;
-use crate::distance::oracle::{Claim, GiveUp};
+use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::query::Moving;
+use crate::query::MovingBody;
 use crate::settings::Settings;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 
@@ -14,11 +14,11 @@ use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let ball = Body::sphere(1.0).unwrap();
     let start = Pose::at(x * DVec3::X).unwrap();
-    let a = Moving::from((
+    let a = MovingBody::from((
         &ball,
         Motion::new(start, -speed * DVec3::X, DVec3::ZERO).unwrap(),
     ));
-    let b = Moving::from((&ball, Motion::still(Pose::IDENTITY)));
+    let b = MovingBody::from((&ball, Motion::still(Pose::IDENTITY)));
     then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
@@ -103,16 +103,16 @@ fn with_returning_bar<R>(config: &Settings, then: impl FnOnce(&Problem<'_>) -> R
     let turn = std::f64::consts::TAU;
     // The other end of the bar comes around.
     let turns = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap();
-    let a = Moving::from((&bar, turns));
+    let a = MovingBody::from((&bar, turns));
     let beside = Pose::at(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
-    let b = Moving::from((&ball, Motion::still(beside)));
+    let b = MovingBody::from((&ball, Motion::still(beside)));
     then(&Problem::about(a, b, 1.0, config).unwrap())
 }
 
 #[test]
 fn an_oracle_that_gives_up_is_counted() {
     let (step, stats) = balls(4.0, 4.0, &Settings::DEFAULT, |problem| {
-        let mut oracle = ConstantOracle(Err(GiveUp::StepCap));
+        let mut oracle = ConstantOracle(Err(GiveUpReason::StepCap));
         let mut meter = Meter::new(problem);
         let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
         (step, meter.stats)

@@ -1,7 +1,7 @@
-use crate::limits::MAX_TURN;
+use crate::limits::MAX_ROTATION_ANGLE;
 use crate::math::order::greater;
 use crate::motion::track::sin_cos;
-use crate::rounding::U64;
+use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::Double;
 use crate::tests::worst::{Worst, share};
 
@@ -10,13 +10,17 @@ fn agrees_with_the_standard_library() {
     let mut worst = 0.0f64;
     for k in 0..2_000_000u32 {
         // The angles are dense near 0, and spread evenly on a logarithmic scale up to the largest turn.
-        let angle = MAX_TURN.powf(f64::from(k) / 2e6 * 1.5 - 0.5);
+        let angle = MAX_ROTATION_ANGLE.powf(f64::from(k) / 2e6 * 1.5 - 0.5);
         let (sin, cos) = sin_cos(angle);
         let (s, c) = angle.sin_cos();
         worst = greater(greater(worst, (sin - s).abs()), (cos - c).abs());
     }
     // At best each function is off by half a unit in the last place.
-    assert!(worst <= 2.0 * U64, "{}", worst / U64);
+    assert!(
+        worst <= 2.0 * UNIT_ROUNDOFF_F64,
+        "{}",
+        worst / UNIT_ROUNDOFF_F64
+    );
     assert_eq!(sin_cos(0.0), (0.0, 1.0));
 }
 
@@ -37,7 +41,7 @@ fn worst_sine_and_cosine() {
         let off = |rounded: f64, exact: Double| (Double::from(rounded) - exact).get().abs();
         Some(share(
             greater(off(sin, exact.0), off(cos, exact.1)),
-            2.0 * U64,
+            2.0 * UNIT_ROUNDOFF_F64,
         ))
     });
     found.is_within(3.0);

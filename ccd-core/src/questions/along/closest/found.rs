@@ -141,7 +141,7 @@ impl BestSoFar {
             approach: 0.0,
         };
         match *outcome {
-            Outcome::Measured {
+            Outcome::LeastDistance {
                 lower,
                 time,
                 contact,
@@ -180,7 +180,7 @@ impl BestSoFar {
             return self.answer(query, stretches, self.unresolved_outcome(0.0, reason));
         };
         let lower = lesser(self.lower, contact.separation.upper);
-        let nearest = Outcome::Measured {
+        let nearest = Outcome::LeastDistance {
             lower,
             time,
             contact: contact.cap_lower_bound(lower),

@@ -6,7 +6,7 @@ use crate::answer::Unresolved;
 use crate::body::Body;
 use crate::error::InputError;
 use crate::motion::trajectory::Trajectory;
-use crate::motion::trajectory::{Stray, Stretch};
+use crate::motion::trajectory::{DeviationBound, Stretch};
 use crate::query::Query;
 use crate::settings::Settings;
 
@@ -74,7 +74,7 @@ impl Trajectory for Shuttle {
         };
         let motion = Motion::new(crate::Pose::at(start)?, velocity, DVec3::ZERO)?;
         Ok(Stretch {
-            stray: Stray { shift, turn: 0.0 },
+            deviation: DeviationBound { shift, turn: 0.0 },
             ..Stretch::exact(motion)
         })
     }
@@ -134,7 +134,7 @@ fn each_part_between_two_corners_has_a_budget() {
     assert!(matches!(first.outcome, Outcome::Free { .. }), "{first:?}");
     assert!(matches!(any.outcome, Outcome::Free { .. }), "{any:?}");
     assert!(
-        matches!(closest.outcome, Outcome::Measured { .. }),
+        matches!(closest.outcome, Outcome::LeastDistance { .. }),
         "{closest:?}"
     );
     assert!(
@@ -176,14 +176,14 @@ fn each_part_between_two_corners_has_a_budget() {
 
 /// A trajectory with unbounded deviations, with a corner near the end of every stretch, or with invalid bounds.
 struct Hostile {
-    stray: Stray,
+    stray: DeviationBound,
     step: f64,
 }
 
 impl Trajectory for Hostile {
     fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
         Ok(Stretch {
-            stray: self.stray,
+            deviation: self.stray,
             ..Stretch::exact(Motion::STILL)
         })
     }
@@ -199,7 +199,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = Hostile {
-            stray: Stray { shift, turn },
+            stray: DeviationBound { shift, turn },
             step,
         };
         let config = Settings {

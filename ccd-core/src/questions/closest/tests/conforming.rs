@@ -38,7 +38,7 @@ fn a_wheel_on_its_axle_takes_a_few_times_its_first_contact() {
     assert!(matches!(first.outcome, Outcome::Free { .. }));
     let closest = approach(&problem);
     assert!(
-        matches!(closest.outcome, Outcome::Measured { .. }),
+        matches!(closest.outcome, Outcome::LeastDistance { .. }),
         "{closest:?}"
     );
     assert!(closest.outcome.upper() - closest.outcome.lower() <= config.tolerance);

@@ -77,7 +77,7 @@ fn a_required_distance_costs_little_more_than_a_margin() {
     for number in 0..300 {
         let mut scene = scene(&mut rng, KINDS[number % 3], 12);
         let known = approach(&scene.problem());
-        let Outcome::Measured { lower, contact, .. } = known.outcome else {
+        let Outcome::LeastDistance { lower, contact, .. } = known.outcome else {
             continue;
         };
         for distance in [0.7 * lower, 1.5 * contact.separation.upper] {

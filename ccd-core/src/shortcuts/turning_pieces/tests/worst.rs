@@ -9,7 +9,7 @@ use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::rounding::attached_rounding;
+use crate::rounding::turning_axis_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
@@ -116,7 +116,7 @@ fn shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
         point: other.piece.points[tape.pick(3)],
     };
     let tau = tape.fraction();
-    let rounding = attached_rounding(sweep.angular_speed + sweep.own_angular_speed);
+    let rounding = turning_axis_rounding(sweep.angular_speed + sweep.own_angular_speed);
     let [start, end, from, to] = [
         setting.found(0.0),
         setting.found(tau),

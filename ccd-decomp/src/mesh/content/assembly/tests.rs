@@ -108,6 +108,6 @@ fn doubling_is_refused_before_it_is_done() {
             panic!("there is no circle");
         };
         let fault = assembly.expand(0..1).unwrap_err();
-        assert!(matches!(fault, MeshFault::Repeats { .. }), "{fault}");
+        assert!(matches!(fault, MeshFault::TooManyRepeats { .. }), "{fault}");
     }
 }

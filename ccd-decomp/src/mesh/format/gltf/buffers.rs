@@ -96,7 +96,7 @@ fn content<'a>(
 }
 
 fn file_needed(name: String) -> MeshFault {
-    MeshFault::LinkedFile {
+    MeshFault::UnreadableLinkedFile {
         name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
             .into(),

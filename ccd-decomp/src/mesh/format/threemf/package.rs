@@ -115,7 +115,7 @@ impl<'a> Package<'a> {
         let unpacking = BufReader::with_capacity(BUFFER, Unpacking { content, left });
         let parsed = parse(&mut Xml::new(unpacking));
         let limit = self.limit;
-        self.left.ok_or(MeshFault::Unpacks { limit })?;
+        self.left.ok_or(MeshFault::UnpackedTooLarge { limit })?;
         parsed
     }
 }

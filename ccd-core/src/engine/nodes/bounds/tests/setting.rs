@@ -9,7 +9,9 @@ use crate::engine::nodes::eight_pairs::BodyRotation;
 use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::math::order::greater;
-use crate::rounding::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
+use crate::rounding::{
+    ARM_DISTANCE_SHARE, GAP_PER_DISTANCE_F32, GAP_PER_RADIUS_F32, LEAST_GAP_F32, RATE_F32,
+};
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rotation};
 use glam::{DMat3, DVec3, Vec3};
 
@@ -248,9 +250,11 @@ impl Setting {
         let (split, turning_far) = (turning(0), turning(1));
         let velocity = self.velocity.as_vec3();
         let [x, y, z] = other.centre().abs().to_array();
-        let allowed = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
+        let allowed =
+            GAP_PER_DISTANCE_F32 * (x + y + z) + GAP_PER_RADIUS_F32 * (other.radius() + reach);
         let places = other.centre().length() + turning_far.distance_from_centre(Vec3::ZERO);
-        let far_arm = turning_far.distance_from_centre(other.centre()) + PLACES as f32 * places;
+        let far_arm =
+            turning_far.distance_from_centre(other.centre()) + ARM_DISTANCE_SHARE as f32 * places;
         let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
         let speed = velocity.length()
             + change.length()

@@ -4,7 +4,10 @@ use super::{AxisValues, Sample, free_times};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
-use crate::rounding::{ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_BEND_F32};
+use crate::rounding::{
+    CROSS_PRODUCT_F32, FREE_TIME_FACTOR_F32, LEAST_SECOND_DERIVATIVE_F32,
+    SECOND_DERIVATIVE_FACTOR_F32,
+};
 use crate::settings::Instructions;
 use crate::tests::worst::share;
 
@@ -24,7 +27,7 @@ pub(super) struct Shares {
     pub(super) clock: f64,
 }
 
-/// Returns the error of a free time as a share of [`CLOCK_F32`].
+/// Returns the error of a free time as a share of [`FREE_TIME_FACTOR_F32`].
 pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
     let [free, apart, rate, second_derivative] = numbers.map(f64::from);
     let root = (rate * rate + 2.0 * second_derivative * apart).sqrt();
@@ -33,7 +36,7 @@ pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
     } else {
         (root - rate) / second_derivative
     };
-    let factor = f64::from(CLOCK_F32);
+    let factor = f64::from(FREE_TIME_FACTOR_F32);
     share(free / factor / exact - 1.0, 1.0 - factor)
 }
 
@@ -44,7 +47,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
             (self.children[lane].second_derivative(n) + self.far.second_derivative(n)) as f32
-                + LEAST_BEND_F32
+                + LEAST_SECOND_DERIVATIVE_F32
         });
         let closed = self.motion.closed;
         let level = Instructions::Best.level();
@@ -72,10 +75,10 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let turning = [(motion.split, child), (motion.other, &self.far)];
         for ((turning, body), length) in turning.iter().zip(found.across) {
             let across = n.cross(body.spin).length();
-            let found = length[lane] * BEND_F32;
+            let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
             let of = share(
                 across - f64::from(found),
-                (ACROSS_F32 * turning.rate).into(),
+                (CROSS_PRODUCT_F32 * turning.rate).into(),
             );
             shares.across = greater(shares.across, of);
         }

@@ -10,7 +10,8 @@ use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::math::simd::Vec3x8;
 use crate::rounding::{
-    ACROSS_F32, BEND_F32, CLOCK_F32, LEAST_AXIS_F32, LEAST_BEND_F32, LEAST_GAP_F32, U32,
+    CROSS_PRODUCT_F32, FREE_TIME_FACTOR_F32, LEAST_AXIS_F32, LEAST_GAP_F32,
+    LEAST_SECOND_DERIVATIVE_F32, SECOND_DERIVATIVE_FACTOR_F32, UNIT_ROUNDOFF_F32,
 };
 use crate::settings::Instructions;
 use crate::tests::scene::{RngExt, direction, magnitude};
@@ -66,7 +67,10 @@ impl Search {
 #[test]
 fn way_f32() {
     Search {
-        name: ["WAY_F32, boxes", "WAY_F32, triangles"],
+        name: [
+            "GAP_PER_DISTANCE_F32, boxes",
+            "GAP_PER_DISTANCE_F32, triangles",
+        ],
         setting: |tape, other| {
             let far = magnitude(tape, 3.0, 5.0);
             Setting::new(tape, other).at_distance(far, other)
@@ -81,7 +85,7 @@ fn way_f32() {
 #[test]
 fn reach_f32() {
     Search {
-        name: ["REACH_F32, boxes", "REACH_F32, triangles"],
+        name: ["GAP_PER_RADIUS_F32, boxes", "GAP_PER_RADIUS_F32, triangles"],
         setting: |tape, other| {
             let far = magnitude(tape, -5.0, -2.0);
             Setting::new(tape, other).at_distance(far, other)
@@ -108,7 +112,10 @@ fn rate_f32() {
 #[test]
 fn places() {
     Search {
-        name: ["PLACES of RATE_F32, boxes", "PLACES of RATE_F32, triangles"],
+        name: [
+            "ARM_DISTANCE_SHARE of RATE_F32, boxes",
+            "ARM_DISTANCE_SHARE of RATE_F32, triangles",
+        ],
         setting: |tape, other| {
             let (far, spin) = (magnitude(tape, 3.0, 5.0), direction(tape));
             let setting = Setting::new(tape, other).at_distance(far, other);
@@ -154,10 +161,10 @@ fn turned(tape: &mut RandomCase) -> Option<([DVec3; LANES], DVec3)> {
 
 #[test]
 fn across_f32() {
-    let found = Worst::of("ACROSS_F32", 40_000).search(|tape| {
+    let found = Worst::of("CROSS_PRODUCT_F32", 40_000).search(|tape| {
         let (axes, spin) = turned(tape)?;
         let lengths = across(axes.map(DVec3::as_vec3), spin.as_vec3());
-        let allowed = f64::from(ACROSS_F32) * spin.length();
+        let allowed = f64::from(CROSS_PRODUCT_F32) * spin.length();
         let error = |k: usize| axes[k].cross(spin).length() - f64::from(lengths[k]);
         let errors = (0..LANES).map(|k| share(error(k), allowed));
         Some(errors.fold(f64::NEG_INFINITY, greater))
@@ -168,7 +175,7 @@ fn across_f32() {
 /// Measures the error of products whose two factors are both close to their upper bounds.
 #[test]
 fn bend_f32() {
-    let found = Worst::of("BEND_F32", 40_000).search(|tape| {
+    let found = Worst::of("SECOND_DERIVATIVE_FACTOR_F32", 40_000).search(|tape| {
         let (axes, spin) = turned(tape)?;
         let arms = [(); LANES].map(|()| direction(tape));
         let [one, other] = [axes, arms].map(|of| across(of.map(DVec3::as_vec3), spin.as_vec3()));
@@ -176,7 +183,7 @@ fn bend_f32() {
             let exact = [axes[k], arms[k]].map(|n| n.cross(spin).length());
             let long = exact.iter().all(|&length| length > 0.5 * spin.length());
             let lost = exact[0] * exact[1] - f64::from(one[k] * other[k]);
-            let allowed = f64::from(BEND_F32) - 1.0;
+            let allowed = f64::from(SECOND_DERIVATIVE_FACTOR_F32) - 1.0;
             long.then(|| share(lost / (exact[0] * exact[1]), allowed))
         };
         let all = (0..LANES).filter_map(share);
@@ -187,7 +194,7 @@ fn bend_f32() {
 
 #[test]
 fn clock_f32() {
-    let found = Worst::of("CLOCK_F32", 40_000).search(|tape| {
+    let found = Worst::of("FREE_TIME_FACTOR_F32", 40_000).search(|tape| {
         let row = |tape: &mut RandomCase, of: fn(&mut RandomCase) -> f64| {
             [(); LANES].map(|()| of(tape) as f32)
         };
@@ -217,7 +224,7 @@ fn least_gap_f32() {
         });
         let rate = row(tape, |tape| tape.any(-120..=-30));
         let second_derivative = row(tape, |tape| {
-            tape.size(-120..=-30) + f64::from(LEAST_BEND_F32)
+            tape.size(-120..=-30) + f64::from(LEAST_SECOND_DERIVATIVE_F32)
         });
         let free = on_all_instruction_sets(|level| {
             free_times(level, &apart, &rate, &second_derivative, LEAST_GAP_F32)
@@ -229,8 +236,8 @@ fn least_gap_f32() {
             let used = (rate * until + 0.5 * second_derivative * until * until) / apart;
             // The time at which no gap is left is later by the factor; a curved gap by twice the factor.
             share(
-                used - 1.0 + 2.0 * f64::from(1.0 - CLOCK_F32),
-                2.0 * f64::from(1.0 - CLOCK_F32),
+                used - 1.0 + 2.0 * f64::from(1.0 - FREE_TIME_FACTOR_F32),
+                2.0 * f64::from(1.0 - FREE_TIME_FACTOR_F32),
             )
         };
         Some((0..LANES).map(share).fold(f64::NEG_INFINITY, greater))
@@ -250,7 +257,7 @@ fn least_axis_f32() {
         let share = |k: usize| {
             // Only vectors that are used count.
             let off = |inverse: f64| (v[k].as_dvec3().length() * inverse - 1.0).abs();
-            share(off(inverse[k].into()), 4.0 * f64::from(U32))
+            share(off(inverse[k].into()), 4.0 * f64::from(UNIT_ROUNDOFF_F32))
         };
         let used = (0..LANES).filter(|&k| inverse[k] > 0.0);
         assert!(used.clone().all(|k| v[k].length() > LEAST_AXIS_F32));

@@ -5,7 +5,7 @@ use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, RngExt, rng, scene};
 
 /// Returns the rate at which two pieces approach along a normal from A to B, by a bound.
-fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2]) -> f64 {
+fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: VelocityBound, reaches: [f64; 2]) -> f64 {
     let Problem { a, b, .. } = snapshot.problem;
     let sides = [
         (a, normal, snapshot.pieces.a),
@@ -24,8 +24,8 @@ fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2])
                 .unwrap()
         };
         sum += match bound {
-            Bound::Sound => sound_bound(&motion, n, reaches[k]),
-            Bound::Published => published_bound(&motion, n, farthest),
+            VelocityBound::Sound => sound_bound(&motion, n, reaches[k]),
+            VelocityBound::Published => published_bound(&motion, n, farthest),
         };
     }
     sum
@@ -64,7 +64,10 @@ fn a_directed_time_is_the_gap_over_both_advances() {
         });
         let normal = snapshot.frames[0].rotation * checked.axis;
         let allowance = RATE_F64 * speed(&problem, reaches);
-        for (k, bound) in [Bound::Sound, Bound::Published].into_iter().enumerate() {
+        for (k, bound) in [VelocityBound::Sound, VelocityBound::Published]
+            .into_iter()
+            .enumerate()
+        {
             let rate = rate(&snapshot, normal, bound, reaches);
             let expected = (checked.lower - kept) / rate;
             let horizon = 1.0 - snapshot.clock;

@@ -4,7 +4,7 @@ use super::super::*;
 use crate::body::Body;
 #[cfg(feature = "hull-tree")]
 use crate::body::polytope::Polytope;
-use crate::distance::oracle::{Claim, Effort, GiveUp};
+use crate::distance::oracle::{Claim, Effort, GiveUpReason};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
@@ -22,7 +22,7 @@ struct CountingOracle {
 impl DistanceOracle for CountingOracle {
     type Cache = ();
 
-    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut ()) -> Result<Claim, GiveUp> {
+    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut ()) -> Result<Claim, GiveUpReason> {
         self.steps += 5;
         ExhaustiveOracle.separation(pair, cache)
     }
@@ -41,8 +41,8 @@ struct FailingOracle;
 impl DistanceOracle for FailingOracle {
     type Cache = ();
 
-    fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
-        Err(GiveUp::TooManyPoints)
+    fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
+        Err(GiveUpReason::TooManyPoints)
     }
 }
 
@@ -58,7 +58,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
             .is_some()
     );
     assert_eq!(
-        meter.stats.point_looks,
+        meter.stats.point_evaluations,
         ASSUMED_STEPS * snapshot.pieces.points()
     );
     let mut meter = Meter::new(&problem);
@@ -68,7 +68,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
             .query_oracle(&mut telling, &mut (), &mut meter)
             .is_some()
     );
-    assert_eq!(meter.stats.point_looks, ASSUMED_STEPS * 5);
+    assert_eq!(meter.stats.point_evaluations, ASSUMED_STEPS * 5);
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
     assert!(
         snapshot

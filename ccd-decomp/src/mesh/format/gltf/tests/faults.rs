@@ -276,12 +276,15 @@ fn instances_are_limited() {
         .set("nodes", json!(nodes))
         .set("scenes", json!([{"nodes": tops}]));
     let error = error(&gltf);
-    assert!(matches!(error.fault, MeshFault::Repeats { .. }), "{error}");
+    assert!(
+        matches!(error.fault, MeshFault::TooManyRepeats { .. }),
+        "{error}"
+    );
     // A single part can be read.
     let file = super::file(&gltf);
     assert_eq!(file.part("9999").unwrap().vertices().len(), 9999);
     let parts = file.into_parts().map_err(|error| error.fault);
-    assert!(matches!(parts, Err(MeshFault::Repeats { .. })));
+    assert!(matches!(parts, Err(MeshFault::TooManyRepeats { .. })));
     // Meshes that read the same bytes repeatedly are refused, too.
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&vec![[1.0; 3]; 9999]);

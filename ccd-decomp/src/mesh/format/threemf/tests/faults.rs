@@ -188,7 +188,10 @@ fn components_that_multiply_are_refused() {
         &objects,
         r#"<item objectid="999"/>"#,
     )));
-    assert!(matches!(error.fault, MeshFault::Repeats { .. }), "{error}");
+    assert!(
+        matches!(error.fault, MeshFault::TooManyRepeats { .. }),
+        "{error}"
+    );
 }
 
 /// Tests that a long chain of components is read without recursion.
