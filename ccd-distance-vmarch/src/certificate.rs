@@ -42,7 +42,7 @@ impl Axis {
 /// Returns the support gap `min_B n·y − max_A n·x` along a unit vector.
 pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
     let highest = placed.a.0.vertices.iter().map(|v| n.dot(v.point));
-    let own = placed.b.to_local_direction(n);
+    let own = placed.b.local_direction(n);
     let lowest = placed.b.shape().vertices.iter().map(|v| own.dot(v.point));
     lowest.fold(f64::INFINITY, lesser) + n.dot(placed.b.origin())
         - highest.fold(f64::NEG_INFINITY, greater)
@@ -53,7 +53,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
     let shape = placed.b.shape();
-    let own = -placed.b.to_local_direction(n);
+    let own = -placed.b.local_direction(n);
     let lowest = placed.b.vertex(shape.extremal(own));
     // The axis of a zero direction separates nothing.
     let known = n != DVec3::ZERO;

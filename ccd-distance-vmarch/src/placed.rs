@@ -99,7 +99,7 @@ impl PlacedB<'_> {
     }
 
     /// Rotates a direction from A's frame to the polytope's own.
-    pub(crate) fn to_local_direction(&self, vector: DVec3) -> DVec3 {
+    pub(crate) fn local_direction(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
             self.rotation.x_axis.dot(vector),
             self.rotation.y_axis.dot(vector),

@@ -98,7 +98,7 @@ fn extremal_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
         placed
             .b
             .shape()
-            .extremal(-placed.b.to_local_direction(axis)),
+            .extremal(-placed.b.local_direction(axis)),
     )
 }
 
