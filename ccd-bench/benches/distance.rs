@@ -73,7 +73,7 @@ fn benchmark_distances(criterion: &mut Criterion) {
                 if a.all_triangles() {
                     assert_distances_close(&distances, &course.distances::<ClosedForm>());
                     group.bench_function(id("direct"), |b| {
-                        b.iter(|| run_sequence::<ClosedForm>(&course))
+                        b.iter(|| run_sequence::<ClosedForm>(&course));
                     });
                 }
                 group.finish();

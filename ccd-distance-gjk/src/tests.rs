@@ -117,7 +117,7 @@ fn flattened_hulls(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize
 fn stacked_boxes(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
     let draw = |rng: &mut Pcg64| scene::stacked_boxes(rng, gap);
     over(draw, |scene| {
-        check_certified_distance::<Gjk>(scene, gap, 1e-9)
+        check_certified_distance::<Gjk>(scene, gap, 1e-9);
     });
 }
 

@@ -94,12 +94,7 @@ fn extremal_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
 }
 
 fn extremal_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
-    Feature::Vertex(
-        placed
-            .b
-            .shape()
-            .extremal(-placed.b.local_direction(axis)),
-    )
+    Feature::Vertex(placed.b.shape().extremal(-placed.b.local_direction(axis)))
 }
 
 #[cfg(test)]

@@ -200,7 +200,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
 
                 match (scene.first_contact(duration).transpose(), expected.first()) {
                     (Some(first), Some(expected)) => {
-                        assert!(is_same_result(&first, expected), "{round}")
+                        assert!(is_same_result(&first, expected), "{round}");
                     }
                     (first, expected) => assert!(first.is_none() && expected.is_none(), "{round}"),
                 }
