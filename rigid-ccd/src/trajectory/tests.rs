@@ -79,7 +79,7 @@ enum Axes {
     Any,
     Parallel,
     /// The axes are along x, y or z, so that some are parallel to each other.
-    CoordinateAxes,
+    AlongCoordinates,
 }
 
 fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
@@ -87,11 +87,11 @@ fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
         let axis = match axes {
             Axes::Any => vector(rng, 1.0),
             Axes::Parallel => DVec3::Z,
-            Axes::CoordinateAxes => DVec3::AXES[rng.random_range(0..3)],
+            Axes::AlongCoordinates => DVec3::AXES[rng.random_range(0..3)],
         };
         let origin = match axes {
             Axes::Any => pose(rng, 1.0),
-            Axes::Parallel | Axes::CoordinateAxes => Pose::at(vector(rng, 1.0)).unwrap(),
+            Axes::Parallel | Axes::AlongCoordinates => Pose::at(vector(rng, 1.0)).unwrap(),
         };
         match k % 4 {
             3 => Joint::prismatic(origin, vector(rng, 1.0)),
@@ -315,7 +315,7 @@ fn links_with_parallel_axes() {
 #[test]
 fn links_with_axes_across() {
     check("link, axes across", 0.5, |rng| {
-        OwnedLink::draw(rng, Axes::CoordinateAxes)
+        OwnedLink::draw(rng, Axes::AlongCoordinates)
     });
 }
 
