@@ -7,7 +7,7 @@ mod pierce;
 mod tests;
 
 use crate::tolerance::{INTERSECTION_SHARE, MIN_CERTIFIED_SHARE};
-use axis::Candidates;
+use axis::SeparatingAxisCandidates;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
 use ccd_core::{
@@ -71,7 +71,7 @@ impl DistanceOracle for ClosedForm {
 
     #[inline]
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
-        let (p, q) = transform_to_local(pair).ok_or(GiveUpReason::TooManyPoints)?;
+        let (p, q) = corners_in_local_frame(pair).ok_or(GiveUpReason::TooManyPoints)?;
         let near = nearest(self.level, &p, &q);
         let w = near.difference(&p, &q);
         let separated = support_gap(&p, &q, w) >= MIN_CERTIFIED_SHARE * w.length_squared();
@@ -93,7 +93,8 @@ impl DistanceOracle for ClosedForm {
 #[inline(never)]
 fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
     let w = near.difference(p, q);
-    let (axis, gap) = vectorize!(level, level => Candidates::new(level, p, q, w).best());
+    let (axis, gap) =
+        vectorize!(level, level => SeparatingAxisCandidates::new(level, p, q, w).best());
     if gap >= INTERSECTION_SHARE * w.length() && gap > 0.0 {
         return (axis, near);
     }
@@ -103,7 +104,7 @@ fn best_axis_and_points(level: Level, p: &Corners, q: &Corners, near: Nearest) -
 /// Transforms both pieces to A's axes with A's first point as origin, so that the rounding of later operations depends
 /// on the pieces' size and distance, not on where they lie in their bodies.
 #[inline]
-fn transform_to_local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
+fn corners_in_local_frame(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);
     let first = pair.b_to_a.point(b[0]) - a[0];
     let turn = pair.b_to_a.rotation;

@@ -101,6 +101,6 @@ pub(crate) fn reciprocal<L: Simd>(x: f64x4<L>) -> f64x4<L> {
 
 /// Clamps four numbers to [0, 1].
 #[inline(always)]
-pub(crate) fn clamp_unit<L: Simd>(x: f64x4<L>) -> f64x4<L> {
+pub(crate) fn clamp_to_unit_interval<L: Simd>(x: f64x4<L>) -> f64x4<L> {
     x.max(0.0).min(1.0)
 }

@@ -59,7 +59,7 @@ macro_rules! obeys {
 
             #[test]
             fn touching() {
-                over(scene::touching, laws::separates_touching::<$oracle>);
+                over(scene::touching, laws::separates_touching_pieces::<$oracle>);
             }
 
             #[test]
@@ -74,7 +74,7 @@ macro_rules! obeys {
 
             #[test]
             fn any_scale() {
-                super::check_any_scale::<$oracle>();
+                super::check_hulls_of_any_scale::<$oracle>();
             }
 
             #[test]
@@ -90,13 +90,16 @@ obeys!(gjk, Gjk);
 obeys!(direct, Direct);
 
 #[rstest]
-fn hulls_of_few_points(#[values(1, 2, 3, 4, 5, 6)] a: usize, #[values(4, 5, 6)] b: usize) {
+fn hulls_of_few_points_obey_all_laws(
+    #[values(1, 2, 3, 4, 5, 6)] a: usize,
+    #[values(4, 5, 6)] b: usize,
+) {
     check_random_hulls::<Gjk>(a, b);
     check_random_hulls::<Direct>(a, b);
 }
 
 #[rstest]
-fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
+fn intersecting_hulls_have_a_common_point(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::intersecting_hulls(rng, a, b);
     over(draw, |scene| {
         laws::finds_common_point::<Gjk>(scene, 1e-12);
@@ -105,7 +108,10 @@ fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
 
 /// Tests flat pieces, whose common point has fewer correct digits: the worst error of these was 1.7e-7.
 #[rstest]
-fn flattened_hulls(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
+fn flattened_hulls_have_a_common_point(
+    #[values(3, 4, 8, 30)] a: usize,
+    #[values(3, 4, 30)] b: usize,
+) {
     let draw = |rng: &mut Pcg64| scene::flattened_hulls(rng, a, b);
     over(draw, |scene| laws::finds_common_point::<Gjk>(scene, 1e-6));
     over(draw, |scene| {
@@ -114,7 +120,7 @@ fn flattened_hulls(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize
 }
 
 #[rstest]
-fn stacked_boxes(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
+fn stacked_boxes_are_certified_at_their_gap(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
     let draw = |rng: &mut Pcg64| scene::stacked_boxes(rng, gap);
     over(draw, |scene| {
         check_certified_distance::<Gjk>(scene, gap, 1e-9);
@@ -122,7 +128,10 @@ fn stacked_boxes(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
 }
 
 #[rstest]
-fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] gap: f64) {
+fn balls_of_many_points_are_certified_apart(
+    #[values(50, 500)] count: usize,
+    #[values(1e-2, 1.0)] gap: f64,
+) {
     for seed in 0..100 {
         let scene = scene::balls(&mut Pcg64::seed_from_u64(seed), count, gap);
         laws::certifies_separation::<Gjk>(&scene);
@@ -145,7 +154,7 @@ fn check_random_hulls<O: DistanceOracle + Default>(a: usize, b: usize) {
             laws::agrees_with_brute_force::<O>(scene);
         }
     };
-    over(|rng| scene::random(rng, a, b), law);
+    over(|rng| scene::random_hulls(rng, a, b), law);
     let share = f64::from(apart.get()) / cases() as f64;
     assert!((0.3..=1.0).contains(&share), "{share} are apart");
     // A point or an edge hardly ever hits.
@@ -184,7 +193,7 @@ fn check_degenerate_hulls<O: DistanceOracle + Default>() {
             laws::agrees_with_brute_force::<O>(scene);
         }
     };
-    over(scene::degenerate, law);
+    over(scene::degenerate_pieces, law);
 }
 
 /// Tests that coordinates of 1e6 cost the rounding of the pieces' positions, not of their shapes.
@@ -206,10 +215,10 @@ fn far_from_the_origin<O: DistanceOracle + Default>() {
     over(draw, law);
 }
 
-fn check_any_scale<O: DistanceOracle + Default>() {
+fn check_hulls_of_any_scale<O: DistanceOracle + Default>() {
     let draw = |rng: &mut Pcg64| {
         let scale = scene::magnitude(rng, -45.0, 15.0);
-        let mut scene = scene::random(rng, 3, 3).scaled(scale);
+        let mut scene = scene::random_hulls(rng, 3, 3).scaled(scale);
         // One of the pieces may be almost a point, or almost a half-space.
         let other = scene::magnitude(rng, -12.0, 0.0);
         if other < 1e-6 {
@@ -234,8 +243,8 @@ fn check_history_independence<O: DistanceOracle + Default>(count: usize) {
     // Pieces of changing sizes, so that the caches' indices repeatedly go out of range.
     let scenes: Vec<Scene> = (0..200)
         .map(|k| match k % 4 {
-            0 => scene::random(&mut rng, count, count),
-            1 => scene::degenerate(&mut rng),
+            0 => scene::random_hulls(&mut rng, count, count),
+            1 => scene::degenerate_pieces(&mut rng),
             2 => scene::intersecting_hulls(&mut rng, count.max(3), 3.min(count)),
             _ => scene::near_contact(&mut rng, NearestFeatures::CrossedEdges, 1e-9),
         })
@@ -257,7 +266,7 @@ fn ends<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
     }
 }
 
-fn check_all_terminate(a: &[DVec3], b: &[DVec3], b_to_a: Frame) {
+fn check_searches_terminate(a: &[DVec3], b: &[DVec3], b_to_a: Frame) {
     let (a, b) = (Piece::from_points(a), Piece::from_points(b));
     for (a, b) in [(a, b), (b, a), (a, a)] {
         let pair = PiecePair { a, b, b_to_a };
@@ -274,8 +283,8 @@ fn odd_coordinates_end() {
         for count in [1, 2, 3, 8, 20] {
             let [a, b] = [count, 3].map(|count| scene::extreme_coordinate_points(&mut rng, count));
             let translation = scene::extreme_coordinate_points(&mut rng, 1)[0];
-            check_all_terminate(&a, &b, Frame::IDENTITY);
-            check_all_terminate(
+            check_searches_terminate(&a, &b, Frame::IDENTITY);
+            check_searches_terminate(
                 &a,
                 &b,
                 Frame {
@@ -298,7 +307,7 @@ fn nonsense_ends() {
                 translation: DVec3::new(wrong, 0.0, -wrong),
                 rotation: wrong * DMat3::IDENTITY,
             };
-            check_all_terminate(&a, &b, b_to_a);
+            check_searches_terminate(&a, &b, b_to_a);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
-use crate::feature::{Certainty, Pair, Which};
+use crate::feature::{Certainty, Pair, WhichPolytope};
 use crate::march::march;
 use crate::penetration;
 use crate::placed::PlacedPair;
@@ -25,7 +25,7 @@ type Certified = (Pair, Claim);
 /// [`GiveUpReason::Uncertified`].
 #[cold]
 #[inline(never)]
-pub(crate) fn certify(
+pub(crate) fn certify_march_end(
     placed: &PlacedPair<'_>,
     first: End,
     counters: &mut Counters,
@@ -34,7 +34,7 @@ pub(crate) fn certify(
     for restarts in 0..=MAX_RESTARTS {
         let axis = match check(placed, end, counters) {
             Ok(answer) => return Ok(answer),
-            Err(Doubtful(axis)) => axis,
+            Err(UncertifiedEnd(axis)) => axis,
         };
         if restarts < MAX_RESTARTS {
             counters.restarts += 1;
@@ -50,13 +50,13 @@ pub(crate) fn certify(
 }
 
 /// The end of a march is not certified; with the best axis found.
-struct Doubtful(DVec3);
+struct UncertifiedEnd(DVec3);
 
 fn check(
     placed: &PlacedPair<'_>,
     end: End,
     counters: &mut Counters,
-) -> Result<Certified, Doubtful> {
+) -> Result<Certified, UncertifiedEnd> {
     match end {
         End::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
         End::CommonPoint(pair, which, crossing) => {
@@ -76,7 +76,7 @@ fn check_stop(
     placed: &PlacedPair<'_>,
     pair: Pair,
     certainty: Certainty,
-) -> Result<Certified, Doubtful> {
+) -> Result<Certified, UncertifiedEnd> {
     let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= CERTAIN_DISTANCE * placed.scale.size {
         return Ok((pair, witness.claim));
@@ -85,7 +85,7 @@ fn check_stop(
 }
 
 /// Certifies a pair by the best axis of the features around.
-fn certify_tie(placed: &PlacedPair<'_>, pair: Pair) -> Result<Certified, Doubtful> {
+fn certify_tie(placed: &PlacedPair<'_>, pair: Pair) -> Result<Certified, UncertifiedEnd> {
     let witness = Witness::new(placed, pair);
     let distance = witness.distance();
     let axis = best_axis(placed, pair, &witness);
@@ -96,7 +96,7 @@ fn certify_tie(placed: &PlacedPair<'_>, pair: Pair) -> Result<Certified, Doubtfu
         };
         return Ok((pair, claim));
     }
-    Err(Doubtful(axis.direction))
+    Err(UncertifiedEnd(axis.direction))
 }
 
 /// Searches all edges and faces for a common point of the polytopes.
@@ -107,8 +107,8 @@ fn search_common_point(
 ) -> Option<Certified> {
     let PlacedPair { a, b, .. } = placed;
     let of = |which| move |crossing| (which, crossing);
-    let found = penetration::search_crossing(a, b).map(of(Which::X));
-    let found = found.or_else(|| penetration::search_crossing(b, a).map(of(Which::Y)));
+    let found = penetration::search_crossing(a, b).map(of(WhichPolytope::X));
+    let found = found.or_else(|| penetration::search_crossing(b, a).map(of(WhichPolytope::Y)));
     let (which, crossing) = found?;
     counters.penetrations += 1;
     Some((pair, touching::common(placed, which, &crossing)))

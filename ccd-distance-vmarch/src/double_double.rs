@@ -29,7 +29,7 @@ impl DoubleDouble {
     }
 
     /// Returns the sum of two numbers in normal form; the first must be the larger one.
-    fn renormalised(high: f64, low: f64) -> Self {
+    fn fast_two_sum(high: f64, low: f64) -> Self {
         let sum = high + low;
         DoubleDouble {
             high: sum,
@@ -43,7 +43,7 @@ impl Add for DoubleDouble {
 
     fn add(self, other: DoubleDouble) -> DoubleDouble {
         let sum = DoubleDouble::difference(self.high, -other.high);
-        DoubleDouble::renormalised(sum.high, sum.low + (self.low + other.low))
+        DoubleDouble::fast_two_sum(sum.high, sum.low + (self.low + other.low))
     }
 }
 
@@ -65,7 +65,7 @@ impl Mul for DoubleDouble {
     fn mul(self, other: DoubleDouble) -> DoubleDouble {
         let high = self.high * other.high;
         let low = self.high.mul_add(other.high, -high);
-        DoubleDouble::renormalised(high, low + (self.high * other.low + self.low * other.high))
+        DoubleDouble::fast_two_sum(high, low + (self.high * other.low + self.low * other.high))
     }
 }
 

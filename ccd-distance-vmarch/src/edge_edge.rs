@@ -1,12 +1,12 @@
 //! The transition of the march from an edge against an edge `[VCLIP98 §3.2]`.
 
 use crate::clip;
-use crate::escape::escape;
+use crate::escape::escape_local_minimum;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next};
+use crate::feature::{Feature, MarchStep};
 use crate::placed::{Line, Placed, Scale, clamp};
 use crate::polytope::Edge;
-use crate::tolerance::{PARALLEL_SINE, PRODUCT_ERROR};
+use crate::tolerance::{MAX_PARALLEL_SINE, PRODUCT_ERROR};
 use crate::vertex_edge::face_towards_point;
 use ccd_core::glam::DVec3;
 
@@ -15,7 +15,7 @@ use ccd_core::glam::DVec3;
 /// The march goes on to a corner if a nearest point is an end, or to a face if the other edge's
 /// point is on its side.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Next {
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> MarchStep {
     let (one, other) = (x.line(e), y.line(f));
     let (edge_x, edge_y) = (x.shape().edge(e), y.shape().edge(f));
     let near = nearest(&one, &other);
@@ -24,15 +24,15 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         end_vertex_at(edge_y, near.parameters[1]),
     ];
     match ends {
-        [Some(v), Some(w)] => return Next::Continue(Feature::Vertex(v), Feature::Vertex(w)),
-        [Some(v), None] => return Next::Continue(Feature::Vertex(v), Feature::Edge(f)),
-        [None, Some(w)] => return Next::Continue(Feature::Edge(e), Feature::Vertex(w)),
+        [Some(v), Some(w)] => return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(w)),
+        [Some(v), None] => return MarchStep::Continue(Feature::Vertex(v), Feature::Edge(f)),
+        [None, Some(w)] => return MarchStep::Continue(Feature::Edge(e), Feature::Vertex(w)),
         [None, None] => {}
     }
     let points = [one.at(near.parameters[0]), other.at(near.parameters[1])];
     let offset = points[1] - points[0];
     if offset.length() <= scale.rounding() {
-        return Next::Stop(Tied);
+        return MarchStep::Stop(Tied);
     }
     let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
@@ -45,7 +45,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         return side.next_pair(y, x, e, points[0], scale).swapped();
     }
     let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
-    Next::Stop(if clear { Sure } else { Tied })
+    MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
 /// The nearest points of two segments, and the axis between them.
@@ -82,7 +82,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> NearestPoints {
     let across = one.along.cross(other.along);
     let between = other.start - one.start;
     let square = across.length_squared();
-    let s = if square > PARALLEL_SINE * PARALLEL_SINE {
+    let s = if square > MAX_PARALLEL_SINE * MAX_PARALLEL_SINE {
         clamp(between.cross(other.along).dot(across) / square, one.length)
     } else {
         clip::middle_of_overlap(one, other)
@@ -178,10 +178,12 @@ impl Side {
         f: u32,
         point: DVec3,
         scale: Scale,
-    ) -> Next {
+    ) -> MarchStep {
         match *self {
-            Side::InFront(face) => Next::Continue(Feature::Face(face), Feature::Edge(f)),
-            Side::Behind(face) => escape(y, Feature::Edge(f), point, x, face, scale).swapped(),
+            Side::InFront(face) => MarchStep::Continue(Feature::Face(face), Feature::Edge(f)),
+            Side::Behind(face) => {
+                escape_local_minimum(y, Feature::Edge(f), point, x, face, scale).swapped()
+            }
         }
     }
 }

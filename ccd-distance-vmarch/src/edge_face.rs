@@ -2,8 +2,8 @@
 
 use crate::clip;
 use crate::edge_edge;
-use crate::escape::escape;
-use crate::feature::{Feature, Next, Which};
+use crate::escape::escape_local_minimum;
+use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
@@ -13,7 +13,7 @@ use crate::placed::{Line, Placed, Scale};
 /// An edge that has points on both sides of the plane goes through the face if exact signs say so
 /// ([`penetration`]); otherwise it passes by the nearest side, however close.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Next {
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> MarchStep {
     let line = x.line(e);
     let ends = x.shape().edge(e).ends;
     let end = x.vertex(ends[1]);
@@ -32,24 +32,24 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let (low, high) = if falls { (to, from) } else { (from, to) };
     let height = |parameter: f64| base + slope * parameter;
     if height(high.parameter) < -rounding {
-        return escape(x, Feature::Edge(e), line.at(high.parameter), y, f, scale);
+        return escape_local_minimum(x, Feature::Edge(e), line.at(high.parameter), y, f, scale);
     }
     if height(low.parameter) < rounding {
         if let Some(crossing) = penetration::edge_face_crossing(x, e, y, f) {
-            return Next::Common(Which::X, crossing);
+            return MarchStep::CommonPoint(WhichPolytope::X, crossing);
         }
         if height(low.parameter) < -rounding {
             return step_to_nearest_side(e, &line, y, f);
         }
     }
     match low.cutting_edge {
-        None => Next::Continue(Feature::Vertex(ends[usize::from(falls)]), Feature::Face(f)),
-        Some(edge) => Next::Continue(Feature::Edge(e), Feature::Edge(edge)),
+        None => MarchStep::Continue(Feature::Vertex(ends[usize::from(falls)]), Feature::Face(f)),
+        Some(edge) => MarchStep::Continue(Feature::Edge(e), Feature::Edge(edge)),
     }
 }
 
 /// Continues to the edge of the face that is nearest to the given edge.
-fn step_to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
+fn step_to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> MarchStep {
     let sides = y.shape().sides_of(f);
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));
     for side in sides {
@@ -60,7 +60,7 @@ fn step_to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
             (least, nearest) = (square, side.edge);
         }
     }
-    Next::Continue(Feature::Edge(e), Feature::Edge(nearest))
+    MarchStep::Continue(Feature::Edge(e), Feature::Edge(nearest))
 }
 
 #[cfg(test)]

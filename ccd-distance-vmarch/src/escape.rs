@@ -1,6 +1,6 @@
 //! Escapes from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
 
-use crate::feature::{Feature, Next, Which};
+use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::penetration;
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
@@ -9,19 +9,19 @@ use ccd_core::glam::DVec3;
 /// face, is farthest in front of. Without one, the feature is inside of Y.
 #[cold]
 #[inline(never)]
-pub(crate) fn escape<X: Placed, Y: Placed>(
+pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
     x: &X,
     feature: Feature,
     point: DVec3,
     y: &Y,
     behind: u32,
     scale: Scale,
-) -> Next {
+) -> MarchStep {
     if let Some((face, height)) = farthest(point, y)
         && height > scale.rounding()
         && face != behind
     {
-        return Next::Continue(feature, Feature::Face(face));
+        return MarchStep::Continue(feature, Feature::Face(face));
     }
     let inside = match feature {
         Feature::Vertex(v) => penetration::inner_corner_crossing(x, v, y),
@@ -33,7 +33,9 @@ pub(crate) fn escape<X: Placed, Y: Placed>(
         }
         Feature::Face(_) => None,
     };
-    inside.map_or(Next::Unclear, |crossing| Next::Common(Which::X, crossing))
+    inside.map_or(MarchStep::Unclear, |crossing| {
+        MarchStep::CommonPoint(WhichPolytope::X, crossing)
+    })
 }
 
 /// Returns the face with the largest height of a point above it, and that height.

@@ -17,42 +17,44 @@ pub(crate) struct Pair {
 
 /// The result of testing a pair of features of polytopes X and Y, in that order.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Next {
+pub(crate) enum MarchStep {
     /// The march continues with a pair that is nearer, or equally near and of lower dimension.
     Continue(Feature, Feature),
     /// The march stops: each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
     Stop(Certainty),
     /// A feature of one polytope has a common point with the other.
-    Common(Which, Crossing),
+    CommonPoint(WhichPolytope, Crossing),
     /// A feature is behind all faces of the other polytope up to rounding, and exact signs prove no common point.
     Unclear,
 }
 
 /// One of the two polytopes X and Y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Which {
+pub(crate) enum WhichPolytope {
     X,
     Y,
 }
 
-impl Next {
+impl MarchStep {
     /// Returns the result with X and Y swapped.
     #[inline(always)]
-    pub(crate) fn swapped(self) -> Next {
+    pub(crate) fn swapped(self) -> MarchStep {
         match self {
-            Next::Continue(x, y) => Next::Continue(y, x),
-            Next::Common(which, crossing) => Next::Common(which.other(), crossing),
-            Next::Stop(_) | Next::Unclear => self,
+            MarchStep::Continue(x, y) => MarchStep::Continue(y, x),
+            MarchStep::CommonPoint(which, crossing) => {
+                MarchStep::CommonPoint(which.other(), crossing)
+            }
+            MarchStep::Stop(_) | MarchStep::Unclear => self,
         }
     }
 }
 
-impl Which {
+impl WhichPolytope {
     #[inline(always)]
-    fn other(self) -> Which {
+    fn other(self) -> WhichPolytope {
         match self {
-            Which::X => Which::Y,
-            Which::Y => Which::X,
+            WhichPolytope::X => WhichPolytope::Y,
+            WhichPolytope::Y => WhichPolytope::X,
         }
     }
 }
@@ -73,7 +75,7 @@ pub(crate) struct Crossing {
     /// The ends of the edge, or twice the corner, with their weights.
     pub(crate) on_edge: WeightedCorners<2>,
     /// Three corners of the face with their weights, and a fourth corner if the point is inside.
-    pub(crate) on_face: WeightedCorners<4>,
+    pub(crate) face_corners: WeightedCorners<4>,
     /// The face that is crossed, or a face with the point behind it.
     pub(crate) face: u32,
 }

@@ -1,7 +1,7 @@
 //! The march from pair to nearer pair of features, until none is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
-use crate::feature::{Feature, Next, Pair};
+use crate::feature::{Feature, MarchStep, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::{BrentCycleDetector, End};
 use crate::tolerance::MAX_STEPS_PER_FEATURE;
@@ -18,10 +18,12 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
     for _ in 0..MAX_STEPS_PER_FEATURE * features {
         counters.steps += 1;
         pair = match step(placed, pair) {
-            Next::Continue(a, b) => Pair { a, b },
-            Next::Stop(certainty) => return End::Nearest(pair, certainty),
-            Next::Common(which, crossing) => return End::CommonPoint(pair, which, crossing),
-            Next::Unclear => return End::Unclear(pair),
+            MarchStep::Continue(a, b) => Pair { a, b },
+            MarchStep::Stop(certainty) => return End::Nearest(pair, certainty),
+            MarchStep::CommonPoint(which, crossing) => {
+                return End::CommonPoint(pair, which, crossing);
+            }
+            MarchStep::Unclear => return End::Unclear(pair),
         };
         if brent.is_repeated(pair) {
             counters.cycles += 1;
@@ -34,7 +36,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
 /// Tests one pair of features of A and B, and returns the next one. Two faces are never tested: an edge of one replaces
 /// it.
 #[inline]
-pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
+pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> MarchStep {
     let PlacedPair { a, b, scale } = placed;
     match (pair.a, pair.b) {
         (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex::next(a, v, b, w, *scale),
@@ -47,7 +49,7 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
         (Feature::Face(f), Feature::Edge(e)) => edge_face::next(b, e, a, f, *scale).swapped(),
         (Feature::Face(f), Feature::Face(_)) => {
             let edge = a.shape().sides_of(f).first().map_or(0, |side| side.edge);
-            Next::Continue(Feature::Edge(edge), pair.b)
+            MarchStep::Continue(Feature::Edge(edge), pair.b)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Voronoi marching as a distance oracle.
 
-use crate::certify::certify;
+use crate::certify::certify_march_end;
 use crate::counters::Counters;
 use crate::feature::Certainty;
 use crate::march::march;
@@ -85,7 +85,7 @@ impl DistanceOracle for Vmarch {
             cache.store(&placed, nearest, claim.axis);
             return Ok(claim);
         }
-        let (pair, claim) = certify(&placed, end, &mut self.counters)?;
+        let (pair, claim) = certify_march_end(&placed, end, &mut self.counters)?;
         cache.store(&placed, pair, claim.axis);
         Ok(claim)
     }

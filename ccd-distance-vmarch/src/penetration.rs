@@ -3,7 +3,7 @@
 use crate::double_double::volume;
 use crate::feature::{Crossing, WeightedCorners};
 use crate::placed::Placed;
-use crate::tolerance::MAX_PIERCED_PAIRS;
+use crate::tolerance::MAX_TESTED_PAIRS;
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 
@@ -31,7 +31,7 @@ pub(crate) fn edge_face_crossing<X: Placed, Y: Placed>(
                     vertices: ends,
                     weights: along,
                 },
-                on_face: WeightedCorners {
+                face_corners: WeightedCorners {
                     vertices: [corners[0], corners[1], corners[2], corners[2]],
                     weights: [inside[0], inside[1], inside[2], 0.0],
                 },
@@ -72,7 +72,7 @@ pub(crate) fn inner_corner_crossing<X: Placed, Y: Placed>(
                         vertices: [v, v],
                         weights: [1.0, 0.0],
                     },
-                    on_face: WeightedCorners {
+                    face_corners: WeightedCorners {
                         vertices: [corners[0], corners[1], corners[2], 0],
                         weights: inside,
                     },
@@ -88,7 +88,7 @@ pub(crate) fn inner_corner_crossing<X: Placed, Y: Placed>(
 /// large.
 pub(crate) fn search_crossing<X: Placed, Y: Placed>(x: &X, y: &Y) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
-    if edges as usize * faces as usize > MAX_PIERCED_PAIRS {
+    if edges as usize * faces as usize > MAX_TESTED_PAIRS {
         return None;
     }
     let through = (0..faces).find_map(|f| (0..edges).find_map(|e| edge_face_crossing(x, e, y, f)));

@@ -48,8 +48,8 @@ pub(crate) struct Vertex {
     pub(crate) point: DVec3,
     /// The index of the corner in the piece's points.
     pub(crate) number: u32,
-    first_outgoing: u32,
-    end_outgoing: u32,
+    first_outgoing_edge: u32,
+    end_outgoing_edge: u32,
 }
 
 /// An edge at one of its vertices. Its direction is the normal of a vertex-edge plane.
@@ -131,7 +131,7 @@ impl Polytope {
     #[inline]
     pub(crate) fn outgoing_edges_of(&self, v: u32) -> &[OutgoingEdge] {
         let vertex = self.vertex(v);
-        &self.outgoing_edges[vertex.first_outgoing as usize..vertex.end_outgoing as usize]
+        &self.outgoing_edges[vertex.first_outgoing_edge as usize..vertex.end_outgoing_edge as usize]
     }
 
     /// Returns the sides of a face.

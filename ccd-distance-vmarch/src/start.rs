@@ -10,11 +10,11 @@ use ccd_core::glam::DVec3;
 /// Features are valid for their own polytope only. For any other one, such as a part of it, the
 /// axis determines the start. A cache only affects the start of a march.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Cache(Option<LastEnd>);
+pub struct Cache(Option<LastMarchEnd>);
 
 /// The end of the last march on the same pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct LastEnd {
+struct LastMarchEnd {
     pair: Pair,
     /// Fingerprints that identify both polytopes.
     fingerprints: [u64; 2],
@@ -25,7 +25,7 @@ impl Cache {
     /// Stores the nearest pair, with the axis from A to B.
     #[inline]
     pub(crate) fn store(&mut self, placed: &PlacedPair<'_>, pair: Pair, axis: DVec3) {
-        self.0 = Some(LastEnd {
+        self.0 = Some(LastMarchEnd {
             pair,
             fingerprints: fingerprints(placed),
             axis,
@@ -45,12 +45,12 @@ impl Cache {
             a: if fingerprints[0] == last.fingerprints[0] {
                 last.pair.a
             } else {
-                extremal_of_a(placed, last.axis)
+                extremal_vertex_of_a(placed, last.axis)
             },
             b: if fingerprints[1] == last.fingerprints[1] {
                 last.pair.b
             } else {
-                extremal_of_b(placed, last.axis)
+                extremal_vertex_of_b(placed, last.axis)
             },
         };
         if is_valid_start(placed, start) {
@@ -84,16 +84,16 @@ fn is_valid_start(placed: &PlacedPair<'_>, pair: Pair) -> bool {
 /// Returns the vertices that are extremal along an axis from A to B.
 pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
     Pair {
-        a: extremal_of_a(placed, axis),
-        b: extremal_of_b(placed, axis),
+        a: extremal_vertex_of_a(placed, axis),
+        b: extremal_vertex_of_b(placed, axis),
     }
 }
 
-fn extremal_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
+fn extremal_vertex_of_a(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
     Feature::Vertex(placed.a.shape().extremal(axis))
 }
 
-fn extremal_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
+fn extremal_vertex_of_b(placed: &PlacedPair<'_>, axis: DVec3) -> Feature {
     Feature::Vertex(placed.b.shape().extremal(-placed.b.local_direction(axis)))
 }
 

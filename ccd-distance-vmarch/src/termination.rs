@@ -1,14 +1,14 @@
 //! The ends of a march, and the detection of cycles.
 
-use crate::feature::{Certainty, Crossing, Pair, Which};
+use crate::feature::{Certainty, Crossing, Pair, WhichPolytope};
 
 /// Why and where a march ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum End {
     /// The march reached the nearest features.
     Nearest(Pair, Certainty),
-    /// The march found a common point of A's and B's features; `Which` is the polytope of the edge.
-    CommonPoint(Pair, Which, Crossing),
+    /// The march found a common point of A's and B's features; `WhichPolytope` is the polytope of the edge.
+    CommonPoint(Pair, WhichPolytope, Crossing),
     /// The march returned to this pair.
     Cycle(Pair),
     /// This pair is behind all faces, but no common point could be proven.

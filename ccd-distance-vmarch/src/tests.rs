@@ -34,7 +34,7 @@ fn cases() -> u64 {
 #[derive(Debug, Default)]
 struct Tally {
     claims: u64,
-    intersecting: u64,
+    intersecting_pairs: u64,
     give_ups: u64,
     /// The largest relative error of a distance, for distances of at least a thousandth of the coordinates.
     relative: f64,
@@ -72,12 +72,12 @@ impl Tally {
         let distance = on_a.distance(on_b);
         let unit = UNIT_ROUNDOFF * scene.reach();
         if scene.gap == 0.0 {
-            self.intersecting += 1;
+            self.intersecting_pairs += 1;
             self.intersecting_distance = greater(self.intersecting_distance, distance / unit);
             assert!(
                 distance <= 200.0 * unit,
                 "{distance:e}: {}",
-                describe(scene, &claim)
+                describe_claim(scene, &claim)
             );
             return;
         }
@@ -95,17 +95,17 @@ impl Tally {
         assert!(
             error <= slack,
             "{distance:e}, not {truth:e}: {}",
-            describe(scene, &claim)
+            describe_claim(scene, &claim)
         );
         assert!(
             gap >= truth - slack,
             "gap {gap:e} of {truth:e}: {}",
-            describe(scene, &claim)
+            describe_claim(scene, &claim)
         );
     }
 }
 
-fn describe(scene: &Scene<'_>, claim: &Claim) -> String {
+fn describe_claim(scene: &Scene<'_>, claim: &Claim) -> String {
     let (a, b, frame) = (&scene.a.shape, &scene.b.shape, scene.b_to_a);
     format!("{claim:?} of {a:?}, {b:?}, {frame:?}")
 }

@@ -21,8 +21,8 @@ pub(crate) const PLACEMENT_ERROR: f64 = 16.0 * UNIT_ROUNDOFF;
 pub(crate) const PRODUCT_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// The sine below which two edges count as parallel. Their cross product is then rounding, and all points of their
-/// overlap are equally near, to `PARALLEL_SINE` times the edges' length.
-pub(crate) const PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
+/// overlap are equally near, to `MAX_PARALLEL_SINE` times the edges' length.
+pub(crate) const MAX_PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The distance, in units of the pair's size, above which a tie between features needs no certificate. Rounding, 16u of
 /// the size, tilts a direction of that length at a cost of at most 64u of the size.
@@ -41,13 +41,13 @@ pub(crate) const RELATIVE_CERTIFIED_EXCESS: f64 = 32.0 * UNIT_ROUNDOFF;
 /// have input rounding of 1u each, a plane through three of them passes the others by up to 4u, and heights over it are
 /// rounded by up to 8u. Without it a triangulated square would have a diagonal, with Voronoi slabs of no width on both
 /// sides.
-pub(crate) const COPLANAR_DISTANCE: f64 = 16.0 * UNIT_ROUNDOFF;
+pub(crate) const COPLANARITY_TOLERANCE: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The height above the plane of a facet up to which a corner counts as below it, in units of the largest coordinate,
 /// times the ratio of the piece's length to the facet's width. If corners were rounded after the hull was made, a
 /// facet's normal turns by their rounding over its width. Without it no sliver would be accepted; a larger value would
 /// accept facets that enclose nothing.
-pub(crate) const CONVEX_HEIGHT: f64 = 64.0 * UNIT_ROUNDOFF;
+pub(crate) const CONVEXITY_TOLERANCE: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// The largest number of steps of a march, per feature of both polytopes. In exact arithmetic a march visits every pair
 /// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
@@ -63,7 +63,7 @@ pub(crate) const MAX_AXIS_EDGES: usize = 12;
 
 /// The largest number of pairs of an edge and a face that are tested for a common point before a search gives up: a
 /// few milliseconds' work.
-pub(crate) const MAX_PIERCED_PAIRS: usize = 1 << 17;
+pub(crate) const MAX_TESTED_PAIRS: usize = 1 << 17;
 
 /// The number of corners above which a polytope has a [search tree](ccd_core::SupportTree); fewer are scanned.
 pub(crate) const MAX_SCANNED_CORNERS: usize = ccd_core::tuning::MAX_SCANNED_POINTS;

@@ -1,7 +1,7 @@
 //! Finds axes for pieces with a common point, which may only touch.
 
 use crate::certificate::{Axis, best_axis};
-use crate::feature::{Crossing, Feature, Pair, Which};
+use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
 use crate::placed::{Placed, PlacedPair, Scale};
 use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
@@ -11,7 +11,7 @@ use ccd_core::Claim;
 ///
 /// Its axis is the normal of the crossed face or, if the point is on the border of its features, the best separating
 /// axis nearby: the pieces may only touch.
-pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
+pub(crate) fn common(placed: &PlacedPair<'_>, which: WhichPolytope, crossing: &Crossing) -> Claim {
     let claim = witness::common(placed, which, crossing);
     let Some(pair) = touching_features(placed, which, crossing) else {
         return claim;
@@ -30,11 +30,15 @@ pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing)
 
 /// Returns the features that contain a common point; `None` if the interiors certainly meet. They meet if an edge
 /// passes through the interior of a face, or a point is inside a polytope.
-fn touching_features(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Option<Pair> {
+fn touching_features(
+    placed: &PlacedPair<'_>,
+    which: WhichPolytope,
+    crossing: &Crossing,
+) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match which {
-        Which::X => features(a, b, crossing, *scale),
-        Which::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
+        WhichPolytope::X => features(a, b, crossing, *scale),
+        WhichPolytope::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
     };
     found.map(|(a, b)| Pair { a, b })
 }
@@ -47,7 +51,7 @@ fn features<X: Placed, Y: Placed>(
 ) -> Option<(Feature, Feature)> {
     let Crossing {
         on_edge,
-        on_face,
+        face_corners: on_face,
         face,
     } = crossing;
     let some = scale.rounding() / scale.size;

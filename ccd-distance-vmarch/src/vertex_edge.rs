@@ -1,7 +1,7 @@
 //! The V-Clip step from a pair of a vertex and an edge to the next pair of features `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next};
+use crate::feature::{Feature, MarchStep};
 use crate::placed::{Line, Placed, Scale};
 use crate::tolerance::PRODUCT_ERROR;
 use ccd_core::glam::DVec3;
@@ -15,33 +15,33 @@ use ccd_core::glam::DVec3;
 /// tested with the foot, which needs no quotient and is exact up to rounding even if an edge meets
 /// a plane at a small angle.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Scale) -> Next {
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Scale) -> MarchStep {
     let corner = x.vertex(v);
     let edge = y.shape().edge(e);
     let line = y.line(e);
     let from_start = corner - line.start;
     let parameter = from_start.dot(line.along);
     if parameter < 0.0 {
-        return Next::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[0]));
+        return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[0]));
     }
     if (corner - y.vertex(edge.ends[1])).dot(line.along) > 0.0 {
-        return Next::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
+        return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
     }
     let offset = line.at(parameter) - corner;
     let rounding = scale.rounding();
     if offset.length_squared() <= rounding * rounding {
-        return Next::Stop(Tied);
+        return MarchStep::Stop(Tied);
     }
     let inward = y.inward(edge, from_start);
     if let Some(face) = face_towards_point(y, edge.faces, inward, from_start) {
-        return Next::Continue(Feature::Vertex(v), Feature::Face(face));
+        return MarchStep::Continue(Feature::Vertex(v), Feature::Face(face));
     }
     let approach = steepest_edge_towards(x, v, &line, offset, scale);
     if approach.decrease > 0.0 {
-        return Next::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
+        return MarchStep::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
     }
-    let clear = edge.is_clear(inward, rounding) && !approach.tied;
-    Next::Stop(if clear { Sure } else { Tied })
+    let clear = edge.is_clear(inward, rounding) && !approach.is_tied;
+    MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
 /// Returns the face of an edge on whose side a point is; of two, the face with the larger height of the point.
@@ -69,7 +69,7 @@ struct SteepestEdge {
     /// The decrease in distance along the edge, beyond rounding.
     decrease: f64,
     /// True if rounding hides for some edge whether it comes nearer.
-    tied: bool,
+    is_tied: bool,
 }
 
 /// Finds the edge at a corner that comes nearest to a line; `offset` leads from the corner to the line.
@@ -88,7 +88,7 @@ fn steepest_edge_towards<X: Placed>(
     let mut out = SteepestEdge {
         edge: 0,
         decrease: 0.0,
-        tied: false,
+        is_tied: false,
     };
     let rounding = scale.rounding();
     for spoke in x.shape().outgoing_edges_of(v) {
@@ -105,7 +105,7 @@ fn steepest_edge_towards<X: Placed>(
             out.edge = spoke.edge;
             out.decrease = across - slack;
         }
-        out.tied |= !(across < -slack);
+        out.is_tied |= !(across < -slack);
     }
     out
 }

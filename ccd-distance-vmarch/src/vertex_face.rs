@@ -1,8 +1,8 @@
 //! The transition of the march from a corner against a face `[VCLIP98 §3.2]`.
 
-use crate::escape::escape;
+use crate::escape::escape_local_minimum;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next};
+use crate::feature::{Feature, MarchStep};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::PRODUCT_ERROR;
 use crate::vertex_vertex::steepest_edge;
@@ -12,7 +12,7 @@ use crate::vertex_vertex::steepest_edge;
 ///
 /// The nearest violated plane would be wrong: its edge need not be nearer.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Scale) -> Next {
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Scale) -> MarchStep {
     let corner = x.vertex(v);
     let (mut least, mut outside) = (0.0, None);
     let mut height = 0.0;
@@ -26,21 +26,21 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
         height = normal.dot(from);
     }
     if let Some(edge) = outside {
-        return Next::Continue(Feature::Vertex(v), Feature::Edge(edge));
+        return MarchStep::Continue(Feature::Vertex(v), Feature::Edge(edge));
     }
     let rounding = scale.rounding();
     if height < -rounding {
-        return escape(x, Feature::Vertex(v), corner, y, f, scale);
+        return escape_local_minimum(x, Feature::Vertex(v), corner, y, f, scale);
     }
     if height <= rounding {
-        return Next::Stop(Tied);
+        return MarchStep::Stop(Tied);
     }
     let falling = steepest_edge(x, v, -normal);
     if falling.slope > PRODUCT_ERROR {
-        return Next::Continue(Feature::Edge(falling.edge), Feature::Face(f));
+        return MarchStep::Continue(Feature::Edge(falling.edge), Feature::Face(f));
     }
     // The face's normal is accurate up to rounding, however near the corner is.
-    Next::Stop(Sure)
+    MarchStep::Stop(Sure)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The transition of the march from a corner against a corner `[VCLIP98 §3.2]`.
 
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next};
+use crate::feature::{Feature, MarchStep};
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
@@ -11,22 +11,22 @@ use ccd_core::glam::DVec3;
 /// No slack is needed: [`vertex_edge`](crate::vertex_edge) tests the same plane by the same product
 /// of the same numbers, so that no pair returns from there.
 #[inline]
-pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> Next {
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> MarchStep {
     let offset = y.vertex(w) - x.vertex(v);
     let rounding = scale.rounding();
     if offset.length_squared() <= rounding * rounding {
-        return Next::Stop(Tied);
+        return MarchStep::Stop(Tied);
     }
     let from_x = steepest_edge(x, v, offset);
     if from_x.slope > 0.0 {
-        return Next::Continue(Feature::Edge(from_x.edge), Feature::Vertex(w));
+        return MarchStep::Continue(Feature::Edge(from_x.edge), Feature::Vertex(w));
     }
     let from_y = steepest_edge(y, w, -offset);
     if from_y.slope > 0.0 {
-        return Next::Continue(Feature::Vertex(v), Feature::Edge(from_y.edge));
+        return MarchStep::Continue(Feature::Vertex(v), Feature::Edge(from_y.edge));
     }
     let clear = from_x.slope < -rounding && from_y.slope < -rounding;
-    Next::Stop(if clear { Sure } else { Tied })
+    MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
 /// An edge at a corner, and how far it leads along a vector per unit of its length.

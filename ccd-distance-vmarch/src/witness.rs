@@ -1,7 +1,7 @@
 //! The nearest points of a pair of features, clamped to the features, and the axis between them.
 
 use crate::edge_edge;
-use crate::feature::{Crossing, Feature, Pair, Which};
+use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
 use crate::placed::{Line, Placed, PlacedPair, Scale, clamp};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
@@ -22,13 +22,15 @@ impl Witness {
     pub(crate) fn new(placed: &PlacedPair<'_>, pair: Pair) -> Self {
         let PlacedPair { a, b, scale } = placed;
         match (pair.a, pair.b) {
-            (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex(a, v, b, w),
-            (Feature::Vertex(v), Feature::Edge(e)) => vertex_edge(a, v, b, e),
-            (Feature::Edge(e), Feature::Vertex(v)) => vertex_edge(b, v, a, e).swapped(),
-            (Feature::Edge(e), Feature::Edge(f)) => edge_edge(a, e, b, f, *scale),
-            (Feature::Vertex(v), Feature::Face(f)) => vertex_face(a, v, b, f),
-            (Feature::Face(f), Feature::Vertex(v)) => vertex_face(b, v, a, f).swapped(),
-            (x, y) => vertex_vertex(a, first_corner(a.shape(), x), b, first_corner(b.shape(), y)),
+            (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex_witness(a, v, b, w),
+            (Feature::Vertex(v), Feature::Edge(e)) => vertex_edge_witness(a, v, b, e),
+            (Feature::Edge(e), Feature::Vertex(v)) => vertex_edge_witness(b, v, a, e).swapped(),
+            (Feature::Edge(e), Feature::Edge(f)) => edge_edge_witness(a, e, b, f, *scale),
+            (Feature::Vertex(v), Feature::Face(f)) => vertex_face_witness(a, v, b, f),
+            (Feature::Face(f), Feature::Vertex(v)) => vertex_face_witness(b, v, a, f).swapped(),
+            (x, y) => {
+                vertex_vertex_witness(a, first_corner(a.shape(), x), b, first_corner(b.shape(), y))
+            }
         }
     }
 
@@ -55,17 +57,23 @@ impl Witness {
 }
 
 /// Returns the claim about a proven common point, along the normal of the crossed face.
-pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing) -> Claim {
+pub(crate) fn common(placed: &PlacedPair<'_>, which: WhichPolytope, crossing: &Crossing) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
     let on_edge = |shape| combination(shape, crossing.on_edge.vertices, crossing.on_edge.weights);
-    let on_face = |shape| combination(shape, crossing.on_face.vertices, crossing.on_face.weights);
+    let on_face = |shape| {
+        combination(
+            shape,
+            crossing.face_corners.vertices,
+            crossing.face_corners.weights,
+        )
+    };
     match which {
-        Which::X => Claim {
+        WhichPolytope::X => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
             a: on_edge(a.shape()),
             b: on_face(b.shape()),
         },
-        Which::Y => Claim {
+        WhichPolytope::Y => Claim {
             axis: a.shape().face(crossing.face).normal,
             a: on_face(a.shape()),
             b: on_edge(b.shape()),
@@ -74,7 +82,7 @@ pub(crate) fn common(placed: &PlacedPair<'_>, which: Which, crossing: &Crossing)
 }
 
 #[inline]
-fn vertex_vertex<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness {
+fn vertex_vertex_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness {
     let points = [x.vertex(v), y.vertex(w)];
     Witness {
         points,
@@ -87,7 +95,7 @@ fn vertex_vertex<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness 
 }
 
 #[inline]
-fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
+fn vertex_edge_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
     let (point, line) = (x.vertex(v), y.line(e));
     let parameter = line.nearest(point);
     let foot = line.at(parameter);
@@ -103,7 +111,7 @@ fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
 }
 
 #[inline]
-fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Witness {
+fn edge_edge_witness<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Witness {
     let (one, other) = (x.line(e), y.line(f));
     let near = edge_edge::nearest(&one, &other);
     let [s, t] = near.parameters;
@@ -122,7 +130,7 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
 }
 
 #[inline]
-fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
+fn vertex_face_witness<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     let point = x.vertex(v);
     let normal = y.vector(y.shape().face(f).normal);
     let (foot, spot) = on_face(point, y, f, normal);

@@ -47,7 +47,7 @@ impl Meshes {
             .map_or(DVec3::ZERO, |mesh| mesh.middle.into())
     }
 
-    pub(crate) fn data(&self) -> impl Serialize {
+    pub(crate) fn json_meshes(&self) -> impl Serialize {
         &self.0
     }
 }

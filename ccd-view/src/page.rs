@@ -8,9 +8,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The HTML element in which the scripts show the views.
-pub const HTML: &str = include_str!("page/view.html");
-/// The style sheet for the element in [`HTML`].
-pub const STYLE: &str = include_str!("page/view.css");
+pub const VIEW_HTML: &str = include_str!("page/view.html");
+/// The style sheet for the element in [`VIEW_HTML`].
+pub const VIEW_CSS: &str = include_str!("page/view.css");
 
 /// The content of a page.
 #[derive(Clone, Debug)]
@@ -62,8 +62,11 @@ impl Page<'_> {
     pub fn html(&self) -> Result<String, PageError> {
         let parts = [
             ("title", escape(self.title)),
-            ("style", format!("{}{STYLE}", include_str!("page/page.css"))),
-            ("view", HTML.to_owned()),
+            (
+                "style",
+                format!("{}{VIEW_CSS}", include_str!("page/page.css")),
+            ),
+            ("view", VIEW_HTML.to_owned()),
             ("views", data(&self.meshes, &self.groups)?),
             ("scripts", scripts()),
         ];
@@ -71,7 +74,7 @@ impl Page<'_> {
     }
 }
 
-/// Returns the scripts that fill [`HTML`] from the [`data`] in an earlier element with the id `views`.
+/// Returns the scripts that fill [`VIEW_HTML`] from the [`data`] in an earlier element with the id `views`.
 pub fn scripts() -> String {
     let views = [
         include_str!("page/coarse.js"),
@@ -109,7 +112,7 @@ pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Err
         meshes: M,
         groups: &'a [Group],
     }
-    let meshes = meshes.data();
+    let meshes = meshes.json_meshes();
     json(&Data { meshes, groups })
 }
 
@@ -120,14 +123,17 @@ pub fn data(meshes: &Meshes, groups: &[Group]) -> Result<String, serde_json::Err
 /// The value cannot be serialised.
 pub fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     let mut text = Vec::new();
-    value.serialize(&mut Serializer::with_formatter(&mut text, Plain))?;
+    value.serialize(&mut Serializer::with_formatter(
+        &mut text,
+        ControlCharFormatter,
+    ))?;
     Ok(String::from_utf8_lossy(&text).replace('<', "\\u003c"))
 }
 
 /// A JSON formatter that replaces control characters by U+FFFD.
-struct Plain;
+struct ControlCharFormatter;
 
-impl Formatter for Plain {
+impl Formatter for ControlCharFormatter {
     fn write_char_escape<W: ?Sized + io::Write>(
         &mut self,
         writer: &mut W,

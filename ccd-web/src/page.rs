@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use wasm_bindgen_cli_support::Bindgen;
 
-const TARGET: &str = "wasm32-unknown-unknown";
+const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
 /// Builds the WebAssembly module, and writes the page.
 pub(crate) fn write(out: &Path, check: bool) -> Result<()> {
@@ -82,7 +82,7 @@ fn build() -> Result<PathBuf> {
             "--package",
             "ccd-web",
             "--target",
-            TARGET,
+            WASM_TARGET,
             "--target-dir",
         ])
         .arg(folder)
@@ -93,7 +93,10 @@ fn build() -> Result<PathBuf> {
         .context("cannot start cargo")?;
     ensure!(
         built.success(),
-        "cargo cannot build for {TARGET}; run `rustup target add {TARGET}`"
+        "cargo cannot build for {WASM_TARGET}; run `rustup target add {WASM_TARGET}`"
     );
-    Ok(folder.join(TARGET).join("release").join("ccd_web.wasm"))
+    Ok(folder
+        .join(WASM_TARGET)
+        .join("release")
+        .join("ccd_web.wasm"))
 }

@@ -40,7 +40,7 @@ pub enum WebError {
     Query(#[from] rigid_ccd::Error),
     /// The numbers of a throw are not nine.
     #[error("a throw is nine numbers, not {0}")]
-    Numbers(usize),
+    WrongNumberCount(usize),
 }
 
 impl From<WebError> for JsValue {

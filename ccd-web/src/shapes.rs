@@ -21,10 +21,10 @@ pub(crate) fn faces(body: &Body) -> Result<TriangleMesh, MeshError> {
 /// Returns the surface of a capsule along z, or a ball if `half` is 0. `half` is from its centre to the centre of
 /// either cap.
 pub(crate) fn capsule(radius: f64, half: f64) -> Result<TriangleMesh, MeshError> {
-    const AROUND: u32 = 32;
+    const DIVISIONS_AROUND: u32 = 32;
     const DIVISIONS_ALONG: u32 = 17;
     sheet(
-        [AROUND, DIVISIONS_ALONG, DIVISIONS_ALONG + 1],
+        [DIVISIONS_AROUND, DIVISIONS_ALONG, DIVISIONS_ALONG + 1],
         |[around, along]| {
             let (sine, cosine) = (TAU * around).sin_cos();
             let latitude = PI * (along - 0.5);

@@ -48,7 +48,7 @@ impl Throw {
     /// [`WebError::Numbers`].
     pub fn of_numbers(numbers: &[f64]) -> Result<Self, WebError> {
         let &[px, py, pz, vx, vy, vz, wx, wy, wz] = numbers else {
-            return Err(WebError::Numbers(numbers.len()));
+            return Err(WebError::WrongNumberCount(numbers.len()));
         };
         Ok(Throw {
             place: [px, py, pz],

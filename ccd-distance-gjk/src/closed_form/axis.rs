@@ -12,15 +12,15 @@ use ccd_core::vector::unit;
 /// The borders of that cone are also candidates: for a vertex and an edge, `w` made perpendicular to the edge; for two
 /// edges, their cross product; for a face, its normal; and in one plane, the normals of the edges within it.
 #[derive(Debug)]
-pub(crate) struct Candidates<L: Simd> {
-    directions: [Lanes3<L>; LANE_GROUPS],
+pub(crate) struct SeparatingAxisCandidates<L: Simd> {
+    directions: [Lanes3<L>; LANE_GROUP_COUNT],
     /// The support gaps along the unit vectors, −∞ for directions that are zero.
-    gaps: [f64x4<L>; LANE_GROUPS],
+    gaps: [f64x4<L>; LANE_GROUP_COUNT],
 }
 
-const LANE_GROUPS: usize = 8;
+const LANE_GROUP_COUNT: usize = 8;
 
-impl<L: Simd> Candidates<L> {
+impl<L: Simd> SeparatingAxisCandidates<L> {
     /// Computes the candidates of two triangles whose nearest points differ by about `w`.
     #[inline(always)]
     pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
@@ -34,7 +34,7 @@ impl<L: Simd> Candidates<L> {
             n.perpendicular_to(e).perpendicular_to(lanes_q)
         };
         let w = Lanes3::splat(level, w);
-        let mut out = Candidates {
+        let mut out = SeparatingAxisCandidates {
             directions: [
                 cross(edges_p[0]),
                 cross(edges_p[1]),
@@ -45,7 +45,7 @@ impl<L: Simd> Candidates<L> {
                 with_fourth_lane(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
                 axes_of_longest_edge(level, &edges_p, &edges_q),
             ],
-            gaps: [splat(level, 0.0); LANE_GROUPS],
+            gaps: [splat(level, 0.0); LANE_GROUP_COUNT],
         };
         for (n, gap) in out.directions.iter_mut().zip(&mut out.gaps) {
             (*n, *gap) = oriented(p, q, *n);
@@ -58,7 +58,7 @@ impl<L: Simd> Candidates<L> {
     pub(crate) fn best(&self) -> (DVec3, f64) {
         let gap = |k: usize| self.gaps[k / 4][k % 4];
         let best =
-            (0..4 * LANE_GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
+            (0..4 * LANE_GROUP_COUNT).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
         let direction = unit(self.directions[best / 4].lane(best % 4));
         (direction.unwrap_or(DVec3::ZERO), gap(best))
     }

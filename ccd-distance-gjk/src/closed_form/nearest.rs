@@ -1,6 +1,6 @@
 //! Computes the nearest points of two triangles that do not intersect: edge against edge, corner against face.
 
-use crate::lanes::{Lanes3, clamp_unit, reciprocal, splat};
+use crate::lanes::{Lanes3, clamp_to_unit_interval, reciprocal, splat};
 use ccd_core::fearless_simd::{Level, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -104,12 +104,12 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> EdgeEdge<
         // The lines cross at s = ((w×f)·n) / n² with n = e×f. Unlike the determinant of scalar
         // products, this keeps an error of rounding / angle when the edges are nearly parallel.
         let n = e.cross(f);
-        let s = clamp_unit(w.cross(f).dot(n) * reciprocal(n.dot(n)));
+        let s = clamp_to_unit_interval(w.cross(f).dot(n) * reciprocal(n.dot(n)));
         // Projects to the other edge, and back: exact where the first or second was clamped, and
         // where the lines are parallel.
-        let t = clamp_unit(-w.add_scaled(-s, e).dot(f) * per_f);
+        let t = clamp_to_unit_interval(-w.add_scaled(-s, e).dot(f) * per_f);
         let reached = w.add_scaled(t, f);
-        let s = clamp_unit(reached.dot(e) * per_e);
+        let s = clamp_to_unit_interval(reached.dot(e) * per_e);
         let apart = reached.add_scaled(-s, e);
         let square = apart.dot(apart);
         let better = square.simd_lt(best.square);

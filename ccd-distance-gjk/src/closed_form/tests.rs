@@ -38,7 +38,11 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
 #[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]
 #[case::corner_beside_corner([v(6.0, -1.0, 1.0), v(7.0, -2.0, 1.0), v(7.0, -1.0, 2.0)], &[1], &[0])]
 #[case::crossed_edges([v(1.0, -1.0, -1.0), v(1.0, -1.0, 1.0), v(1.0, -4.0, 0.0)], &[0, 1], &[0, 1])]
-fn names_the_features(#[case] b: [DVec3; 3], #[case] of_a: &[u32], #[case] of_b: &[u32]) {
+fn claims_name_the_nearest_features(
+    #[case] b: [DVec3; 3],
+    #[case] of_a: &[u32],
+    #[case] of_b: &[u32],
+) {
     let claim = claim(&BASE_TRIANGLE, &b).expect("triangles");
     let sorted = |support: &[u32]| {
         let mut support = support.to_vec();

@@ -52,7 +52,7 @@ impl DistanceOracle for Gjk {
             return Ok(EMPTY_CLAIM);
         };
         let found = solve_from(&difference, cache);
-        *cache = Cache::from_found(&found);
+        *cache = Cache::from_search_result(&found);
         Ok(claim(&found))
     }
 }
@@ -70,7 +70,7 @@ pub(crate) const EMPTY_CLAIM: Claim = Claim {
 pub(crate) fn solve_from(difference: &MinkowskiDifference<'_>, cache: &Cache) -> Best {
     let found = solve(difference, cache.simplex(difference));
     if found.gap > 0.0 && !is_certified(&found) {
-        found.combine(solve(difference, Cache::default().simplex(difference)))
+        found.combine_results(solve(difference, Cache::default().simplex(difference)))
     } else {
         found
     }
@@ -84,7 +84,7 @@ pub(crate) fn solve(difference: &MinkowskiDifference<'_>, mut simplex: Simplex) 
     for _ in 0..MAX_FEATURE_AXIS_ROUNDS {
         let before = found.square;
         let stop = search(difference, simplex, &mut found);
-        if stop == StopReason::Enclosed {
+        if stop == StopReason::OriginEnclosed {
             sharpen::try_face_axes(difference, &mut found);
             break;
         }

@@ -33,7 +33,7 @@ impl Best {
     }
 
     /// Combines two results: the nearer point, and the axis of the larger gap.
-    pub(crate) fn combine(self, other: Self) -> Self {
+    pub(crate) fn combine_results(self, other: Self) -> Self {
         let nearer = if other.square < self.square {
             other
         } else {
@@ -82,7 +82,7 @@ pub(crate) fn search(
         (reduced, found.weights) = simplex.without_zero_weights(&foot);
         (found.simplex, found.square) = (reduced, square);
         let Some(direction) = foot.direction else {
-            return StopReason::Enclosed;
+            return StopReason::OriginEnclosed;
         };
         if is_at_origin(&foot, &simplex) {
             return StopReason::Touching;

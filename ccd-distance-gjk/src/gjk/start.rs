@@ -19,7 +19,7 @@ pub struct Cache {
 
 impl Cache {
     /// Creates a cache from the result of a search.
-    pub(crate) fn from_found(found: &Best) -> Self {
+    pub(crate) fn from_search_result(found: &Best) -> Self {
         let mut cache = Cache {
             axis: found.axis,
             ..Cache::default()

@@ -13,7 +13,7 @@ pub(crate) enum StopReason {
     /// The nearest point is the origin, up to rounding.
     Touching,
     /// The simplex encloses the origin: the hulls intersect.
-    Enclosed,
+    OriginEnclosed,
     /// No vertex decreases the distance from the origin.
     Stalled,
     /// The search reached its limit of steps.

@@ -40,7 +40,7 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
 }
 
 /// Checks that a foot is the nearest point: it is a convex combination, and no corner is nearer along it than the foot.
-fn assert_nearest(corners: &[DVec3], foot: &NearestPoint) {
+fn assert_nearest_point(corners: &[DVec3], foot: &NearestPoint) {
     let size = corners
         .iter()
         .map(|c| c.length_squared())
@@ -78,11 +78,11 @@ fn feet_are_nearest() {
     for seed in 0..20_000 {
         let corners = corners(&mut Pcg64::seed_from_u64(seed));
         let [a, b, c, d] = corners;
-        assert_nearest(&corners[..2], &segment::foot(a, b));
-        assert_nearest(&corners[..3], &triangle::foot(a, b, c));
+        assert_nearest_point(&corners[..2], &segment::foot(a, b));
+        assert_nearest_point(&corners[..3], &triangle::foot(a, b, c));
         let foot = tetrahedron::foot([a, b, c, d]);
         enclosed += u32::from(foot.direction.is_none());
-        assert_nearest(&corners, &foot);
+        assert_nearest_point(&corners, &foot);
     }
     assert!(
         (500..10_000).contains(&enclosed),
@@ -221,7 +221,7 @@ fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
             stalled += u32::from(!is_certified(&warm));
             let found = solve_from(&difference, &cache);
             assert!(is_certified(&found), "{height} {t}: {found:?}");
-            cache = Cache::from_found(&found);
+            cache = Cache::from_search_result(&found);
         }
     }
     assert!(stalled > 20, "{stalled}");

@@ -8,7 +8,7 @@ use ccd_core::{Claim, Combination, DistanceOracle};
 
 /// The numbers of a claim that can be checked: the distance of its points, and the support gap of its axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Checked {
+pub(super) struct MeasuredClaim {
     pub(super) distance: f64,
     pub(super) gap: f64,
 }
@@ -25,7 +25,7 @@ pub(super) fn ask<O: DistanceOracle>(o: &mut O, scene: &Scene, cache: &mut O::Ca
     }
 }
 
-pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
+pub(super) fn check(scene: &Scene, claim: &Claim) -> MeasuredClaim {
     let (a, b) = scene.local();
     let place = |combination: &Combination, points: &[DVec3]| {
         combination
@@ -36,7 +36,7 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     let n = n.unwrap_or_else(|| panic!("the axis of {claim:?} for {scene:?} is no direction"));
     let low = b.iter().map(|y| n.dot(*y)).fold(f64::INFINITY, lesser);
     let high = a.iter().map(|x| n.dot(*x)).fold(f64::NEG_INFINITY, greater);
-    Checked {
+    MeasuredClaim {
         distance: place(&claim.a, &a).distance(place(&claim.b, &b)),
         gap: low - high,
     }
@@ -44,9 +44,9 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
 
 /// Checks that the axis certifies the distance of separate pieces: up to rounding if they are well apart, else at least
 /// half of it.
-pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> Checked {
+pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> MeasuredClaim {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
-    let Checked { distance, gap } = checked;
+    let MeasuredClaim { distance, gap } = checked;
     assert!(
         gap <= distance + 1e-14 * scene.size,
         "{checked:?} crosses in {scene:?}"
@@ -83,7 +83,7 @@ pub(super) fn finds_common_point<O: DistanceOracle + Default>(scene: &Scene, wit
 }
 
 /// Checks that the axis separates the interiors of pieces that only just touch.
-pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
+pub(super) fn separates_touching_pieces<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     assert!(
         checked.distance <= 1e-12 * scene.size,

@@ -120,7 +120,7 @@ pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
 }
 
 /// Draws hulls of `a` and `b` random points at a random distance: apart or intersecting.
-pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+pub(crate) fn random_hulls(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();
     Scene::new(points(rng, a), b).in_random_frames(rng, 1.0)
@@ -232,7 +232,7 @@ pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
 }
 
 /// Draws degenerate points, segments and triangles: coinciding corners, corners on one line, needles.
-pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
+pub(crate) fn degenerate_pieces(rng: &mut Pcg64) -> Scene {
     let offset = rng.random_range(0.5..3.0) * vector(rng).normalize();
     let piece = |rng: &mut Pcg64| -> Vec<DVec3> {
         let (p, q) = (vector(rng), vector(rng));

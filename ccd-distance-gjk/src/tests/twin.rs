@@ -8,10 +8,10 @@ use ccd_core::order::lesser;
 pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     let mut best = f64::INFINITY;
     for &y in b {
-        best = lesser(best, from_point(y, a));
+        best = lesser(best, distance_from_point(y, a));
     }
     for &x in a {
-        best = lesser(best, from_point(x, b));
+        best = lesser(best, distance_from_point(x, b));
     }
     for [p, q] in edges(a) {
         for [r, s] in edges(b) {
@@ -22,7 +22,7 @@ pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
 }
 
 /// Returns the distance of a point from the nearest of a hull's points, edges and triangles.
-fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
+fn distance_from_point(x: DVec3, points: &[DVec3]) -> f64 {
     let corners = points.iter().map(|p| p.distance(x));
     let feet = edges(points).into_iter().filter_map(|[p, q]| {
         let d = q - p;

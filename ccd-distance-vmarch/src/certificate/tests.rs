@@ -2,7 +2,7 @@
 
 use super::{Axis, best_axis, gap};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, edge, moved, needle, prepared, turned, vertex};
+use crate::tests::setting::{cube, edge, moved, needle, prepared_polytope, turned, vertex};
 use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
@@ -62,7 +62,7 @@ fn crossing_edges_and_flat_pieces_have_an_axis() {
     let axis = best_axis(&placed, pair, &Witness::new(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
     // Two squares side by side in one plane, and two needles on one line.
-    let square = prepared(&shape::polygon(4));
+    let square = prepared_polytope(&shape::polygon(4));
     let side = std::f64::consts::FRAC_1_SQRT_2;
     let placed = moved(&square, &square, DVec3::new(side, side, 0.0) * 2f64.sqrt());
     let pair = Pair {

@@ -1,11 +1,11 @@
 //! Tests every recovery after a march that ended without a certain result.
 
-use super::certify;
+use super::certify_march_end;
 use crate::counters::Counters;
 use crate::feature::{Certainty, Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::End;
-use crate::tests::setting::{cube, features, moved, needle, point, prepared, turned};
+use crate::tests::setting::{cube, features, moved, needle, point, prepared_polytope, turned};
 use crate::tests::shape;
 use crate::tolerance::CERTAIN_DISTANCE;
 use crate::witness::Witness;
@@ -28,7 +28,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
             let ends = [End::Cycle(pair), End::StepLimit(pair), End::Unclear(pair)];
             for end in ends.into_iter().chain(tie) {
                 let mut counters = Counters::default();
-                let answer = certify(placed, end, &mut counters);
+                let answer = certify_march_end(placed, end, &mut counters);
                 let (_, claim) = answer.unwrap_or_else(|why| panic!("{why:?} from {end:?}"));
                 let on_a = claim.a.position(&a.points).expect("a point of A") - placed.a.0.origin;
                 let on_b = place(claim.b.position(&b.points).expect("a point of B"));
@@ -49,13 +49,13 @@ fn every_end_is_certified() {
         (DVec3::new(3.0, 0.0, 0.0), 1.0),
         (DVec3::new(3.0, 4.0, 0.0), 5f64.sqrt()),
     ];
-    let cube = prepared(&shapes[0]);
+    let cube = prepared_polytope(&shapes[0]);
     for (at, truth) in truths {
         let placed = moved(&cube, &cube, at);
         certifies(&placed, &shapes[0], &shapes[0], truth);
     }
     // Intersecting: one point.
-    let other = prepared(&shapes[1]);
+    let other = prepared_polytope(&shapes[1]);
     let placed = turned(
         &cube,
         &other,
@@ -75,14 +75,14 @@ fn positions_that_are_not_finite_are_given_up() {
             b: Feature::Vertex(0),
         };
         let mut counters = Counters::default();
-        let cycle = certify(&placed, End::Cycle(pair), &mut counters);
-        let cap = certify(&placed, End::StepLimit(pair), &mut counters);
+        let cycle = certify_march_end(&placed, End::Cycle(pair), &mut counters);
+        let cap = certify_march_end(&placed, End::StepLimit(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUpReason::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUpReason::StepCap)));
         // An end reported as a cycle is counted as one.
         for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
             let mut counters = Counters::default();
-            let why = certify(&placed, end, &mut counters).err();
+            let why = certify_march_end(&placed, end, &mut counters).err();
             assert!(why != Some(GiveUpReason::Cycle) || counters.cycles > 0);
         }
     }

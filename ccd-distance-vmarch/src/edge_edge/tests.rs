@@ -2,7 +2,7 @@
 
 use super::{nearest, next};
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next, Which};
+use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::placed::Line;
 use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
 use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
@@ -11,7 +11,7 @@ use ccd_core::order::lesser;
 use rstest::rstest;
 
 /// Tests the cube's edge along x at y = z = 1 against a needle.
-fn next_for_needle(half: DVec3, at: DVec3) -> Next {
+fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
@@ -20,7 +20,9 @@ fn next_for_needle(half: DVec3, at: DVec3) -> Next {
     let swapped = next(&back.a, 0, &back.b, edge, back.scale).swapped();
     match (there, swapped) {
         // The same point in two frames.
-        (Next::Common(one, _), Next::Common(other, _)) => assert_eq!(one, other),
+        (MarchStep::CommonPoint(one, _), MarchStep::CommonPoint(other, _)) => {
+            assert_eq!(one, other)
+        }
         _ => assert_eq!(there, swapped),
     }
     there
@@ -38,12 +40,12 @@ const CROSSING_NEEDLE: DVec3 = DVec3::new(0.3, 2.0, -2.0);
 #[case(0.5 * DVec3::X, DVec3::new(0.2, 1.0, 1.5), Tied)]
 // Touching.
 #[case(CROSSING_NEEDLE, DVec3::new(0.0, 1.0, 1.0), Tied)]
-fn stops_between_both_regions(
+fn edges_in_both_voronoi_regions_stop_the_march(
     #[case] half: DVec3,
     #[case] at: DVec3,
     #[case] certainty: crate::feature::Certainty,
 ) {
-    assert_eq!(next_for_needle(half, at), Next::Stop(certainty));
+    assert_eq!(next_for_needle(half, at), MarchStep::Stop(certainty));
 }
 
 #[test]
@@ -56,14 +58,17 @@ fn goes_on_to_ends() {
     let beyond = next_for_needle(CROSSING_NEEDLE, DVec3::new(2.0, 1.5, 1.5));
     assert_eq!(
         beyond,
-        Next::Continue(Feature::Vertex(corner), Feature::Edge(0))
+        MarchStep::Continue(Feature::Vertex(corner), Feature::Edge(0))
     );
     let above = next_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(0.1, 1.8, 1.8));
-    assert_eq!(above, Next::Continue(Feature::Edge(e), Feature::Vertex(0)));
+    assert_eq!(
+        above,
+        MarchStep::Continue(Feature::Edge(e), Feature::Vertex(0))
+    );
     let both = next_for_needle(DVec3::new(0.5, 0.5, 0.5), DVec3::new(2.0, 2.0, 2.0));
     assert_eq!(
         both,
-        Next::Continue(Feature::Vertex(corner), Feature::Vertex(0))
+        MarchStep::Continue(Feature::Vertex(corner), Feature::Vertex(0))
     );
 }
 
@@ -71,13 +76,19 @@ fn goes_on_to_ends() {
 fn goes_on_to_the_face_on_whose_side_it_is() {
     let above = next_for_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
     let face = face(&cube(), DVec3::Z);
-    assert_eq!(above, Next::Continue(Feature::Face(face), Feature::Edge(0)));
+    assert_eq!(
+        above,
+        MarchStep::Continue(Feature::Face(face), Feature::Edge(0))
+    );
 }
 
 #[test]
 fn finds_edges_below_both_faces() {
     let found = next_for_needle(CROSSING_NEEDLE, DVec3::new(0.0, 0.9, 0.9));
-    assert!(matches!(found, Next::Common(Which::Y, _)), "{found:?}");
+    assert!(
+        matches!(found, MarchStep::CommonPoint(WhichPolytope::Y, _)),
+        "{found:?}"
+    );
 }
 
 /// Tests that no other points of two segments are nearer by more than rounding, for angles from crossing to parallel up

@@ -1,13 +1,13 @@
 //! Tests needles over, through and next to the top of a cube.
 
 use super::next;
-use crate::feature::{Feature, Next, Which};
+use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 /// Tests a needle against the cube's top.
-fn of_needle(half: DVec3, at: DVec3) -> Next {
+fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);
     let top = face(&cube, DVec3::Z);
@@ -15,7 +15,7 @@ fn of_needle(half: DVec3, at: DVec3) -> Next {
     let back = moved(&needle, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
-        (Next::Common(..), Next::Common(..)) => {}
+        (MarchStep::CommonPoint(..), MarchStep::CommonPoint(..)) => {}
         _ => assert_eq!(there, again),
     }
     there
@@ -25,12 +25,12 @@ fn of_needle(half: DVec3, at: DVec3) -> Next {
 #[case(DVec3::new(0.5, 0.0, 0.1), 0)]
 #[case(DVec3::new(0.5, 0.0, -0.1), 1)]
 #[case(DVec3::new(0.5, 0.0, 1e-300), 0)]
-fn goes_down_to_the_lower_end(#[case] half: DVec3, #[case] end: u32) {
+fn needles_continue_to_their_lower_end(#[case] half: DVec3, #[case] end: u32) {
     let top = face(&cube(), DVec3::Z);
-    let said = of_needle(half, 2.0 * DVec3::Z);
+    let said = next_for_needle(half, 2.0 * DVec3::Z);
     assert_eq!(
         said,
-        Next::Continue(Feature::Vertex(end), Feature::Face(top))
+        MarchStep::Continue(Feature::Vertex(end), Feature::Face(top))
     );
 }
 
@@ -38,39 +38,51 @@ fn goes_down_to_the_lower_end(#[case] half: DVec3, #[case] end: u32) {
 #[case(DVec3::new(5.0, 0.0, 0.1), -DVec3::X)]
 #[case(DVec3::new(5.0, 0.0, -0.1), DVec3::X)]
 #[case(DVec3::new(0.1, -5.0, 0.1), DVec3::Y)]
-fn goes_down_to_the_side_that_cuts_it(#[case] half: DVec3, #[case] side: DVec3) {
+fn needles_continue_to_the_side_that_cuts_them(#[case] half: DVec3, #[case] side: DVec3) {
     let edge = edge(&cube(), side + DVec3::Z);
-    let said = of_needle(half, 2.0 * DVec3::Z);
-    assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Edge(edge)));
+    let said = next_for_needle(half, 2.0 * DVec3::Z);
+    assert_eq!(
+        said,
+        MarchStep::Continue(Feature::Edge(0), Feature::Edge(edge))
+    );
 }
 
 #[test]
 fn goes_on_to_the_nearest_side_from_outside() {
     let edge = edge(&cube(), DVec3::X + DVec3::Z);
-    let said = of_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
-    assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Edge(edge)));
+    let said = next_for_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
+    assert_eq!(
+        said,
+        MarchStep::Continue(Feature::Edge(0), Feature::Edge(edge))
+    );
 }
 
 #[rstest]
 #[case(DVec3::new(0.1, 0.2, 1.0), DVec3::Z)]
 // One end on the face, to the bit.
 #[case(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.25, 0.25, 1.5))]
-fn finds_edges_that_go_through(#[case] half: DVec3, #[case] at: DVec3) {
-    let Next::Common(which, crossing) = of_needle(half, at) else {
+fn needles_through_a_face_have_a_common_point(#[case] half: DVec3, #[case] at: DVec3) {
+    let MarchStep::CommonPoint(which, crossing) = next_for_needle(half, at) else {
         panic!("it goes through the top");
     };
-    assert_eq!((which, crossing.face), (Which::X, face(&cube(), DVec3::Z)));
+    assert_eq!(
+        (which, crossing.face),
+        (WhichPolytope::X, face(&cube(), DVec3::Z))
+    );
 }
 
 #[test]
 fn finds_features_behind() {
-    let inside = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO);
-    assert!(matches!(inside, Next::Common(Which::X, _)), "{inside:?}");
+    let inside = next_for_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO);
+    assert!(
+        matches!(inside, MarchStep::CommonPoint(WhichPolytope::X, _)),
+        "{inside:?}"
+    );
     // Below the bottom.
     let bottom = face(&cube(), -DVec3::Z);
-    let beyond = of_needle(DVec3::new(0.5, 0.0, 0.1), -3.0 * DVec3::Z);
+    let beyond = next_for_needle(DVec3::new(0.5, 0.0, 0.1), -3.0 * DVec3::Z);
     assert_eq!(
         beyond,
-        Next::Continue(Feature::Edge(0), Feature::Face(bottom))
+        MarchStep::Continue(Feature::Edge(0), Feature::Face(bottom))
     );
 }

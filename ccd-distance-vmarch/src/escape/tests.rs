@@ -1,16 +1,16 @@
 //! Tests corners and needles behind a face of a cube.
 
-use super::{escape, farthest};
-use crate::feature::{Feature, Next, Which};
+use super::{escape_local_minimum, farthest};
+use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::placed::Placed;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use ccd_core::glam::DVec3;
 
-fn of_point(at: DVec3) -> Next {
+fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let (corner, top) = (Feature::Vertex(0), face(&cube, DVec3::Z));
-    escape(&placed.b, corner, at, &placed.a, top, placed.scale)
+    escape_local_minimum(&placed.b, corner, at, &placed.a, top, placed.scale)
 }
 
 #[test]
@@ -18,13 +18,13 @@ fn leads_to_the_face_it_is_highest_above() {
     let below = face(&cube(), -DVec3::Z);
     assert_eq!(
         of_point(-3.0 * DVec3::Z),
-        Next::Continue(Feature::Vertex(0), Feature::Face(below))
+        MarchStep::Continue(Feature::Vertex(0), Feature::Face(below))
     );
     let beside = face(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
     assert_eq!(
         of_point(at),
-        Next::Continue(Feature::Vertex(0), Feature::Face(beside))
+        MarchStep::Continue(Feature::Vertex(0), Feature::Face(beside))
     );
 }
 
@@ -32,7 +32,7 @@ fn leads_to_the_face_it_is_highest_above() {
 fn proves_features_inside() {
     assert!(matches!(
         of_point(DVec3::new(0.2, 0.3, 0.4)),
-        Next::Common(Which::X, _)
+        MarchStep::CommonPoint(WhichPolytope::X, _)
     ));
 }
 
@@ -40,7 +40,7 @@ fn proves_features_inside() {
 fn is_unclear_without_proof_by_exact_signs() {
     // Beyond a face by less than rounding.
     let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
-    assert_eq!(of_point(at), Next::Unclear);
+    assert_eq!(of_point(at), MarchStep::Unclear);
 }
 
 #[test]
@@ -50,8 +50,8 @@ fn edges_go_through_or_are_inside() {
         let placed = moved(&cube, needle, DVec3::ZERO);
         let (edge, top) = (Feature::Edge(0), face(&cube, DVec3::Z));
         let at = DVec3::ZERO;
-        let found = escape(&placed.b, edge, at, &placed.a, top, placed.scale);
-        let Next::Common(Which::X, crossing) = found else {
+        let found = escape_local_minimum(&placed.b, edge, at, &placed.a, top, placed.scale);
+        let MarchStep::CommonPoint(WhichPolytope::X, crossing) = found else {
             panic!("{found:?}");
         };
         let corners = crossing

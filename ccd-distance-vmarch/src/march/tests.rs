@@ -5,7 +5,7 @@ use crate::counters::Counters;
 use crate::feature::Pair;
 use crate::polytope::Polytope;
 use crate::termination::End;
-use crate::tests::setting::{cube, features, needle, point, prepared, turned};
+use crate::tests::setting::{cube, features, needle, point, prepared_polytope, turned};
 use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
@@ -13,12 +13,12 @@ use ccd_core::glam::{DQuat, DVec3};
 fn shapes() -> [Polytope; 9] {
     [
         cube(),
-        prepared(&shape::cuboid(DVec3::new(0.3, 0.8, 1.4)).triangulated()),
-        prepared(&shape::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])),
-        prepared(&shape::prism(5)),
-        prepared(&shape::antiprism(4)),
-        prepared(&shape::polygon(5)),
-        prepared(&shape::few_points(&[DVec3::ZERO, DVec3::X, DVec3::Y])),
+        prepared_polytope(&shape::cuboid(DVec3::new(0.3, 0.8, 1.4)).triangulated()),
+        prepared_polytope(&shape::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])),
+        prepared_polytope(&shape::prism(5)),
+        prepared_polytope(&shape::antiprism(4)),
+        prepared_polytope(&shape::polygon(5)),
+        prepared_polytope(&shape::shape_of_points(&[DVec3::ZERO, DVec3::X, DVec3::Y])),
         needle(DVec3::new(0.5, 0.3, 0.1)),
         point(),
     ]

@@ -30,7 +30,7 @@ const NEXT_BELOW_QUARTER: f64 = 0.25 - f64::EPSILON / 8.0;
 // Next to it, and within its plane.
 #[case(DVec3::new(2.0, 0.25, 1.0), DVec3::new(2.0, 0.25, -1.0), false)]
 #[case(DVec3::new(-1.0, 0.25, 0.0), DVec3::new(2.0, 0.25, 0.0), false)]
-fn signs_decide_to_the_last_bit(#[case] start: DVec3, #[case] end: DVec3, #[case] meets: bool) {
+fn segments_meet_triangles_exactly(#[case] start: DVec3, #[case] end: DVec3, #[case] meets: bool) {
     for edge in [[start, end], [end, start]] {
         for turn in 0..3 {
             let mut triangle = TRIANGLE;
@@ -93,13 +93,17 @@ fn tetrahedra_enclose_to_the_last_bit() {
 #[case(DVec3::new(0.9, -0.3, 0.99), true)]
 #[case(DVec3::new(1.0, 0.5, 0.5), true)]
 #[case(DVec3::new(1.0 + f64::EPSILON, 0.5, 0.5), false)]
-fn corners_are_inside_or_not(#[case] at: DVec3, #[case] inside: bool) {
+fn only_inner_corners_have_a_crossing(#[case] at: DVec3, #[case] inside: bool) {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let found = inner_corner_crossing(&placed.b, 0, &placed.a);
     assert_eq!(found.is_some(), inside);
     if let Some(found) = found {
-        let corners = found.on_face.vertices.iter().zip(found.on_face.weights);
+        let corners = found
+            .face_corners
+            .vertices
+            .iter()
+            .zip(found.face_corners.weights);
         let named: DVec3 = corners.map(|(&v, w)| w * placed.a.vertex(v)).sum();
         assert!(named.distance(at) < 1e-15);
     }

@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 
 /// Assembles a polytope from the outlines of its faces, which close a surface. Without faces, `ends` are the ends of an
 /// edge, or a point.
-pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Polytope {
+pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Polytope {
     let mut numbers: Vec<u32> = loops.iter().flatten().copied().collect();
     if numbers.is_empty() {
         numbers.extend(ends);
@@ -37,8 +37,8 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
             .map(|&number| Vertex {
                 point: local(number),
                 number,
-                first_outgoing: 0,
-                end_outgoing: 0,
+                first_outgoing_edge: 0,
+                end_outgoing_edge: 0,
             })
             .collect(),
         outgoing_edges: Vec::new(),
@@ -124,12 +124,12 @@ fn add_outgoing_edges(out: &mut Polytope) {
     spokes.sort_by_key(|&(from, _)| from);
     let mut at = 0;
     for (vertex, number) in out.vertices.iter_mut().zip(0u32..) {
-        vertex.first_outgoing = at;
+        vertex.first_outgoing_edge = at;
         at += spokes[at as usize..]
             .iter()
             .take_while(|(from, _)| *from == number)
             .count() as u32;
-        vertex.end_outgoing = at;
+        vertex.end_outgoing_edge = at;
     }
     out.outgoing_edges = spokes.into_iter().map(|(_, spoke)| spoke).collect();
 }

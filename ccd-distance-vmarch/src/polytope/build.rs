@@ -2,7 +2,7 @@
 
 use super::facets::{Facets, distance_from_line};
 use super::{Polytope, assemble, convex, merge};
-use crate::tolerance::{COPLANAR_DISTANCE, MAX_SCANNED_CORNERS};
+use crate::tolerance::{COPLANARITY_TOLERANCE, MAX_SCANNED_CORNERS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{GiveUpReason, Piece, SupportTree};
@@ -24,10 +24,10 @@ impl Polytope {
             return Err(GiveUpReason::BadFacets);
         }
         let largest = points.iter().map(|p| p.abs().max_element());
-        let rounding = COPLANAR_DISTANCE * largest.fold(0.0, greater);
+        let rounding = COPLANARITY_TOLERANCE * largest.fold(0.0, greater);
         let ends = match classify_spread(points, rounding) {
-            Spread::Point => return Ok(Self::assembled(points, &[0], &[])),
-            Spread::Line(ends) => return Ok(Self::assembled(points, &ends, &[])),
+            Spread::Point => return Ok(Self::from_outlines(points, &[0], &[])),
+            Spread::Line(ends) => return Ok(Self::from_outlines(points, &ends, &[])),
             Spread::Wide(ends) => ends,
         };
         let facets = match points.len() {
@@ -39,14 +39,14 @@ impl Polytope {
         // then separate faces.
         let merged = [rounding, 0.0].into_iter().find_map(|coplanar| {
             let loops = merge::merge(points, &facets, coplanar)?;
-            let polytope = Self::assembled(points, &ends, &loops);
+            let polytope = Self::from_outlines(points, &ends, &loops);
             convex::is_convex(points, &polytope, rounding).then_some(polytope)
         });
         merged.ok_or(GiveUpReason::BadFacets)
     }
 
-    fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
-        let mut polytope = assemble::assemble(points, ends, loops);
+    fn from_outlines(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
+        let mut polytope = assemble::assemble_polytope(points, ends, loops);
         if polytope.vertices.len() > MAX_SCANNED_CORNERS {
             let corners: Vec<DVec3> = polytope.vertices.iter().map(|v| v.point).collect();
             polytope.support = Some(Box::new(SupportTree::new(&corners)));

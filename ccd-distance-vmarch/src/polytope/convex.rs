@@ -1,7 +1,7 @@
 //! Tests whether faces enclose a convex polytope exactly once.
 
 use super::{NO_FACE, Polytope, Side, unit};
-use crate::tolerance::{CONVEX_HEIGHT, COPLANAR_DISTANCE};
+use crate::tolerance::{CONVEXITY_TOLERANCE, COPLANARITY_TOLERANCE};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -19,7 +19,7 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
     let check = ConvexityCheck {
         points,
         polytope,
-        rounding: rounding * (CONVEX_HEIGHT / COPLANAR_DISTANCE),
+        rounding: rounding * (CONVEXITY_TOLERANCE / COPLANARITY_TOLERANCE),
     };
     (0..polytope.faces.len() as u32).all(|f| check.is_outer_polygon(f)) && check.is_connected()
 }

@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 /// facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped. In
 /// a flat polygon, which has only two faces, only those within `rounding` of a side are.
 pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<Vec<Vec<u32>>> {
-    let (faces, count) = group_coplanar(points, facets, rounding);
+    let (faces, count) = group_coplanar_facets(points, facets, rounding);
     let mut outlines = outlines(facets, &faces, count, points.len())?;
     match count {
         0 | 1 => return None,
@@ -35,7 +35,7 @@ pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<
 }
 
 /// Groups coplanar facets: returns the face of each facet, and the number of faces.
-fn group_coplanar(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
+fn group_coplanar_facets(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
     const NONE: u32 = u32::MAX;
     let mut order: Vec<u32> = (0..facets.loops.len() as u32).collect();
     let area = |f: u32| facets.planes[f as usize].area;

@@ -1,7 +1,7 @@
 //! Tests the preparation of pieces, and pieces that are refused.
 
 use super::{NO_FACE, Polytope};
-use crate::tests::setting::prepared;
+use crate::tests::setting::prepared_polytope;
 use crate::tests::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
@@ -21,12 +21,12 @@ fn counts(polytope: &Polytope) -> [usize; 3] {
 fn extremal_corners_are_highest() {
     let mut rng = Pcg64::seed_from_u64(2);
     for shape in [
-        shape::globe(9, 16),
+        shape::uv_sphere(9, 16),
         shape::prism(40),
         shape::random_hull(&mut rng, 40),
         shape::cuboid(DVec3::ONE),
     ] {
-        let polytope = prepared(&shape);
+        let polytope = prepared_polytope(&shape);
         assert_eq!(polytope.support.is_some(), polytope.vertices.len() > 32);
         for _ in 0..2_000 {
             let look = direction(&mut rng);
@@ -39,7 +39,7 @@ fn extremal_corners_are_highest() {
 }
 
 /// Checks the properties that every polytope has.
-fn assert_sound(polytope: &Polytope) {
+fn assert_valid_polytope(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
         for spoke in polytope.outgoing_edges_of(v) {
@@ -87,23 +87,23 @@ fn assert_sound(polytope: &Polytope) {
 #[case(shape::cuboid(DVec3::ONE).triangulated(), [8, 12, 6])]
 #[case(shape::prism(100).triangulated(), [200, 300, 102])]
 #[case(shape::antiprism(7), [14, 28, 16])]
-#[case(shape::globe(9, 16).triangulated(), [146, 304, 160])]
+#[case(shape::uv_sphere(9, 16).triangulated(), [146, 304, 160])]
 #[case(shape::cyclic(20), [20, 54, 36])]
 #[case(shape::polygon(12), [12, 12, 2])]
 #[case(shape::polygon(12).triangulated(), [12, 12, 2])]
-#[case(shape::few_points(&[DVec3::X]), [1, 0, 0])]
-#[case(shape::few_points(&[DVec3::X, DVec3::Y]), [2, 1, 0])]
-#[case(shape::few_points(&[DVec3::X, DVec3::Y, DVec3::Z]), [3, 3, 2])]
+#[case(shape::shape_of_points(&[DVec3::X]), [1, 0, 0])]
+#[case(shape::shape_of_points(&[DVec3::X, DVec3::Y]), [2, 1, 0])]
+#[case(shape::shape_of_points(&[DVec3::X, DVec3::Y, DVec3::Z]), [3, 3, 2])]
 // Pieces of lower dimension than their number of points suggests.
-#[case(shape::few_points(&[DVec3::X, DVec3::X]), [1, 0, 0])]
-#[case(shape::few_points(&[DVec3::X, DVec3::Y, DVec3::X]), [2, 1, 0])]
-#[case(shape::few_points(&[DVec3::X, 2.0 * DVec3::X, 5.0 * DVec3::X]), [2, 1, 0])]
-#[case(shape::few_points(&[DVec3::X; 9]), [1, 0, 0])]
-#[case(shape::few_points(&[DVec3::X, 2.0 * DVec3::X, 3.0 * DVec3::X, DVec3::ZERO]), [2, 1, 0])]
+#[case(shape::shape_of_points(&[DVec3::X, DVec3::X]), [1, 0, 0])]
+#[case(shape::shape_of_points(&[DVec3::X, DVec3::Y, DVec3::X]), [2, 1, 0])]
+#[case(shape::shape_of_points(&[DVec3::X, 2.0 * DVec3::X, 5.0 * DVec3::X]), [2, 1, 0])]
+#[case(shape::shape_of_points(&[DVec3::X; 9]), [1, 0, 0])]
+#[case(shape::shape_of_points(&[DVec3::X, 2.0 * DVec3::X, 3.0 * DVec3::X, DVec3::ZERO]), [2, 1, 0])]
 fn features_follow_from_points_and_facets(#[case] shape: Shape, #[case] expected: [usize; 3]) {
-    let polytope = prepared(&shape);
+    let polytope = prepared_polytope(&shape);
     assert_eq!(counts(&polytope), expected);
-    assert_sound(&polytope);
+    assert_valid_polytope(&polytope);
 }
 
 /// Creates a cube with points inside its edges and faces, as in meshes: 26 points, 48 triangles.
@@ -135,18 +135,18 @@ fn subdivided_cube() -> Shape {
 fn coplanar_facets_are_one_face_and_corners_within_are_none() {
     let shape = subdivided_cube();
     assert_eq!((shape.points.len(), shape.loops.len()), (26, 48));
-    let polytope = prepared(&shape);
+    let polytope = prepared_polytope(&shape);
     assert_eq!(counts(&polytope), [8, 12, 6]);
-    assert_sound(&polytope);
+    assert_valid_polytope(&polytope);
     // Rounded corners are as coplanar as they come.
     let mut rng = Pcg64::seed_from_u64(1);
     for _ in 0..200 {
         let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
         let (size, shift) = (magnitude(&mut rng, -6.0, 6.0), vector(&mut rng));
         let moved = subdivided_cube().mapped(|p| size * (turn * p + shift));
-        let polytope = prepared(&moved);
+        let polytope = prepared_polytope(&moved);
         assert_eq!(counts(&polytope), [8, 12, 6]);
-        assert_sound(&polytope);
+        assert_valid_polytope(&polytope);
     }
 }
 
@@ -157,15 +157,15 @@ fn superfluous_points_are_left_out() {
     cube.points.push(cube.points[0]);
     cube.points.push(0.5 * DVec3::X);
     cube.loops[0][0] = 8;
-    assert_eq!(counts(&prepared(&cube)), [8, 12, 6]);
+    assert_eq!(counts(&prepared_polytope(&cube)), [8, 12, 6]);
     // A T-junction: a vertex on an edge of only one face, with a degenerate facet that closes the gap.
     let mut cube = shape::cuboid(DVec3::ONE);
     cube.points.push(DVec3::new(-1.0, -1.0, 0.0));
     cube.loops[0] = vec![0, 8, 4, 6, 2];
     cube.loops.push(vec![0, 4, 8]);
-    let polytope = prepared(&cube);
+    let polytope = prepared_polytope(&cube);
     assert_eq!(counts(&polytope), [8, 12, 6]);
-    assert_sound(&polytope);
+    assert_valid_polytope(&polytope);
 }
 
 /// Tests slivers as thin as the rounding of corners, and random affine images of polytopes.
@@ -182,7 +182,7 @@ fn thin_polytopes_are_sound() {
         let hull = shape::hull(&points);
         let pieces = hull.pieces();
         let made = Polytope::new(&pieces.get(0));
-        assert_sound(&made.unwrap_or_else(|why| panic!("{why:?}: {squeeze} {hull:?}")));
+        assert_valid_polytope(&made.unwrap_or_else(|why| panic!("{why:?}: {squeeze} {hull:?}")));
         // Turned, its corners are rounded, and its facets no more exactly convex.
         let turn = DQuat::from_scaled_axis(3.0 * vector(&mut rng));
         let turned = hull.mapped(|p| turn * p);

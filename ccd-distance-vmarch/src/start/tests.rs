@@ -2,7 +2,7 @@
 
 use super::{Cache, extremal};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, face, moved, point, prepared, vertex};
+use crate::tests::setting::{cube, face, moved, point, prepared_polytope, vertex};
 use crate::tests::shape;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -41,7 +41,7 @@ fn a_part_is_begun_with_along_the_last_axis() {
     assert_eq!((to_point.a, to_point.b), (pair.a, Feature::Vertex(0)));
     let from_point = cache.start(&moved(&point, &cube, near));
     assert_eq!((from_point.a, from_point.b), (Feature::Vertex(0), pair.b));
-    let larger = prepared(&shape::cuboid(DVec3::splat(1.5)));
+    let larger = prepared_polytope(&shape::cuboid(DVec3::splat(1.5)));
     let start = cache.start(&moved(&larger, &larger, near));
     let Pair {
         a: Feature::Vertex(v),
@@ -69,7 +69,10 @@ fn the_nearest_features_are_the_next_start() {
 
 #[test]
 fn axes_are_turned_into_bs_frame() {
-    let (one, other) = (cube(), prepared(&shape::cuboid(DVec3::new(0.5, 0.6, 0.7))));
+    let (one, other) = (
+        cube(),
+        prepared_polytope(&shape::cuboid(DVec3::new(0.5, 0.6, 0.7))),
+    );
     let turn = ccd_core::glam::DQuat::from_rotation_z(1.2);
     let placed = crate::tests::setting::turned(&one, &other, turn, 4.0 * DVec3::X);
     let axis = DVec3::new(1.0, 0.4, 0.2);

@@ -26,7 +26,7 @@ fn touching_is_exact_up_to_rounding(
     for pointed in [
         shape::cuboid(DVec3::ONE),
         shape::bipyramid(6),
-        shape::few_points(&[-DVec3::Z, DVec3::Z]),
+        shape::shape_of_points(&[-DVec3::Z, DVec3::Z]),
     ] {
         let other = Body::new(pointed);
         // As far outside of the cube's top as above it, where it overhangs.
@@ -68,7 +68,7 @@ fn touching_is_exact_up_to_rounding(
 #[test]
 fn pieces_inside_intersect() {
     let (large, small) = (
-        shape::globe(9, 16),
+        shape::uv_sphere(9, 16),
         shape::antiprism(5).mapped(|p| 0.05 * p),
     );
     let (large, small) = (Body::new(large), Body::new(small));
@@ -104,12 +104,12 @@ fn pieces_inside_intersect() {
             &around,
             oracle.separation(&around.pair(), &mut Cache::default()),
         );
-        assert_eq!((tally.intersecting, tally.give_ups), (2, 0));
+        assert_eq!((tally.intersecting_pairs, tally.give_ups), (2, 0));
     }
     assert_eq!(oracle.counters().penetrations, 1000);
 }
 
-fn ask_thrice(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) {
+fn query_three_times(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) {
     for _ in 0..3 {
         if let Ok(claim) = oracle.separation(&scene.pair(), cache) {
             for (named, body) in [(claim.a, scene.a), (claim.b, scene.b)] {
@@ -123,14 +123,18 @@ fn ask_thrice(oracle: &mut Vmarch, scene: &Scene<'_>, cache: &mut Cache) {
 /// Tests that searches of coordinates far apart in size end, and name points of the pieces.
 #[test]
 fn odd_coordinates_end() {
-    const ODD: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e11, -1e11, f64::MIN_POSITIVE];
+    const EXTREME_VALUES: [f64; 7] = [0.0, -0.0, 1.0, 1e-300, 1e11, -1e11, f64::MIN_POSITIVE];
     let mut rng = Pcg64::seed_from_u64(4);
-    let mut point = || DVec3::from_array(std::array::from_fn(|_| ODD[rng.random_range(0..7)]));
+    let mut point = || {
+        DVec3::from_array(std::array::from_fn(|_| {
+            EXTREME_VALUES[rng.random_range(0..7)]
+        }))
+    };
     let mut oracle = Vmarch::default();
     for k in 0..cases() {
         let [a, b] = [1 + k as usize % 3, 3].map(|count| {
             let points: Vec<DVec3> = (0..count).map(|_| point()).collect();
-            Body::new(shape::few_points(&points))
+            Body::new(shape::shape_of_points(&points))
         });
         for b in [&a, &b] {
             let b_to_a = Frame {
@@ -143,7 +147,7 @@ fn odd_coordinates_end() {
                 b_to_a,
                 gap: 0.0,
             };
-            ask_thrice(&mut oracle, &scene, &mut Cache::default());
+            query_three_times(&mut oracle, &scene, &mut Cache::default());
         }
     }
 }
@@ -154,8 +158,8 @@ fn nonsense_ends() {
     let shapes = [
         shape::cuboid(DVec3::ONE),
         shape::polygon(5),
-        shape::few_points(&[DVec3::ZERO]),
-        shape::few_points(&[DVec3::X, DVec3::Y]),
+        shape::shape_of_points(&[DVec3::ZERO]),
+        shape::shape_of_points(&[DVec3::X, DVec3::Y]),
         Shape {
             loops: Vec::new(),
             ..shape::cuboid(DVec3::ONE)
@@ -176,7 +180,7 @@ fn nonsense_ends() {
                     b_to_a,
                     gap: 0.0,
                 };
-                ask_thrice(&mut oracle, &scene, &mut cache);
+                query_three_times(&mut oracle, &scene, &mut cache);
             }
         }
     }
@@ -196,7 +200,7 @@ fn nonsense_ends() {
 #[test]
 fn spinning_balls_are_as_near_as_their_lowest_corner() {
     let (ball, plate) = (
-        shape::globe(19, 26),
+        shape::uv_sphere(19, 26),
         shape::cuboid(DVec3::new(3.0, 3.0, 0.1)),
     );
     let (ball, plate) = (Body::new(ball), Body::new(plate));

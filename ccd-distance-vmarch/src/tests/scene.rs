@@ -56,9 +56,9 @@ pub(crate) fn body_pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
         Kind::Balls => {
             let sizes = [(3, 5), (6, 9), (9, 16), (19, 26), (31, 32)];
             let mut out = sizes
-                .map(|(rings, count)| shape::globe(rings, count))
+                .map(|(rings, count)| shape::uv_sphere(rings, count))
                 .to_vec();
-            out.push(shape::globe(9, 16).triangulated());
+            out.push(shape::uv_sphere(9, 16).triangulated());
             out.extend(hulls(rng, &[40]));
             out
         }
@@ -135,10 +135,10 @@ fn few_point_shapes(rng: &mut Pcg64) -> Vec<Shape> {
     for _ in 0..4 {
         let [p, q, r] = std::array::from_fn(|_| vector(rng));
         let beside = p.lerp(q, 0.3) + magnitude(rng, -9.0, -1.0) * r;
-        out.push(shape::few_points(&[p]));
-        out.push(shape::few_points(&[p, q]));
-        out.push(shape::few_points(&[p, q, r]));
-        out.push(shape::few_points(&[p, q, beside]));
+        out.push(shape::shape_of_points(&[p]));
+        out.push(shape::shape_of_points(&[p, q]));
+        out.push(shape::shape_of_points(&[p, q, r]));
+        out.push(shape::shape_of_points(&[p, q, beside]));
     }
     out
 }

@@ -7,23 +7,23 @@ use crate::polytope::Polytope;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
-pub(crate) fn prepared(shape: &Shape) -> Polytope {
+pub(crate) fn prepared_polytope(shape: &Shape) -> Polytope {
     let pieces = shape.pieces();
     Polytope::new(&pieces.get(0)).expect("a convex polytope")
 }
 
 /// Creates the cube from −1 to 1 along every axis.
 pub(crate) fn cube() -> Polytope {
-    prepared(&shape::cuboid(DVec3::ONE))
+    prepared_polytope(&shape::cuboid(DVec3::ONE))
 }
 
 pub(crate) fn point() -> Polytope {
-    prepared(&shape::few_points(&[DVec3::ZERO]))
+    prepared_polytope(&shape::shape_of_points(&[DVec3::ZERO]))
 }
 
 /// Creates one edge about the origin.
 pub(crate) fn needle(half: DVec3) -> Polytope {
-    prepared(&shape::few_points(&[-half, half]))
+    prepared_polytope(&shape::shape_of_points(&[-half, half]))
 }
 
 pub(crate) fn moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> PlacedPair<'a> {

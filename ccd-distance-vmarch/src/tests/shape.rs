@@ -237,7 +237,7 @@ pub(crate) fn bipyramid(corners: u32) -> Shape {
 }
 
 /// Creates a finely tessellated ball: rings of corners between two poles.
-pub(crate) fn globe(rings: u32, corners: u32) -> Shape {
+pub(crate) fn uv_sphere(rings: u32, corners: u32) -> Shape {
     let mut points = vec![-DVec3::Z];
     for k in 1..=rings {
         let (sin, cos) = (f64::from(k) * 0.5 * TAU / f64::from(rings + 1)).sin_cos();
@@ -284,7 +284,7 @@ pub(crate) fn polygon(corners: u32) -> Shape {
 }
 
 /// Creates the shape of one, two or three points.
-pub(crate) fn few_points(points: &[DVec3]) -> Shape {
+pub(crate) fn shape_of_points(points: &[DVec3]) -> Shape {
     Shape {
         points: points.to_vec(),
         loops: Vec::new(),

@@ -14,7 +14,7 @@ fn parts() -> Vec<Body> {
     let triangles = cube.clone().triangulated();
     let triangle = |corners: &Vec<u32>| {
         let points = corners.iter().map(|&v| triangles.points[v as usize]);
-        Body::new(shape::few_points(&points.collect::<Vec<_>>()))
+        Body::new(shape::shape_of_points(&points.collect::<Vec<_>>()))
     };
     let mut parts: Vec<Body> = triangles.loops.iter().map(triangle).collect();
     parts.push(Body::new(cube));

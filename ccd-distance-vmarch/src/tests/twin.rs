@@ -165,7 +165,7 @@ fn turned(shape: &Shape, by: DQuat, to: DVec3) -> ReferencePolytope {
 /// Tests brute force against closed forms, at distances down to a millionth of the size.
 #[test]
 fn brute_force_is_right() {
-    use super::shape::{cuboid, few_points, polygon};
+    use super::shape::{cuboid, polygon, shape_of_points};
     let cube = ReferencePolytope::new(&cuboid(DVec3::ONE), &Frame::IDENTITY);
     for gap in [1e-6, 1e-3, 1.0, 1e3] {
         let close = |a: &ReferencePolytope, b: &ReferencePolytope, truth: f64| {
@@ -202,10 +202,11 @@ fn brute_force_is_right() {
         let keel = turned(&cuboid(DVec3::ONE), DQuat::from_rotation_y(eighth), up);
         close(&roof, &keel, gap);
         // Needles whose directions differ by an angle of any size cross at their middles.
-        let flat = ReferencePolytope::new(&few_points(&[-DVec3::X, DVec3::X]), &Frame::IDENTITY);
+        let flat =
+            ReferencePolytope::new(&shape_of_points(&[-DVec3::X, DVec3::X]), &Frame::IDENTITY);
         for angle in [1e-12, 1e-8, 1e-4, 1.0] {
             let other = turned(
-                &few_points(&[-DVec3::X, DVec3::X]),
+                &shape_of_points(&[-DVec3::X, DVec3::X]),
                 DQuat::from_rotation_z(angle),
                 gap * DVec3::Z,
             );

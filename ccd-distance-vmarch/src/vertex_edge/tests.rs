@@ -2,13 +2,13 @@
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next};
+use crate::feature::{Feature, MarchStep};
 use crate::tests::setting::{cube, edge, face, moved, needle, point, turned, vertex};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
 /// Tests a point against the cube's edge along x at y = z = 1.
-fn of_point(at: DVec3) -> Next {
+fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
@@ -26,18 +26,21 @@ fn of_point(at: DVec3) -> Next {
 #[case(DVec3::new(1.0, 2.0, 2.0), Sure)]
 #[case(DVec3::new(1.0, 1.0, 2.0), Tied)]
 #[case(DVec3::new(0.3, 1.0, 1.0), Tied)]
-fn stops_in_the_edges_region(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {
-    assert_eq!(of_point(at), Next::Stop(certainty));
+fn points_in_the_edges_region_stop_the_march(
+    #[case] at: DVec3,
+    #[case] certainty: crate::feature::Certainty,
+) {
+    assert_eq!(of_point(at), MarchStep::Stop(certainty));
 }
 
 #[rstest]
 #[case(DVec3::new(1.0 + f64::EPSILON, 2.0, 2.0), DVec3::ONE)]
 #[case(DVec3::new(-7.0, 2.0, 2.0), DVec3::new(-1.0, 1.0, 1.0))]
-fn goes_on_to_the_end_it_is_beyond(#[case] at: DVec3, #[case] corner: DVec3) {
+fn points_beyond_an_end_continue_to_it(#[case] at: DVec3, #[case] corner: DVec3) {
     let corner = vertex(&cube(), corner);
     assert_eq!(
         of_point(at),
-        Next::Continue(Feature::Vertex(0), Feature::Vertex(corner))
+        MarchStep::Continue(Feature::Vertex(0), Feature::Vertex(corner))
     );
 }
 
@@ -48,11 +51,11 @@ fn goes_on_to_the_end_it_is_beyond(#[case] at: DVec3, #[case] corner: DVec3) {
 // Behind both faces: the march goes on to the face that it is less far behind.
 #[case(DVec3::new(0.0, 0.9, 0.5), DVec3::Y)]
 #[case(DVec3::new(0.0, 0.5, 0.9), DVec3::Z)]
-fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DVec3) {
+fn points_beside_a_face_continue_to_it(#[case] at: DVec3, #[case] normal: DVec3) {
     let face = face(&cube(), normal);
     assert_eq!(
         of_point(at),
-        Next::Continue(Feature::Vertex(0), Feature::Face(face))
+        MarchStep::Continue(Feature::Vertex(0), Feature::Face(face))
     );
 }
 
@@ -65,7 +68,7 @@ fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DV
 #[case(1e-9, None)]
 #[case(-1e-13, Some(true))]
 #[case(1e-13, None)]
-fn goes_on_to_an_edge_that_falls(#[case] slope: f64, #[case] falls: Option<bool>) {
+fn corners_continue_to_descending_edges(#[case] slope: f64, #[case] falls: Option<bool>) {
     let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
     let turn = DQuat::from_rotation_y(-slope);
     // The needle's first corner is a millionth above the edge's bisector.
@@ -74,7 +77,10 @@ fn goes_on_to_an_edge_that_falls(#[case] slope: f64, #[case] falls: Option<bool>
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
     let said = next(&placed.b, 0, &placed.a, edge, placed.scale);
     match falls {
-        Some(_) => assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Edge(edge))),
-        None => assert_eq!(said, Next::Stop(Sure)),
+        Some(_) => assert_eq!(
+            said,
+            MarchStep::Continue(Feature::Edge(0), Feature::Edge(edge))
+        ),
+        None => assert_eq!(said, MarchStep::Stop(Sure)),
     }
 }

@@ -2,13 +2,13 @@
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next, Which};
+use crate::feature::{Feature, MarchStep, WhichPolytope};
 use crate::tests::setting::{cube, edge, face, moved, needle, point, turned};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
 /// Tests a point against the cube's top.
-fn of_point(at: DVec3) -> Next {
+fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let top = face(&cube, DVec3::Z);
@@ -16,7 +16,7 @@ fn of_point(at: DVec3) -> Next {
     let back = moved(&point, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
-        (Next::Common(..), Next::Common(..)) => {}
+        (MarchStep::CommonPoint(..), MarchStep::CommonPoint(..)) => {}
         _ => assert_eq!(there, again),
     }
     there
@@ -28,8 +28,11 @@ fn of_point(at: DVec3) -> Next {
 #[case(DVec3::new(1.0, 1.0, 1.5), Sure)]
 #[case(DVec3::new(0.2, 0.3, 1.0), Tied)]
 #[case(DVec3::new(0.2, 0.3, 1.0 - f64::EPSILON), Tied)]
-fn stops_above(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {
-    assert_eq!(of_point(at), Next::Stop(certainty));
+fn points_above_the_face_stop_the_march(
+    #[case] at: DVec3,
+    #[case] certainty: crate::feature::Certainty,
+) {
+    assert_eq!(of_point(at), MarchStep::Stop(certainty));
 }
 
 #[rstest]
@@ -38,21 +41,24 @@ fn stops_above(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) 
 #[case(DVec3::new(3.0, 2.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
 #[case(DVec3::new(-2.0, -3.0, 2.0), DVec3::new(0.0, -1.0, 1.0))]
 #[case(DVec3::new(0.0, 5.0, -9.0), DVec3::new(0.0, 1.0, 1.0))]
-fn goes_on_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) {
+fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) {
     let edge = edge(&cube(), middle);
     assert_eq!(
         of_point(at),
-        Next::Continue(Feature::Vertex(0), Feature::Edge(edge))
+        MarchStep::Continue(Feature::Vertex(0), Feature::Edge(edge))
     );
 }
 
 #[test]
 fn goes_on_from_behind_unless_inside() {
     let inside = of_point(DVec3::new(0.0, 0.0, 0.9));
-    assert!(matches!(inside, Next::Common(Which::X, _)), "{inside:?}");
+    assert!(
+        matches!(inside, MarchStep::CommonPoint(WhichPolytope::X, _)),
+        "{inside:?}"
+    );
     let bottom = Feature::Face(face(&cube(), -DVec3::Z));
     let beyond = of_point(DVec3::new(0.0, 0.0, -7.0));
-    assert_eq!(beyond, Next::Continue(Feature::Vertex(0), bottom));
+    assert_eq!(beyond, MarchStep::Continue(Feature::Vertex(0), bottom));
 }
 
 /// Tests corners above the face: a corner is nearest unless one of its edges falls by more than rounding.
@@ -62,7 +68,7 @@ fn goes_on_from_behind_unless_inside() {
 #[case(-1e-17, false)]
 #[case(0.0, false)]
 #[case(1e-14, false)]
-fn goes_on_along_an_edge_that_falls(#[case] slope: f64, #[case] falls: bool) {
+fn corners_continue_along_descending_edges(#[case] slope: f64, #[case] falls: bool) {
     let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
     let placed = turned(
         &cube,
@@ -73,8 +79,11 @@ fn goes_on_along_an_edge_that_falls(#[case] slope: f64, #[case] falls: bool) {
     let top = face(&cube, DVec3::Z);
     let said = next(&placed.b, 0, &placed.a, top, placed.scale);
     if falls {
-        assert_eq!(said, Next::Continue(Feature::Edge(0), Feature::Face(top)));
+        assert_eq!(
+            said,
+            MarchStep::Continue(Feature::Edge(0), Feature::Face(top))
+        );
     } else {
-        assert_eq!(said, Next::Stop(Sure));
+        assert_eq!(said, MarchStep::Stop(Sure));
     }
 }

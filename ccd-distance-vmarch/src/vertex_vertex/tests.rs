@@ -2,13 +2,13 @@
 
 use super::next;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, Next};
+use crate::feature::{Feature, MarchStep};
 use crate::tests::setting::{cube, edge, moved, point, vertex};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 /// Tests the cube's corner at (1, 1, 1) against a point.
-fn of_point(at: DVec3) -> Next {
+fn of_point(at: DVec3) -> MarchStep {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
     let corner = vertex(&cube, DVec3::ONE);
@@ -30,8 +30,11 @@ fn of_point(at: DVec3) -> Next {
 // In front of the plane within rounding, and beyond rounding.
 #[case(DVec3::new(1.0 + 1e-15, 2.0, 2.0), Tied)]
 #[case(DVec3::new(1.0 + 1e-12, 2.0, 2.0), Sure)]
-fn stops_in_the_corners_region(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {
-    assert_eq!(of_point(at), Next::Stop(certainty));
+fn points_in_the_corners_region_stop_the_march(
+    #[case] at: DVec3,
+    #[case] certainty: crate::feature::Certainty,
+) {
+    assert_eq!(of_point(at), MarchStep::Stop(certainty));
 }
 
 #[rstest]
@@ -40,10 +43,10 @@ fn stops_in_the_corners_region(#[case] at: DVec3, #[case] certainty: crate::feat
 // The more violated one of two planes.
 #[case(DVec3::new(0.5, 0.9, 2.0), DVec3::new(0.0, 1.0, 1.0))]
 #[case(DVec3::new(0.9, 0.5, 2.0), DVec3::new(1.0, 0.0, 1.0))]
-fn goes_on_to_the_edge_behind_a_plane(#[case] at: DVec3, #[case] middle: DVec3) {
+fn points_behind_a_plane_continue_to_its_edge(#[case] at: DVec3, #[case] middle: DVec3) {
     let edge = edge(&cube(), middle);
     assert_eq!(
         of_point(at),
-        Next::Continue(Feature::Edge(edge), Feature::Vertex(0))
+        MarchStep::Continue(Feature::Edge(edge), Feature::Vertex(0))
     );
 }

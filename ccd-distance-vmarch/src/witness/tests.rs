@@ -2,7 +2,7 @@
 
 use super::{Witness, foot};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, edge, face, moved, needle, point, prepared, vertex};
+use crate::tests::setting::{cube, edge, face, moved, needle, point, prepared_polytope, vertex};
 use crate::tests::shape::{self, Pcg64, RngExt, SeedableRng, magnitude, vector};
 use ccd_core::glam::DVec3;
 
@@ -13,7 +13,7 @@ fn witness(
     at: DVec3,
     of: impl Fn(&crate::polytope::Polytope, &crate::polytope::Polytope) -> Pair,
 ) -> Witness {
-    let (one, other) = (prepared(a), prepared(b));
+    let (one, other) = (prepared_polytope(a), prepared_polytope(b));
     let placed = moved(&one, &other, at);
     let witness = Witness::new(&placed, of(&one, &other));
     let claim = witness.claim;
@@ -29,7 +29,7 @@ fn witness(
 fn features_have_nearest_points() {
     let cuboid = shape::cuboid(DVec3::ONE);
     let at = DVec3::new(0.25, 3.0, 4.0);
-    let single = shape::few_points(&[DVec3::ZERO]);
+    let single = shape::shape_of_points(&[DVec3::ZERO]);
     let corner = witness(&cuboid, &single, at, |a, _| Pair {
         a: Feature::Vertex(vertex(a, DVec3::ONE)),
         b: Feature::Vertex(0),
@@ -56,9 +56,9 @@ fn features_have_nearest_points() {
         (back.offset(), back.claim.axis),
         (-3.0 * DVec3::Z, -DVec3::Z)
     );
-    let across = shape::few_points(&[-DVec3::Y, DVec3::Y]);
+    let across = shape::shape_of_points(&[-DVec3::Y, DVec3::Y]);
     let crossed = witness(
-        &shape::few_points(&[-DVec3::X, DVec3::X]),
+        &shape::shape_of_points(&[-DVec3::X, DVec3::X]),
         &across,
         2.0 * DVec3::Z,
         |_, _| Pair {

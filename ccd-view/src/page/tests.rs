@@ -64,7 +64,7 @@ fn every_element_that_a_script_asks_for_is_there() {
     let ids: Vec<&str> = quoted.filter(|word| known.contains(word)).collect();
     assert!(ids.len() >= known.len());
     for id in known {
-        assert!(HTML.contains(&format!("id=\"view-{id}\"")), "{id}");
+        assert!(VIEW_HTML.contains(&format!("id=\"view-{id}\"")), "{id}");
     }
 }
 
