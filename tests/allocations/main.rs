@@ -10,7 +10,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 
 #[global_allocator]
-static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+static COUNTING_ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
 const QUERY_COUNT: u64 = 3_000;
 
@@ -39,12 +39,12 @@ fn queries_do_not_allocate_once_the_solver_is_warm() {
 
 fn assert_no_allocations_when_warm<O: DistanceOracle>(mixed: &Mixed, oracle: O) {
     let mut solver = Solver::with_oracle(oracle);
-    let cold = Region::new(HEAP);
+    let cold = Region::new(COUNTING_ALLOCATOR);
     let at_start = answer_all(mixed, &mut solver);
     // The check can fail: the first round allocates.
     assert!(cold.change().allocations > 0);
     assert!(at_start > QUERY_COUNT / 100, "{at_start}");
-    let warm = Region::new(HEAP);
+    let warm = Region::new(COUNTING_ALLOCATOR);
     answer_all(mixed, &mut solver);
     let change = warm.change();
     assert_eq!(

@@ -6,10 +6,10 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{Body, InputError, Motion, MovingBody, Pieces, Pose, Settings};
 
-const NON_FINITE: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+const NON_FINITE_NUMBERS: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 /// Invalid times and lengths, each with its text in messages.
-const OUT_OF_RANGE: [(f64, &str); 5] = [
+const OUT_OF_RANGE_NUMBERS: [(f64, &str); 5] = [
     (-1.0, "-1"),
     (-1e-300, "-1e-300"),
     (f64::NAN, "NaN"),
@@ -31,7 +31,7 @@ fn durations_tolerances_and_margins_have_their_range() {
         assert!(matches!(error, InputError::OutOfRange { .. }), "{error:?}");
         assert_eq!(error.to_string(), message);
     };
-    for (bad, text) in OUT_OF_RANGE {
+    for (bad, text) in OUT_OF_RANGE_NUMBERS {
         let message = format!("duration is {text}, but must be at least 0 and finite");
         refused(bad, good.clone(), &message);
         let config = Settings {
@@ -57,7 +57,7 @@ fn durations_tolerances_and_margins_have_their_range() {
         "tolerance is 0, but must be from 1e-100 to 1e12",
     );
     assert!(ccd_core::Query::new(still, still, 0.0, &good).is_ok());
-    for (duration, text) in OUT_OF_RANGE.into_iter().chain([(0.0, "0")]) {
+    for (duration, text) in OUT_OF_RANGE_NUMBERS.into_iter().chain([(0.0, "0")]) {
         let motion = Motion::between(Pose::IDENTITY, Pose::IDENTITY, DVec3::ZERO, duration);
         let message = format!("duration is {text}, but must be positive and finite");
         assert_eq!(motion.expect_err("no duration").to_string(), message);
@@ -113,7 +113,7 @@ fn shapes_name_the_bad_length() {
     ];
     let negative = [-1.0, -f64::MIN_POSITIVE, -5e-324, 2.0 * MAX_COORDINATE];
     for (name, shape) in shapes {
-        for bad in negative.into_iter().chain(NON_FINITE) {
+        for bad in negative.into_iter().chain(NON_FINITE_NUMBERS) {
             match shape(bad).map(drop) {
                 Err(InputError::OutOfRange { what, value, .. }) => {
                     assert_eq!((what, value.to_bits()), (name, bad.to_bits()));

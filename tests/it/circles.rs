@@ -35,7 +35,7 @@ fn no_files_import_each_other_in_a_circle() {
         let root = workspace.join(name).join("src/lib.rs");
         let texts = parsed_modules(&root);
         files += texts.len();
-        let circles = import_cycles(&imports(&texts));
+        let circles = import_cycles(&imports_by_module(&texts));
         assert!(circles.is_empty(), "{name}: {circles:#?}");
     }
     assert!(files > 500, "{files}");
@@ -52,7 +52,7 @@ fn a_circle_is_found() {
             let file = syn::parse_file(text).expect("valid Rust");
             (names.map(str::to_owned).collect(), file)
         });
-        import_cycles(&imports(&BTreeMap::from(texts))).len()
+        import_cycles(&imports_by_module(&BTreeMap::from(texts))).len()
     };
     for end in [
         "use crate::a::{self, Thing};",
@@ -97,7 +97,7 @@ fn is_test(attributes: &[syn::Attribute]) -> bool {
     attributes.iter().any(is_test)
 }
 
-fn imports(texts: &BTreeMap<Module, syn::File>) -> Imports {
+fn imports_by_module(texts: &BTreeMap<Module, syn::File>) -> Imports {
     let imports = texts.iter().map(|(module, file)| {
         let mut paths = Paths::default();
         paths.visit_file(file);

@@ -19,7 +19,7 @@ const ANGLE_ROUNDING: f64 = 1e-12;
 const DIRECTION_ROUNDING: f64 = 4e-15;
 
 /// The distance of witnesses above which the direction between them may be the normal.
-const NORMAL_DISTANCE: f64 = 1e-8;
+const MIN_WITNESS_DISTANCE: f64 = 1e-8;
 
 const GAPS: [f64; 9] = [0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-5, 1e-3];
 
@@ -37,7 +37,7 @@ fn normals_are_in_the_cones_of_both_surfaces() {
             for pair in &pairs {
                 if let Some(way) = touch.check(&pair.separation) {
                     checked[touch.feature_dimension] += 1;
-                    blurred += usize::from(way < NORMAL_DISTANCE);
+                    blurred += usize::from(way < MIN_WITNESS_DISTANCE);
                 }
             }
             touch.check_answer(Backend::DEFAULT.solve(&problem).outcome);
@@ -135,7 +135,7 @@ impl FeatureContact {
         if way > self.gap + 1e-13 {
             return None;
         }
-        let allowed = if way < NORMAL_DISTANCE {
+        let allowed = if way < MIN_WITNESS_DISTANCE {
             ANGLE_ROUNDING
         } else {
             ANGLE_ROUNDING + DIRECTION_ROUNDING / way

@@ -19,7 +19,7 @@ const ORDERS: [PatchOrder; 3] = [
 ];
 
 fn decompose_shape(shape: &Shape, order: PatchOrder) -> Result<Decomposition, DecomposeError> {
-    decompose(&shape.mesh.for_decomposition(), order)
+    decompose(&shape.mesh.to_triangle_mesh(), order)
 }
 
 fn claimed_patches(decomposition: &Decomposition) -> Vec<Claim<'_>> {
@@ -122,7 +122,7 @@ fn patches_of_random_solids() {
                 shape.mesh.vertices.iter_mut().for_each(snap);
             }
             // Faces that rounding has reduced to a segment or a point are dropped.
-            shape.mesh.faces = shape.mesh.for_decomposition().faces().to_vec();
+            shape.mesh.faces = shape.mesh.to_triangle_mesh().faces().to_vec();
             match decompose_shape(&shape, order) {
                 Ok(it) => {
                     whole.set(whole.get() + 1);

@@ -9,7 +9,7 @@ use ccd_distance_gjk::{Direct, Gjk};
 use ccd_tests::models::{Mesh, icosphere, torus};
 
 fn body(mesh: &Mesh, detail: Detail) -> Body {
-    body_from_mesh(&mesh.for_decomposition(), detail)
+    body_from_mesh(&mesh.to_triangle_mesh(), detail)
         .unwrap()
         .body
 }

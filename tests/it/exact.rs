@@ -151,8 +151,8 @@ fn solid_angles_give_the_same_locations() {
         let solid = Solid::new(mesh);
         let (mut inside, mut outside) = (0, 0);
         let effort = Effort {
-            per_facet: 0,
-            chords: 300,
+            points_per_facet: 0,
+            points_on_chords: 300,
             inner_points: 300,
         };
         for p in samples(&hull(mesh), effort, 1) {

@@ -19,7 +19,7 @@ const HALF: f64 = 8.0;
 /// The time by which a contact may be early, because the search ignores contacts up to the least tolerance.
 const ALLOWED_EARLINESS: f64 = 1e-9;
 
-fn leave_settings() -> Settings {
+fn settings_with_leave() -> Settings {
     Settings {
         start: StartPolicy::Leave,
         ..Settings::DEFAULT
@@ -152,7 +152,7 @@ fn bodies_that_slide_on_cut_ground_are_free() {
         );
         let query = query.seen_from(&random_frame(rng));
         for query in [query.swapped(), query] {
-            for_each_setup(&query, &leave_settings(), |_, setup, answer| {
+            for_each_setup(&query, &settings_with_leave(), |_, setup, answer| {
                 let free = matches!(answer.outcome, Outcome::Free { .. });
                 assert!(free, "seed {seed}\n{setup:?}\n{answer:?}\n{query:?}");
             });
@@ -185,7 +185,7 @@ fn a_block_on_cut_ground_is_hit_at_the_right_time() {
         let truth = (2.5 - 0.3 - at.x) / speed;
         let query = query.seen_from(&random_frame(rng));
         for query in [query.swapped(), query] {
-            for_each_setup(&query, &leave_settings(), |_, setup, answer| {
+            for_each_setup(&query, &settings_with_leave(), |_, setup, answer| {
                 let time = match answer.outcome {
                     Outcome::Contact { time, .. } => time,
                     // Pieces so near to each other that an oracle's axis does not separate them.
@@ -221,7 +221,7 @@ fn ground_of_a_thousand_triangles_is_as_one() {
                 rng.random_range(-1.0..1.0) * DVec3::Z,
             );
             let motion = motion.expect("a motion");
-            let mut solver = Solver::new().with_settings(leave_settings());
+            let mut solver = Solver::new().with_settings(settings_with_leave());
             let answer = solver
                 .first_contact((&mover, motion), (&ground, Motion::STILL), 1.0)
                 .expect("a query");
@@ -252,7 +252,7 @@ fn a_ball_rolls_on_cut_ground_up_to_a_wall() {
             2.0 * speed * DVec3::Y,
         );
         let rolling = rolling.expect("a motion");
-        let mut solver = Solver::new().with_settings(leave_settings());
+        let mut solver = Solver::new().with_settings(settings_with_leave());
         let mut outcome = |ground, duration| {
             let answer = solver.first_contact((&ball, rolling), (ground, Motion::STILL), duration);
             answer.expect("a query").outcome
@@ -296,11 +296,13 @@ fn sheets_within_one_plane_meet() {
         duration: 3.0,
     };
     for query in [query.swapped(), query] {
-        for_each_setup(&query, &leave_settings(), |_, setup, answer| {
-            match answer.outcome {
+        for_each_setup(
+            &query,
+            &settings_with_leave(),
+            |_, setup, answer| match answer.outcome {
                 Outcome::Contact { time, .. } if time <= 2.0 => {}
                 other => panic!("{setup:?}\n{other:?}"),
-            }
-        });
+            },
+        );
     }
 }

@@ -3,13 +3,13 @@
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Outcome, Settings};
 use ccd_tests::analytic::{Expect, combs, screw_in_nut};
-use ccd_tests::backends::{Backend, Oracle, Order};
+use ccd_tests::backends::{Backend, Oracle, ScheduleKind};
 use ccd_tests::models::{PITCH, parallel_plate};
 use ccd_tests::query::{MovingShape, Query};
 
 /// Returns the answer for a plate of `2·cells²` triangles that falls flat onto another plate. They touch at half of
 /// the duration.
-fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
+fn falling_plate_answer(cells: usize, backend: Backend, tolerance: f64) -> Answer {
     let high = DVec3::new(0.3, 0.2, 0.5);
     let query = Query::new(
         MovingShape::straight(parallel_plate(cells), high, -DVec3::Z),
@@ -35,10 +35,10 @@ fn check(answer: &Answer) {
 #[test]
 fn a_million_pairs_kept_at_once() {
     let naive = Backend {
-        order: Order::Naive,
+        order: ScheduleKind::Naive,
         oracle: Oracle::ClosedForm,
     };
-    let answer = falling_plate(23, naive, 1e-3);
+    let answer = falling_plate_answer(23, naive, 1e-3);
     assert!(answer.stats.peak_front > 1_000_000, "{answer:?}");
     check(&answer);
 }
@@ -46,7 +46,7 @@ fn a_million_pairs_kept_at_once() {
 #[test]
 fn sixty_million_pairs_touching_at_once() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        check(&falling_plate(64, Backend::DEFAULT, tolerance));
+        check(&falling_plate_answer(64, Backend::DEFAULT, tolerance));
     }
 }
 
@@ -55,7 +55,7 @@ fn sixty_million_pairs_touching_at_once() {
 fn combs_of_many_teeth() {
     let teeth = if is_slow_run() { 512 } else { 96 };
     let scene = combs(teeth);
-    let Expect::Hit { earliest, latest } = &scene.expect else {
+    let Expect::Hit { earliest, latest } = &scene.expected else {
         panic!("combs meet");
     };
     let bodies = scene.query.triangles();

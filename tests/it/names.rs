@@ -19,7 +19,7 @@ fn contacts_of_patches_name_the_mesh() {
     check_cases(250, cases(), |case| {
         let query = case.query();
         let shapes = [&query.a.shape, &query.b.shape];
-        if !shapes.iter().all(|shape| shape.can_be(Kind::Patches)) {
+        if !shapes.iter().all(|shape| shape.has_kind(Kind::Patches)) {
             return Ok(());
         }
         let bodies = query.bodies([Kind::Patches; 2]);
@@ -58,7 +58,7 @@ enum NameKind {
     /// face.
     Least,
     /// The smallest feature at the witness is an edge, and the name is that of an adjacent face.
-    Larger,
+    LargerFeature,
     /// The name is none of the mesh, because no feature of the mesh contains the witness.
     None,
 }
@@ -68,9 +68,9 @@ fn classify_name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<NameKi
     match (feature, holding.first()) {
         (Feature::Piece(_), None) => Some(NameKind::None),
         (named, Some(&least)) if named == least => Some(NameKind::Least),
-        (Feature::Face(_), Some(Feature::Edge(..))) => {
-            holding.contains(&feature).then_some(NameKind::Larger)
-        }
+        (Feature::Face(_), Some(Feature::Edge(..))) => holding
+            .contains(&feature)
+            .then_some(NameKind::LargerFeature),
         _ => None,
     }
 }

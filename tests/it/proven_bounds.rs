@@ -76,7 +76,7 @@ impl<'s> Case<'s> {
     }
 
     /// Checks the proven gap of free bodies. It is a true lower bound, at least half the tolerance beyond the margin.
-    fn check_free(&self, proven_gap: f64) -> CheckResult {
+    fn check_proven_gap(&self, proven_gap: f64) -> CheckResult {
         let Settings {
             margin, tolerance, ..
         } = self.config;
@@ -90,7 +90,7 @@ impl<'s> Case<'s> {
     }
 
     /// Checks that the bodies are not in contact before a time.
-    fn check_safe(&self, until: f64) -> CheckResult {
+    fn check_no_contact_before(&self, until: f64) -> CheckResult {
         let margin = self.config.margin;
         (self.samples).check_lower_bound(margin, |time| time < until, "before a contact")
     }
@@ -113,12 +113,12 @@ impl<'s> Case<'s> {
         match *outcome {
             Outcome::Contact { time, contact } => {
                 tally.contact += 1;
-                self.check_safe(time)?;
+                self.check_no_contact_before(time)?;
                 self.check_contact(time, &contact, tolerance)
             }
             Outcome::Free { proven_gap } => {
                 tally.free += 1;
-                self.check_free(proven_gap)
+                self.check_proven_gap(proven_gap)
             }
             Outcome::Touching { contact } => {
                 tally.start += 1;
@@ -130,7 +130,7 @@ impl<'s> Case<'s> {
             }
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 tally.unresolved += 1;
-                self.check_safe(safe_until)
+                self.check_no_contact_before(safe_until)
             }
             other => Err(format!("no outcome of a first contact: {other:?}")),
         }
@@ -150,9 +150,11 @@ impl<'s> Case<'s> {
         }
         match *any {
             Outcome::Contact { time, contact } => self.check_contact(time, &contact, tolerance),
-            Outcome::Free { proven_gap } => self.check_free(proven_gap),
+            Outcome::Free { proven_gap } => self.check_proven_gap(proven_gap),
             Outcome::Overlapping { .. } => self.check_overlapping(),
-            Outcome::Unresolved(Unresolved { safe_until, .. }) => self.check_safe(safe_until),
+            Outcome::Unresolved(Unresolved { safe_until, .. }) => {
+                self.check_no_contact_before(safe_until)
+            }
             other => Err(format!("no outcome of any contact: {other:?}")),
         }
     }
@@ -168,10 +170,10 @@ impl<'s> Case<'s> {
                 let agrees =
                     matches!(first, Outcome::Free { proven_gap: other } if *other == proven_gap);
                 law!(agrees, "{interval:?} and {first:?}");
-                self.check_free(proven_gap)
+                self.check_proven_gap(proven_gap)
             }
             Outcome::Interval { first, last } => {
-                self.check_safe(first.time)?;
+                self.check_no_contact_before(first.time)?;
                 let margin = self.config.margin;
                 (self.samples).check_lower_bound(
                     margin,
@@ -190,7 +192,7 @@ impl<'s> Case<'s> {
                 safe_from,
                 ..
             }) => {
-                self.check_safe(safe_until)?;
+                self.check_no_contact_before(safe_until)?;
                 let margin = self.config.margin;
                 (self.samples).check_lower_bound(
                     margin,
@@ -232,7 +234,7 @@ impl<'s> Case<'s> {
             .scene
             .kinds
             .iter()
-            .all(|&kind| courses::is_motion(kind))
+            .all(|&kind| courses::is_motion_kind(kind))
         {
             self.check_motions(solver, tally)
         } else {
@@ -243,7 +245,7 @@ impl<'s> Case<'s> {
     /// Checks the answers for motions, which are not trajectories, by the same rules.
     fn check_motions(&self, solver: &mut Solver, tally: &mut Tally) -> CheckResult {
         let motion = |k: usize| -> Motion {
-            let way = self.scene.ways[k].stretch(0.0, 1.0);
+            let way = self.scene.trajectories[k].stretch(0.0, 1.0);
             way.expect("a motion").motion
         };
         let [a, b] = [0, 1].map(|k| (&self.scene.bodies[k], motion(k)));

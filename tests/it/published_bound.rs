@@ -45,7 +45,7 @@ fn bodies(query: &Query) -> Bodies {
 #[test]
 fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_one() {
     let scenes = scenes_named("T9 ");
-    let Expect::Hit { latest, .. } = scenes[0].expect else {
+    let Expect::Hit { latest, .. } = scenes[0].expected else {
         panic!("the mace meets the wall");
     };
     let bodies = bodies(&scenes[0].query);

@@ -4,7 +4,7 @@ use ccd_core::Outcome;
 use ccd_tests::backends::default_answer;
 use ccd_tests::case::Case;
 use ccd_tests::checks::{CheckResult, Judge};
-use ccd_tests::questions::{for_each_answers, for_each_trajectory_answers};
+use ccd_tests::questions::{for_each_answer_set, for_each_trajectory_answer_set};
 use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, remote_cases};
 
 #[test]
@@ -32,10 +32,10 @@ fn check_every_question(case: &Case) -> CheckResult {
     let judge = Judge::new(&query, &config);
     let first = default_answer(&query, &config);
     let mut law = Ok(());
-    for_each_answers(&query, &config, |bodies, asked, answers| {
+    for_each_answer_set(&query, &config, |bodies, asked, answers| {
         if law.is_ok() {
-            law = (judge.check_any(&answers.any, bodies))
-                .and_then(|()| judge.check_closest(&answers.closest, bodies))
+            law = (judge.check_any_contact(&answers.any, bodies))
+                .and_then(|()| judge.check_closest_approach(&answers.closest, bodies))
                 .and_then(|()| {
                     judge.check_clearance(
                         answers.clearance_check.0,
@@ -47,13 +47,19 @@ fn check_every_question(case: &Case) -> CheckResult {
                 .map_err(|why| format!("{why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }
     });
-    for_each_trajectory_answers(&query, &config, |bodies, asked, answers| {
+    for_each_trajectory_answer_set(&query, &config, |bodies, asked, answers| {
         if law.is_ok() {
             law = (judge.check(&answers.first, bodies))
-                .and_then(|()| judge.check_any(&answers.any, bodies))
-                .and_then(|()| judge.check_closest(&answers.closest, bodies))
-                .and_then(|()| judge.check_clearance(answers.cleared.0, &answers.cleared.1, bodies))
-                .and_then(|()| judge.check_interval(&answers.interval, bodies))
+                .and_then(|()| judge.check_any_contact(&answers.any, bodies))
+                .and_then(|()| judge.check_closest_approach(&answers.closest, bodies))
+                .and_then(|()| {
+                    judge.check_clearance(
+                        answers.clearance_check.0,
+                        &answers.clearance_check.1,
+                        bodies,
+                    )
+                })
+                .and_then(|()| judge.check_contact_interval(&answers.interval, bodies))
                 .map_err(|why| format!("along: {why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }
     });

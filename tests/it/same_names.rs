@@ -36,7 +36,7 @@ impl Body {
     }
 
     /// Returns a pose on top of another body, at a small gap, shifted, and rotated about the upright axis.
-    fn resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
+    fn pose_resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
         let top = other.heights().fold(f64::NEG_INFINITY, greater);
         let bottom = self.heights().fold(f64::INFINITY, lesser);
         let up = top - bottom + 5e-4;
@@ -67,7 +67,7 @@ fn triangles_and_patches_have_the_same_names() {
     let mut found = 0;
     for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
         for (x, y, turn) in [(0.13, 0.07, 0.0), (0.2, 0.1, 0.25), (0.4, -0.3, 2.0)] {
-            let pose = a.resting_on(b, DVec2::new(x, y), turn);
+            let pose = a.pose_resting_on(b, DVec2::new(x, y), turn);
             let [of_triangles, of_patches] =
                 [0, 1].map(|k| contact_names([&a.made[k], &b.made[k]], pose));
             assert_eq!(of_triangles, of_patches);

@@ -6,7 +6,7 @@ use ccd_tests::analytic::{Expect, Scene, scenes_named};
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{CheckResult, Judge, check_contact};
 use ccd_tests::query::Bodies;
-use ccd_tests::questions::{TrajectoryAnswers, for_each_trajectory_answers};
+use ccd_tests::questions::{TrajectoryAnswers, for_each_trajectory_answer_set};
 use ccd_tests::referee::Finding;
 use ccd_tests::tolerance::CLOSED_FORM_LATENESS;
 use std::fmt::Debug;
@@ -63,18 +63,18 @@ fn check_group(prefix: &str) {
         }
         for tolerance in [1e-3, 1e-9] {
             judge = judge.with_tolerance(tolerance * tolerance_scale(scene));
-            check_setups(&judge, scene, &scene.expect);
-            check_all_trajectories(&judge, scene, &scene.expect);
+            check_setups(&judge, scene, &scene.expected);
+            check_all_trajectories(&judge, scene, &scene.expected);
         }
         let swapped = Scene {
             name: format!("{}, swapped", scene.name),
             query: scene.query.swapped(),
-            expect: Expect::Unknown,
+            expected: Expect::Unknown,
         };
         // The effect of the order depends neither on the tolerance nor on the form of the motions.
         let judge = Judge::new(&swapped.query, &Settings::DEFAULT);
         let judge = judge.with_tolerance(1e-3 * tolerance_scale(scene));
-        check_setups(&judge, &swapped, &scene.expect);
+        check_setups(&judge, &swapped, &scene.expected);
     }
 }
 
@@ -88,7 +88,7 @@ fn check_finding(
     Scene {
         name,
         query,
-        expect,
+        expected: expect,
     }: &Scene,
     judge: &Judge<'_>,
 ) {
@@ -130,7 +130,7 @@ fn check_setups(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
 }
 
 fn check_all_trajectories(judge: &Judge<'_>, scene: &Scene, expect: &Expect) {
-    for_each_trajectory_answers(&scene.query, &judge.config(), |bodies, asked, answers| {
+    for_each_trajectory_answer_set(&scene.query, &judge.config(), |bodies, asked, answers| {
         if let Err(why) = check_trajectory_answers(judge, scene, expect, (bodies, &answers)) {
             fail(scene, &asked, &answers, &why);
         }
@@ -199,9 +199,9 @@ fn check_trajectory_answers(
         ..
     } = answers;
     if !scene.query.a.shape.mesh.faces.is_empty() {
-        judge.check_any(any, bodies)?;
-        judge.check_closest(closest, bodies)?;
-        judge.check_interval(interval, bodies)?;
+        judge.check_any_contact(any, bodies)?;
+        judge.check_closest_approach(closest, bodies)?;
+        judge.check_contact_interval(interval, bodies)?;
     }
     let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
     let rounding = scene.query.rounding();

@@ -57,7 +57,7 @@ fn with_random_windings(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
 }
 
 fn body(mesh: &Mesh, detail: Detail) -> Body {
-    let model = prepare(&mesh.for_decomposition(), detail).expect("a body");
+    let model = prepare(&mesh.to_triangle_mesh(), detail).expect("a body");
     model.body().expect("a body")
 }
 

@@ -20,11 +20,11 @@ use std::f64::consts::FRAC_1_SQRT_2;
 fn leave_settings(tolerance: f64) -> Settings {
     Settings {
         start: StartPolicy::Leave,
-        ..report_settings(tolerance)
+        ..settings_with_tolerance(tolerance)
     }
 }
 
-fn report_settings(tolerance: f64) -> Settings {
+fn settings_with_tolerance(tolerance: f64) -> Settings {
     Settings {
         tolerance,
         ..Settings::DEFAULT
@@ -54,12 +54,12 @@ fn is_touching(outcome: Outcome) -> bool {
 fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
         let query = sliding(gap, DVec3::new(1.0, 1.0, 0.0)).query;
-        check_outcomes(&query, &report_settings(1e-3), is_touching);
+        check_outcomes(&query, &settings_with_tolerance(1e-3), is_touching);
         check_outcomes(&query, &leave_settings(1e-3), is_free);
     }
     check_outcomes(
         &sliding(1e-6, -DVec3::X).query,
-        &report_settings(1e-8),
+        &settings_with_tolerance(1e-8),
         is_free,
     );
     check_outcomes(
@@ -97,7 +97,7 @@ fn touching_and_parting_is_free() {
         );
         check_outcomes(
             &sliding(gap, DVec3::Z).query,
-            &report_settings(1e-3),
+            &settings_with_tolerance(1e-3),
             is_touching,
         );
     }
@@ -108,7 +108,7 @@ fn touching_and_parting_is_free() {
 fn touching_and_approaching_is_a_contact_at_once() {
     for gap in [1e-6, 0.0] {
         let query = sliding(gap, -DVec3::Z).query;
-        check_outcomes(&query, &report_settings(1e-3), is_touching);
+        check_outcomes(&query, &settings_with_tolerance(1e-3), is_touching);
         check_outcomes(&query, &leave_settings(1e-3), |outcome| match outcome {
             // An approach at speed 1 is visible once the distance has decreased by more than rounding.
             Outcome::Contact { time, .. } => {
@@ -229,16 +229,16 @@ fn a_liar_cannot_release_a_pair() {
     let problem = query.problem(&bodies, &settings);
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
         let answer = BestFirst::default()
-            .first_contact(&problem, &mut AxisLiar(axis, ClosedForm::default()))
+            .first_contact(&problem, &mut WrongAxisOracle(axis, ClosedForm::default()))
             .unwrap();
         assert!(!is_free(answer.outcome), "{axis} {answer:?}");
     }
 }
 
 /// An oracle that returns the right nearest points with a wrong axis.
-struct AxisLiar(DVec3, ClosedForm);
+struct WrongAxisOracle(DVec3, ClosedForm);
 
-impl DistanceOracle for AxisLiar {
+impl DistanceOracle for WrongAxisOracle {
     type Cache = <ClosedForm as DistanceOracle>::Cache;
 
     fn separation(

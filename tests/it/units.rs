@@ -48,10 +48,10 @@ fn no_proof_uses_a_vector_normalised_elsewhere() {
 
 /// Collects all source files in a folder, except tests.
 fn collect_sources(folder: &Path, files: &mut Vec<PathBuf>) {
-    const TESTS: [&str; 2] = ["tests", "tests.rs"];
+    const TEST_FILE_NAMES: [&str; 2] = ["tests", "tests.rs"];
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
-        if TESTS.iter().any(|name| path.ends_with(name)) {
+        if TEST_FILE_NAMES.iter().any(|name| path.ends_with(name)) {
             continue;
         }
         if path.is_dir() {

@@ -17,7 +17,7 @@ pub struct Scene {
     /// The bodies and their motions.
     pub query: Query,
     /// The outcome in closed form.
-    pub expect: Expect,
+    pub expected: Expect,
 }
 
 /// The known outcome of a scene.
@@ -70,7 +70,7 @@ impl Scene {
         Scene {
             name: name.into(),
             query: Query::new(a, b),
-            expect,
+            expected: expect,
         }
     }
 }

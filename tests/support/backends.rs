@@ -9,7 +9,7 @@ use ccd_distance_vmarch::Vmarch;
 
 /// The schedule of a backend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
+pub enum ScheduleKind {
     /// Takes pairs from a queue that is ordered by proven time.
     BestFirst,
     /// Advances all pairs in one step, over the front of a descent through hull trees.
@@ -43,7 +43,7 @@ impl Oracle {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend {
     /// The schedule, which orders the pairs of pieces.
-    pub order: Order,
+    pub order: ScheduleKind,
     /// The oracle, which computes the distances of pieces.
     pub oracle: Oracle,
 }
@@ -63,7 +63,7 @@ const MAX_NAIVE_PAIRS: usize = 400;
 impl Backend {
     /// The backend that the engine uses by default.
     pub const DEFAULT: Backend = Backend {
-        order: Order::BestFirst,
+        order: ScheduleKind::BestFirst,
         oracle: Oracle::Direct,
     };
 
@@ -71,19 +71,25 @@ impl Backend {
     pub fn all() -> impl Iterator<Item = Backend> {
         use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
         let oracles = [ClosedForm, Gjk, Direct, Vmarch];
-        let orders = [Order::BestFirst, Order::Fast, Order::Naive];
+        let orders = [
+            ScheduleKind::BestFirst,
+            ScheduleKind::Fast,
+            ScheduleKind::Naive,
+        ];
         orders
             .into_iter()
             .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
     }
 
     /// Returns true if the backend supports the bodies and is fast enough for a test.
-    pub fn suits(self, bodies: &Bodies) -> bool {
+    pub fn suits_bodies(self, bodies: &Bodies) -> bool {
         let fit = match self.order {
-            Order::BestFirst => true,
+            ScheduleKind::BestFirst => true,
             // Without trees, the answer would be that of another schedule.
-            Order::Fast => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
-            Order::Naive => bodies.pairs() <= MAX_NAIVE_PAIRS,
+            ScheduleKind::Fast => {
+                bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree)
+            }
+            ScheduleKind::Naive => bodies.pairs() <= MAX_NAIVE_PAIRS,
         };
         fit && self.oracle.supports(bodies)
     }
@@ -105,11 +111,11 @@ impl Backend {
         oracle: &mut O,
     ) -> Answer {
         match self.order {
-            Order::BestFirst => BestFirst::<O>::default()
+            ScheduleKind::BestFirst => BestFirst::<O>::default()
                 .first_contact(problem, oracle)
                 .unwrap(),
-            Order::Fast => Fast::<O>::default().first_contact(problem, oracle).unwrap(),
-            Order::Naive => Naive::<O>::default()
+            ScheduleKind::Fast => Fast::<O>::default().first_contact(problem, oracle).unwrap(),
+            ScheduleKind::Naive => Naive::<O>::default()
                 .first_contact(problem, oracle)
                 .unwrap(),
         }
@@ -128,7 +134,7 @@ pub fn for_each_setup(
 ) {
     for bodies in query.all_bodies() {
         let problem = query.problem(&bodies, config);
-        for backend in Backend::all().filter(|backend| backend.suits(&bodies)) {
+        for backend in Backend::all().filter(|backend| backend.suits_bodies(&bodies)) {
             let setup = Setup {
                 backend,
                 kinds: bodies.kinds,

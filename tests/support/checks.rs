@@ -216,14 +216,14 @@ pub fn check_contact(
     // Placements are relative to A's centre, but witnesses are not.
     let drift = placements[0].origin() + time * query.a.motion.velocity();
     let side_a = Side {
-        actor: &query.a,
+        moving_shape: &query.a,
         body: bodies.a(),
         kind: bodies.kinds[0],
         piece: contact.piece_a,
         to_world: &|p| placements[0].at(time, p) + drift,
     };
     let side_b = Side {
-        actor: &query.b,
+        moving_shape: &query.b,
         body: bodies.b(),
         kind: bodies.kinds[1],
         piece: contact.piece_b,
@@ -277,7 +277,7 @@ fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Che
 
 /// One of the two bodies of a contact.
 struct Side<'a> {
-    actor: &'a MovingShape,
+    moving_shape: &'a MovingShape,
     body: &'a Body,
     kind: Kind,
     piece: u32,
@@ -309,7 +309,7 @@ impl Side<'_> {
     ) -> CheckResult {
         let off = distance_to_piece(witness, &self.piece()?, self.to_world);
         law!(off <= rounding, "the witness is {off} off its piece");
-        let shape = &self.actor.shape;
+        let shape = &self.moving_shape.shape;
         let off = match self.kind {
             Kind::Patches | Kind::Hull if matches!(feature, Feature::Piece(_)) => {
                 // A virtual facet is inside the surface, which is then nearer to the other body.

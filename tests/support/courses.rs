@@ -33,7 +33,7 @@ pub fn draw(rng: &mut Pcg64, kind: usize, reach: f64) -> Box<dyn Trajectory> {
 }
 
 /// Returns whether trajectories of a kind are a single motion.
-pub fn is_motion(kind: usize) -> bool {
+pub fn is_motion_kind(kind: usize) -> bool {
     ["motion", "still", "screw", "joint"].contains(&KINDS[kind])
 }
 
@@ -88,7 +88,7 @@ fn random_trajectory(
                 .into_iter()
                 .map(DVec3::from_array)
                 .collect(),
-            tells: rng.random_bool(0.5),
+            reveals_corners: rng.random_bool(0.5),
         }),
     })
 }
@@ -213,7 +213,7 @@ impl SmoothTrajectory for Oscillation {
 /// A trajectory that moves straight from corner to corner, by chords, and optionally hides its corners.
 struct Zigzag {
     corners: Vec<DVec3>,
-    tells: bool,
+    reveals_corners: bool,
 }
 
 impl Zigzag {
@@ -255,6 +255,6 @@ impl Trajectory for Zigzag {
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        self.inner(from, to).find(|_| self.tells)
+        self.inner(from, to).find(|_| self.reveals_corners)
     }
 }

@@ -180,7 +180,7 @@ impl Shape {
     }
 
     /// Returns true if the shape can be made of a kind of pieces.
-    pub fn can_be(&self, kind: Kind) -> bool {
+    pub fn has_kind(&self, kind: Kind) -> bool {
         self.kinds().any(|known| known == kind)
     }
 
@@ -202,7 +202,7 @@ impl Shape {
     }
 
     fn prepared(&self, detail: Detail) -> Body {
-        let model = prepare(&self.mesh.for_decomposition(), detail).expect("a closed mesh");
+        let model = prepare(&self.mesh.to_triangle_mesh(), detail).expect("a closed mesh");
         let model = model.with_hull_tree().expect("a hull tree");
         model.body().expect("a good body")
     }
@@ -260,7 +260,7 @@ impl Mesh {
     ///
     /// # Panics
     /// If the mesh has no faces, or a coordinate that is not finite.
-    pub fn for_decomposition(&self) -> TriangleMesh {
+    pub fn to_triangle_mesh(&self) -> TriangleMesh {
         TriangleMesh::new(self.vertices.clone(), &self.faces).expect("a mesh")
     }
 

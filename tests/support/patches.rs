@@ -136,7 +136,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
         if let FacetOrigin::Face(id) = facet.origin {
             named.push(id);
             let corners = facet.corners.iter().map(|&c| polytope.points[c as usize]);
-            if !is_loop(
+            if !is_same_cycle(
                 &corners.collect::<Vec<_>>(),
                 outward_corners(mesh, id, inside_out)?,
             ) {
@@ -146,17 +146,21 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
     }
     for it in &polytope.faces {
         named.push(it.id);
-        if !is_loop(&it.corners, outward_corners(mesh, it.id, inside_out)?) {
+        if !is_same_cycle(&it.corners, outward_corners(mesh, it.id, inside_out)?) {
             return Err(format!("{it:?} is not face {}", it.id));
         }
-        let holds = |corners: &[u32]| it.corners.iter().all(|&p| lies_on(polytope, corners, p));
+        let holds = |corners: &[u32]| {
+            it.corners
+                .iter()
+                .all(|&p| polygon_contains_point(polytope, corners, p))
+        };
         let is_whole = |facet: &&Facet| matches!(facet.origin, FacetOrigin::Face(_));
         let mut others = polytope.facets.iter().filter(|it| !is_whole(it));
         if !others.any(|facet| holds(&facet.corners)) {
             return Err(format!("{it:?} lies on no facet that is not a face"));
         }
     }
-    check_merged(polytope)?;
+    check_merged_facets(polytope)?;
     named.sort_unstable();
     let mut faces = claim.faces.to_vec();
     faces.sort_unstable();
@@ -170,7 +174,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> CheckResult {
 }
 
 /// Checks that every point of a merged facet is on one of its faces.
-fn check_merged(polytope: &Polytope) -> CheckResult {
+fn check_merged_facets(polytope: &Polytope) -> CheckResult {
     let merged = |facet: &&Facet| facet.origin == FacetOrigin::Faces;
     for facet in polytope.facets.iter().filter(merged) {
         let corners: Vec<DVec3> = facet
@@ -204,14 +208,14 @@ fn outward_corners(mesh: &Mesh, id: u32, inside_out: bool) -> Result<[DVec3; 3],
 }
 
 /// Returns true if a loop of vertices is the triangle `a b c`, with any start.
-fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
+fn is_same_cycle(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()
         .any(|it| corners == it)
 }
 
 /// Returns true if a convex polygon of the polytope contains a point.
-fn lies_on(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
+fn polygon_contains_point(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
     let spot = ConvexCombination::mean([p]);
     triangles(polytope, corners).any(|triangle| triangle_contains_point(triangle, &spot))
 }

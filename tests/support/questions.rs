@@ -58,7 +58,7 @@ pub struct TrajectoryAnswers {
     /// The answer about the least distance.
     pub closest: Answer,
     /// A required distance, and the answer to whether the bodies keep it.
-    pub cleared: (f64, Answer),
+    pub clearance_check: (f64, Answer),
     /// The answer about the first and the last contact.
     pub interval: Answer,
 }
@@ -74,7 +74,7 @@ impl Oracle {
 }
 
 /// Calls `check` with the answers of every oracle that supports the bodies, for all bodies of the query.
-pub fn for_each_answers(
+pub fn for_each_answer_set(
     query: &Query,
     config: &Settings,
     mut check: impl FnMut(&Bodies, OracleSetup, Answers),
@@ -90,8 +90,8 @@ pub fn for_each_answers(
     });
 }
 
-/// Calls `check` with the answers for user-defined trajectories, as [`for_each_answers`] does.
-pub fn for_each_trajectory_answers(
+/// Calls `check` with the answers for user-defined trajectories, as [`for_each_answer_set`] does.
+pub fn for_each_trajectory_answer_set(
     query: &Query,
     config: &Settings,
     mut check: impl FnMut(&Bodies, OracleSetup, TrajectoryAnswers),
@@ -190,7 +190,7 @@ fn trajectory_answers<O: DistanceOracle>(
         first: (best_first.first_contact(&along, &mut oracle)).expect(well_posed),
         any: (depth_first.any_contact(&along, &mut oracle)).expect(well_posed),
         closest,
-        cleared: (required, cleared),
+        clearance_check: (required, cleared),
         interval: (best_first.contact_interval(&along, &mut oracle)).expect(well_posed),
     }
 }

@@ -10,13 +10,13 @@ use std::process::ExitCode;
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 /// An OBJ of a cube of quadrilaterals, so that patches have more than one triangle.
-const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
+const CUBE_OBJ: &str = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
      f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 /// An OBJ of a dented tetrahedron with an unused vertex and a duplicate face, which the report mentions.
-const DENTED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
+const DENTED_TETRAHEDRON_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 /// An OBJ of an open sheet with a face without area.
-const SHEET: &str = "v 0 0 0\nv 2 0 0\nv 1 0 0\nv 0 1 .5\nf 1 2 3\nf 1 3 4\nf 3 2 4\n";
+const OPEN_SHEET_OBJ: &str = "v 0 0 0\nv 2 0 0\nv 1 0 0\nv 0 1 .5\nf 1 2 3\nf 1 3 4\nf 3 2 4\n";
 
 fn main() -> ExitCode {
     match write() {
@@ -32,14 +32,22 @@ fn write() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("name a folder")?);
     let patches = Detail::Patches(Default::default());
     let all = [
-        ("sheet-triangles", SHEET, Detail::Triangles),
+        ("sheet-triangles", OPEN_SHEET_OBJ, Detail::Triangles),
         ("tetrahedron-triangles", TETRAHEDRON, Detail::Triangles),
         ("tetrahedron-hull", TETRAHEDRON, Detail::Hull),
-        ("cube-hull", CUBE, Detail::Hull),
-        ("cube-patches", CUBE, patches),
-        ("dented-triangles", DENTED, Detail::Triangles),
-        ("dented-patches", DENTED, patches),
-        ("dented-hulls", DENTED, Detail::Vhacd { hulls: 2 }),
+        ("cube-hull", CUBE_OBJ, Detail::Hull),
+        ("cube-patches", CUBE_OBJ, patches),
+        (
+            "dented-triangles",
+            DENTED_TETRAHEDRON_OBJ,
+            Detail::Triangles,
+        ),
+        ("dented-patches", DENTED_TETRAHEDRON_OBJ, patches),
+        (
+            "dented-hulls",
+            DENTED_TETRAHEDRON_OBJ,
+            Detail::Vhacd { hulls: 2 },
+        ),
     ];
     for (name, file, detail) in all {
         let model = prepare(

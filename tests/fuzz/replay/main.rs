@@ -13,56 +13,56 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// The number of random changes of each corpus file set, which take less than a second each.
-const CHANGES: u64 = 100;
+const CHANGED_FILES_PER_CORPUS: u64 = 100;
 
 #[test]
 fn query() {
-    replay(targets::QUERY);
+    replay_target(targets::QUERY);
 }
 
 #[test]
 fn stored() {
-    replay(targets::STORED);
+    replay_target(targets::STORED_BODY);
 }
 
 #[test]
 fn obj() {
-    replay(targets::OBJ);
+    replay_target(targets::OBJ);
 }
 
 #[test]
 fn stl() {
-    replay(targets::STL);
+    replay_target(targets::STL);
 }
 
 #[test]
 fn ply() {
-    replay(targets::PLY);
+    replay_target(targets::PLY);
 }
 
 #[test]
 fn off() {
-    replay(targets::OFF);
+    replay_target(targets::OFF);
 }
 
 #[test]
 fn gltf() {
-    replay(targets::GLTF);
+    replay_target(targets::GLTF);
 }
 
 #[test]
 fn threemf() {
-    replay(targets::THREEMF);
+    replay_target(targets::THREEMF);
 }
 
 #[test]
 fn motions() {
-    replay(targets::MOTIONS);
+    replay_target(targets::MOTIONS);
 }
 
 #[test]
 fn paths() {
-    replay(targets::PATHS);
+    replay_target(targets::PATHS);
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn every_corpus_has_a_target() {
 /// A lock that lets one target run at a time, because the memory limit holds for the whole process.
 static TARGET_LOCK: Mutex<()> = Mutex::new(());
 
-fn replay(target: Target) {
+fn replay_target(target: Target) {
     let _one = TARGET_LOCK.lock().unwrap_or_else(PoisonError::into_inner);
     if let Ok(file) = std::env::var("CCD_FUZZ_FILE") {
         return (target.run)(&fs::read(file).expect("a readable file"));
@@ -95,7 +95,7 @@ fn replay(target: Target) {
         .collect();
     assert!(!corpus.is_empty(), "no corpus of {}", target.name);
     let mut mutator = Mutator::new(number_from_environment("CCD_TEST_SEED", 1), &corpus);
-    for number in 0..CHANGES * number_from_environment("CCD_TEST_CASES", 1) {
+    for number in 0..CHANGED_FILES_PER_CORPUS * number_from_environment("CCD_TEST_CASES", 1) {
         let bytes = mutator.next_file();
         run(target, &bytes, &format!("change {number}"));
     }

@@ -13,11 +13,11 @@ pub struct Case {
     pub duration: f64,
     pub config: Settings,
     /// The expected result, as far as the generator knows it.
-    pub expected: Expect,
+    pub expected: Expectation,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Expect {
+pub enum Expectation {
     Nothing,
     /// The bodies separate, or keep their distance.
     Free,
@@ -37,7 +37,7 @@ pub struct Shape {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Form {
     #[default]
-    Soup,
+    TriangleSoup,
     /// The mesh is closed, oriented outward and without flaws, so that patches can be made of it.
     Solid,
     /// The mesh bounds a convex solid.
@@ -91,14 +91,14 @@ impl Shape {
         self.vertices.extend(&other.vertices);
         self.faces
             .extend(other.faces.iter().map(|f| f.map(|v| v + base)));
-        self.form = Form::Soup;
+        self.form = Form::TriangleSoup;
         self
     }
 
     /// Returns the shape with all faces reversed.
     pub fn flipped(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
-        self.form = Form::Soup;
+        self.form = Form::TriangleSoup;
         self
     }
 

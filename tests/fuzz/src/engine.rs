@@ -69,8 +69,8 @@ impl Bodies {
 /// Whether bodies have hull trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trees {
-    Without,
-    With,
+    NotBuilt,
+    Built,
 }
 
 fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
@@ -93,8 +93,8 @@ fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
         .or_else(|_| prepare(&mesh, Detail::Triangles))
         .map_err(|e| e.to_string())?;
     let model = match trees {
-        Trees::With => model.with_hull_tree().map_err(|e| e.to_string())?,
-        Trees::Without => model,
+        Trees::Built => model.with_hull_tree().map_err(|e| e.to_string())?,
+        Trees::NotBuilt => model,
     };
     model.body().map_err(|e| e.to_string())
 }
@@ -118,8 +118,8 @@ impl Method {
 
     pub fn trees(self) -> Trees {
         match self {
-            Method::Fast => Trees::With,
-            _ => Trees::Without,
+            Method::Fast => Trees::Built,
+            _ => Trees::NotBuilt,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 mod start;
 
-use crate::case::{Case, Expect};
+use crate::case::{Case, Expectation};
 use crate::double::Double;
 use crate::engine::{Bodies, Method};
 use crate::nearest::{Triangle, distance, penetration_depth};
@@ -14,7 +14,7 @@ use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
 /// The allowed decrease of the distance of released bodies, in units of the rounding bound.
-const RESTING: f64 = 1.0;
+const MAX_RESTING_DECREASE: f64 = 1.0;
 
 /// A kind of fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,19 +26,19 @@ pub enum Fault {
     /// A contact is reported although the bodies are farther apart than margin and tolerance.
     FalseContact,
     /// Touching or overlap at the start is reported although the bodies are apart.
-    FalseStart,
+    FalseStartContact,
     /// The bodies overlap at the start, which is not reported.
     MissedOverlap,
     /// A reported lower bound is above the distance.
     LowerBound,
     /// A reported upper bound is below the distance.
-    UpperBound,
+    WrongUpperBound,
     /// A witness point is not on its body.
     Witness,
     /// A proven gap is larger than the distance.
     Clearance,
     /// The bodies of an unresolved query were in contact before the certified time.
-    NotSafe,
+    FalseSafeTime,
     /// The answers of two methods contradict each other.
     Disagreement,
     Panic,
@@ -87,7 +87,9 @@ impl<'a> Judge<'a> {
             .iter()
             .map(|g| self.proven_free_until(&g.answer.outcome));
         let until = times.fold(0.0, larger);
-        let (evidence, proven) = self.scene.first_below(self.contact_limit(given), until);
+        let (evidence, proven) = self
+            .scene
+            .first_time_below(self.contact_limit(given), until);
         let mut faults = Vec::new();
         for (k, one) in given.iter().enumerate() {
             let found = self.faults_of_answer(one, evidence).into_iter();
@@ -135,7 +137,7 @@ impl<'a> Judge<'a> {
 
     fn faults_of_answer(&self, given: &GivenAnswer<'_>, evidence: Option<Evidence>) -> Faults {
         let answer = &given.answer;
-        let mut faults = self.check_expected(&answer.outcome);
+        let mut faults = self.check_expected_outcome(&answer.outcome);
         let mut say = |fault, text| faults.push((fault, text));
         let margin = self.case.config.margin;
         let proven = self.proven_free_until(&answer.outcome);
@@ -180,11 +182,14 @@ impl<'a> Judge<'a> {
             }
             Outcome::Unresolved(Unresolved { safe_until, .. }) => {
                 if overlaps && safe_until > 0.0 {
-                    say(Fault::NotSafe, format!("overlapping, {:?}", answer.outcome));
+                    say(
+                        Fault::FalseSafeTime,
+                        format!("overlapping, {:?}", answer.outcome),
+                    );
                 }
                 early
                     .into_iter()
-                    .for_each(|e| say(Fault::NotSafe, known(e)));
+                    .for_each(|e| say(Fault::FalseSafeTime, known(e)));
             }
             Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 unreachable!("no outcome of a first contact")
@@ -196,21 +201,24 @@ impl<'a> Judge<'a> {
     /// Returns the distance below which the bodies count as nearer than allowed.
     fn required_distance(&self, margin: f64) -> f64 {
         match self.case.config.start {
-            StartPolicy::Leave => smaller(margin, self.start.distance - RESTING * self.rounding),
+            StartPolicy::Leave => smaller(
+                margin,
+                self.start.distance - MAX_RESTING_DECREASE * self.rounding,
+            ),
             StartPolicy::Report => margin,
         }
     }
 
-    fn check_expected(&self, outcome: &Outcome) -> Faults {
+    fn check_expected_outcome(&self, outcome: &Outcome) -> Faults {
         let wrong = match (self.case.expected, *outcome) {
-            (_, Outcome::Unresolved(_)) | (Expect::Nothing, _) => None,
-            (Expect::Free, Outcome::Free { .. }) => None,
-            (Expect::Free, _) => Some(Fault::FalseContact),
-            (Expect::ContactBy(t), Outcome::Contact { time, .. }) => {
+            (_, Outcome::Unresolved(_)) | (Expectation::Nothing, _) => None,
+            (Expectation::Free, Outcome::Free { .. }) => None,
+            (Expectation::Free, _) => Some(Fault::FalseContact),
+            (Expectation::ContactBy(t), Outcome::Contact { time, .. }) => {
                 (time > t).then_some(Fault::Late)
             }
-            (Expect::ContactBy(_), Outcome::Free { .. }) => Some(Fault::Missed),
-            (Expect::ContactBy(_), _) => None,
+            (Expectation::ContactBy(_), Outcome::Free { .. }) => Some(Fault::Missed),
+            (Expectation::ContactBy(_), _) => None,
         };
         let text = || format!("expected {:?}, {outcome:?}", self.case.expected);
         wrong.into_iter().map(|fault| (fault, text())).collect()
@@ -233,12 +241,12 @@ impl<'a> Judge<'a> {
             let fault = if time > 0.0 {
                 Fault::FalseContact
             } else {
-                Fault::FalseStart
+                Fault::FalseStartContact
             };
             faults.push((fault, text(d)));
         }
         if d > found.upper + error && !inside() {
-            faults.push((Fault::UpperBound, text(d)));
+            faults.push((Fault::WrongUpperBound, text(d)));
         }
         // At the start this is the distance of the bodies, later that of the pair.
         let lower = if time > 0.0 {
@@ -345,7 +353,7 @@ impl<'a> Judge<'a> {
             Overlap::BInsideA(p) => !self.is_inside(p.to_array(), 0),
         };
         wrong
-            .then(|| (Fault::FalseStart, text()))
+            .then(|| (Fault::FalseStartContact, text()))
             .into_iter()
             .collect()
     }

@@ -96,7 +96,7 @@ impl RawMotion {
             Goal::End(end) => {
                 let velocity = (end.point(centre) - start) * per_time;
                 let (axis, angle) =
-                    shortest_turn(self.start.unit_quaternion(), end.unit_quaternion());
+                    shortest_rotation(self.start.unit_quaternion(), end.unit_quaternion());
                 (velocity, axis, angle * per_time)
             }
         };
@@ -121,7 +121,7 @@ impl RawMotion {
 }
 
 /// Returns the axis and the angle of the rotation `end · start⁻¹`.
-fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
+fn shortest_rotation([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
     let sin = v * w - u * end[0] - v.cross(u);
@@ -172,7 +172,7 @@ impl Track {
     }
 
     /// Returns the velocity in the world of a point at `arm` from the centre, rounded.
-    pub fn velocity_of(&self, arm: Vector<f64>) -> Vector<f64> {
+    pub fn point_velocity(&self, arm: Vector<f64>) -> Vector<f64> {
         self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
     }
 }

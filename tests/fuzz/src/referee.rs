@@ -209,7 +209,7 @@ impl Scene {
 
     /// Returns the earliest time found, up to `until`, at which the distance is below the limit. The flag is true if
     /// none was missed, except for f64's rounding.
-    pub fn first_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
+    pub fn first_time_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
         Search::new(self, limit, until).run()
     }
 }

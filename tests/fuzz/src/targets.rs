@@ -19,7 +19,16 @@ pub struct Target {
 
 /// All fuzz targets.
 pub const ALL: [Target; 10] = [
-    QUERY, STORED, OBJ, STL, PLY, OFF, GLTF, THREEMF, MOTIONS, PATHS,
+    QUERY,
+    STORED_BODY,
+    OBJ,
+    STL,
+    PLY,
+    OFF,
+    GLTF,
+    THREEMF,
+    MOTIONS,
+    PATHS,
 ];
 
 /// Decodes a query, answers it by several methods, and judges the answers by the referee.
@@ -29,7 +38,7 @@ pub const QUERY: Target = Target {
 };
 
 /// Loads a stored body after repairing its frame, and runs a few queries on it.
-pub const STORED: Target = Target {
+pub const STORED_BODY: Target = Target {
     name: "stored",
     run: stored::run,
 };
@@ -67,7 +76,7 @@ pub const GLTF: Target = Target {
 /// Reads a mesh as 3MF, packed or the model alone, and makes bodies of it.
 pub const THREEMF: Target = Target {
     name: "threemf",
-    run: mesh::run_packed,
+    run: mesh::run_3mf,
 };
 
 /// Reads a table of motions.

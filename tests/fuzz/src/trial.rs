@@ -196,7 +196,7 @@ pub fn shrink(case: &Case, failure: &Failure) -> Case {
         while face < case.shapes[side].faces.len() && case.shapes[side].faces.len() > 1 {
             let mut fewer = case.clone();
             fewer.shapes[side].faces.remove(face);
-            fewer.shapes[side].form = Form::Soup;
+            fewer.shapes[side].form = Form::TriangleSoup;
             fewer.shapes[side] = without_unused_vertices(&fewer.shapes[side]);
             if fails(&fewer) {
                 case = fewer;

@@ -47,12 +47,12 @@ impl<N: Number> Vector<N> {
 
     #[inline]
     pub fn rounded(self) -> Vector<f64> {
-        self.each(N::rounded)
+        self.map_components(N::rounded)
     }
 
     /// Applies a function to each component. Unlike `map` of arrays, compilers unroll it.
     #[inline]
-    fn each<M>(self, change: impl Fn(N) -> M) -> Vector<M> {
+    fn map_components<M>(self, change: impl Fn(N) -> M) -> Vector<M> {
         let [x, y, z] = self.0;
         Vector([change(x), change(y), change(z)])
     }
@@ -106,7 +106,7 @@ impl<N: Number> Vector<N> {
     /// Returns the largest absolute value of a component, rounded.
     #[inline]
     pub fn largest(self) -> f64 {
-        let Vector([x, y, z]) = self.each(|x| x.rounded().abs());
+        let Vector([x, y, z]) = self.map_components(|x| x.rounded().abs());
         larger(larger(x, y), z)
     }
 }
@@ -152,7 +152,7 @@ impl<N: Number> Neg for Vector<N> {
 
     #[inline]
     fn neg(self) -> Self {
-        self.each(|x| -x)
+        self.map_components(|x| -x)
     }
 }
 
@@ -161,6 +161,6 @@ impl<N: Number> Mul<N> for Vector<N> {
 
     #[inline]
     fn mul(self, s: N) -> Self {
-        self.each(|x| x * s)
+        self.map_components(|x| x * s)
     }
 }

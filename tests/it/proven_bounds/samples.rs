@@ -20,7 +20,7 @@ pub(super) struct Scene {
     pub(super) kinds: [usize; 2],
     pub(super) solids: [Solid; 2],
     pub(super) bodies: [Body; 2],
-    pub(super) ways: [Box<dyn Trajectory>; 2],
+    pub(super) trajectories: [Box<dyn Trajectory>; 2],
 }
 
 impl Scene {
@@ -29,19 +29,19 @@ impl Scene {
         let kinds = [(); 2].map(|()| rng.random_range(0..KINDS.len()));
         Scene {
             bodies: [0, 1].map(|k| solids[k].body()),
-            ways: kinds.map(|kind| courses::draw(rng, kind, REACH)),
+            trajectories: kinds.map(|kind| courses::draw(rng, kind, REACH)),
             kinds,
             solids,
         }
     }
 
     pub(super) fn moving(&self) -> [MovingBody<'_>; 2] {
-        [0, 1].map(|k| (&self.bodies[k], self.ways[k].as_ref()).into())
+        [0, 1].map(|k| (&self.bodies[k], self.trajectories[k].as_ref()).into())
     }
 
     pub(super) fn distance(&self, time: f64) -> f64 {
         let [a, b] = [0, 1].map(|k| {
-            let pose = self.ways[k].pose(time).expect("a pose");
+            let pose = self.trajectories[k].pose(time).expect("a pose");
             self.solids[k].placed(&pose)
         });
         a.distance(&b)
@@ -49,10 +49,12 @@ impl Scene {
 
     /// Samples the distance at even times, at and next to all knots, and more finely around the least distance.
     pub(super) fn samples(&self) -> Samples {
-        const EVEN: u32 = 48;
-        let mut times: Vec<f64> = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN)).collect();
+        const EVEN_INTERVALS: u32 = 48;
+        let mut times: Vec<f64> = (0..=EVEN_INTERVALS)
+            .map(|k| f64::from(k) / f64::from(EVEN_INTERVALS))
+            .collect();
         let mut corners = Vec::new();
-        for way in &self.ways {
+        for way in &self.trajectories {
             corners_of(way.as_ref(), [0.0, 1.0], &mut corners);
         }
         for corner in corners {

@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 pub(super) fn scenes() -> Vec<Scene> {
     let mut out = vec![
         falling_cube(),
-        bullet(),
+        bullet_and_sheet(),
         hooks_closing(),
         hooks_parting(),
         linked_tori(),
@@ -78,7 +78,7 @@ pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
 }
 
 /// Returns T13: a small fast cube that hits a thin sheet.
-fn bullet() -> Scene {
+fn bullet_and_sheet() -> Scene {
     let bullet = cuboid(DVec3::splat(0.005));
     let bullet = MovingShape::straight(bullet, DVec3::ZERO, 1000.0 * DVec3::X);
     let paper = MovingShape::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);

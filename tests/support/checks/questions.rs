@@ -12,7 +12,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// Describes how the answer is wrong.
-    pub fn check_any(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
+    pub fn check_any_contact(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
                 self.check_near_contact(time, answer.tolerance, &contact)?;
@@ -35,7 +35,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// Describes how the answer is wrong.
-    pub fn check_closest(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
+    pub fn check_closest_approach(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         let rounding = self.query.rounding();
         let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
         match answer.outcome {
@@ -112,7 +112,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// Describes how the answer is wrong.
-    pub fn check_interval(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
+    pub fn check_contact_interval(&self, answer: &Answer, bodies: &Bodies) -> CheckResult {
         match answer.outcome {
             Outcome::Interval { first, last } => {
                 self.check_not_late(first.time)?;

@@ -10,9 +10,9 @@ use rand_pcg::Pcg64;
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
     /// The number of points on each facet, in addition to its mean and its edges' middles.
-    pub per_facet: usize,
+    pub points_per_facet: usize,
     /// The number of points of each polytope on segments between two of its corners.
-    pub chords: usize,
+    pub points_on_chords: usize,
     /// The number of points of each polytope that combine four of its corners.
     pub inner_points: usize,
 }
@@ -20,15 +20,15 @@ pub struct Effort {
 impl Effort {
     /// The numbers of points for models of a few hundred faces.
     pub const THOROUGH: Effort = Effort {
-        per_facet: 6,
-        chords: 24,
+        points_per_facet: 6,
+        points_on_chords: 24,
         inner_points: 16,
     };
 
     /// The numbers of points for models of thousands of faces.
     pub const QUICK: Effort = Effort {
-        per_facet: 1,
-        chords: 4,
+        points_per_facet: 1,
+        points_on_chords: 4,
         inner_points: 4,
     };
 }
@@ -50,9 +50,9 @@ pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<ConvexComb
             let next = corners[(k + 1) % corners.len()];
             out.push(ConvexCombination::mean([corners[k], next]));
         }
-        out.extend((0..effort.per_facet).map(|_| random_combination(&mut rng, &corners, 3)));
+        out.extend((0..effort.points_per_facet).map(|_| random_combination(&mut rng, &corners, 3)));
     }
-    out.extend((0..effort.chords).map(|_| random_combination(&mut rng, points, 2)));
+    out.extend((0..effort.points_on_chords).map(|_| random_combination(&mut rng, points, 2)));
     out.extend((0..effort.inner_points).map(|_| random_combination(&mut rng, points, 4)));
     out
 }

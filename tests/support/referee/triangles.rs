@@ -11,11 +11,11 @@ pub(super) struct PosedMesh<'a> {
     points: Vec<DVec3>,
     faces: Vec<Face>,
     boxes: Vec<Bounds>,
-    group_boxes: Vec<Bounds>,
+    face_group_boxes: Vec<Bounds>,
 }
 
 /// The number of faces that share a box in the coarser of two levels.
-const GROUP_SIZE: usize = 8;
+const FACES_PER_GROUP: usize = 8;
 
 impl<'a> PosedMesh<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
@@ -29,7 +29,7 @@ impl<'a> PosedMesh<'a> {
         PosedMesh {
             mesh,
             faces: mesh.faces.iter().map(face).collect(),
-            group_boxes: boxes.chunks(GROUP_SIZE).map(group).collect(),
+            face_group_boxes: boxes.chunks(FACES_PER_GROUP).map(group).collect(),
             boxes,
             points,
         }
@@ -50,8 +50,8 @@ impl<'a> PosedMesh<'a> {
     /// Returns the least distance over all pairs of faces; 0 if two faces intersect.
     pub(super) fn distance(&self, other: &PosedMesh<'_>) -> f64 {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for (i, a) in self.group_boxes.iter().enumerate() {
-            for (j, b) in other.group_boxes.iter().enumerate() {
+        for (i, a) in self.face_group_boxes.iter().enumerate() {
+            for (j, b) in other.face_group_boxes.iter().enumerate() {
                 pairs.push((a.distance_squared(b), i, j));
             }
         }
@@ -61,12 +61,17 @@ impl<'a> PosedMesh<'a> {
             if bound > best || best == 0.0 {
                 break;
             }
-            best = lesser(best, self.group_distance_squared(other, [i, j], best));
+            best = lesser(best, self.face_group_distance_squared(other, [i, j], best));
         }
         best.sqrt()
     }
 
-    fn group_distance_squared(&self, other: &PosedMesh<'_>, groups: [usize; 2], limit: f64) -> f64 {
+    fn face_group_distance_squared(
+        &self,
+        other: &PosedMesh<'_>,
+        groups: [usize; 2],
+        limit: f64,
+    ) -> f64 {
         let mut best = limit;
         for i in members(groups[0], self.boxes.len()) {
             for j in members(groups[1], other.boxes.len()) {
@@ -80,7 +85,7 @@ impl<'a> PosedMesh<'a> {
 }
 
 fn members(group: usize, count: usize) -> std::ops::Range<usize> {
-    group * GROUP_SIZE..((group + 1) * GROUP_SIZE).min(count)
+    group * FACES_PER_GROUP..((group + 1) * FACES_PER_GROUP).min(count)
 }
 
 /// Returns the squared distance of two triangles over all vertex-face, vertex-edge and edge-edge pairs; 0 if an edge

@@ -28,7 +28,7 @@ impl RandomSource {
         self.0.random_range(range)
     }
 
-    pub fn chance(&mut self, share: f64) -> bool {
+    pub fn bool_with_probability(&mut self, share: f64) -> bool {
         self.0.random::<f64>() < share
     }
 
@@ -57,7 +57,7 @@ impl RandomSource {
     }
 
     pub fn pose(&mut self, position: [f64; 3]) -> RawPose {
-        let quaternion = if self.chance(0.3) {
+        let quaternion = if self.bool_with_probability(0.3) {
             [1.0, 0.0, 0.0, 0.0]
         } else {
             self.quaternion()

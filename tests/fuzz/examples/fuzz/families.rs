@@ -11,7 +11,7 @@ mod scales;
 mod shells;
 mod turns;
 
-use crate::case::{Case, Expect, Shape};
+use crate::case::{Case, Expectation, Shape};
 use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use ccd_core::Settings;
@@ -80,7 +80,7 @@ fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: 
         courses,
         duration: 1.0,
         config,
-        expected: Expect::Nothing,
+        expected: Expectation::Nothing,
     }
 }
 
@@ -89,7 +89,7 @@ fn motion_at_rest() -> RawMotion {
     RawMotion::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
-fn random_tolerance(draw: &mut RandomSource) -> Settings {
+fn settings_with_random_tolerance(draw: &mut RandomSource) -> Settings {
     Settings {
         tolerance: draw.log_uniform(1e-9..1e-2),
         ..Settings::DEFAULT

@@ -11,15 +11,15 @@ use std::fmt;
 pub struct Tally {
     queries: u64,
     answers: u64,
-    by_method: BTreeMap<String, u64>,
+    answers_by_method: BTreeMap<String, u64>,
     /// The number of answers by status, for the default method.
-    statuses: BTreeMap<String, u64>,
+    status_counts: BTreeMap<String, u64>,
     /// The number of unresolved answers by reason, for all methods.
     unresolved: BTreeMap<String, u64>,
     /// The number of the first query with each reason.
-    first_queries: BTreeMap<String, u64>,
-    refused: BTreeMap<String, u64>,
-    faults: BTreeMap<Fault, u64>,
+    first_query_numbers: BTreeMap<String, u64>,
+    refusal_counts: BTreeMap<String, u64>,
+    fault_counts: BTreeMap<Fault, u64>,
     /// The number of queries for which the referee's search was not complete.
     sampled: u64,
 }
@@ -32,16 +32,19 @@ impl Tally {
         self.sampled += u64::from(!trial.proven);
         for (kind, method) in &trial.methods {
             *self
-                .by_method
+                .answers_by_method
                 .entry(format!("{kind} {method}"))
                 .or_default() += 1;
         }
         if let Some(outcome) = trial.outcomes.first() {
-            *self.statuses.entry(status(outcome).to_owned()).or_default() += 1;
+            *self
+                .status_counts
+                .entry(status(outcome).to_owned())
+                .or_default() += 1;
         }
         for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.methods) {
             if let Outcome::Unresolved(Unresolved { limit: reason, .. }) = outcome {
-                self.first_queries
+                self.first_query_numbers
                     .entry(format!("{reason:?}"))
                     .or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
@@ -53,11 +56,11 @@ impl Tally {
                 .split(' ')
                 .filter(|w| !w.contains(|c: char| c.is_numeric()))
                 .collect();
-            *self.refused.entry(words.join(" ")).or_default() += 1;
+            *self.refusal_counts.entry(words.join(" ")).or_default() += 1;
         }
         let mut first = Vec::new();
         for failure in &trial.failures {
-            let count = self.faults.entry(failure.fault).or_default();
+            let count = self.fault_counts.entry(failure.fault).or_default();
             *count += 1;
             if *count <= print as u64 {
                 first.push(failure);
@@ -67,13 +70,13 @@ impl Tally {
     }
 
     pub fn has_failures(&self) -> bool {
-        !self.faults.is_empty()
+        !self.fault_counts.is_empty()
     }
 
     fn share(&self, statuses: &[&str]) -> f64 {
         let count = statuses
             .iter()
-            .filter_map(|&s| self.statuses.get(s))
+            .filter_map(|&s| self.status_counts.get(s))
             .sum::<u64>();
         count as f64 / self.queries as f64
     }
@@ -115,18 +118,18 @@ impl fmt::Display for Tally {
             "{queries} queries, {answers} answers, {sampled} searched by samples"
         )?;
         let maps = [
-            ("by the default", &self.statuses),
-            ("asked", &self.by_method),
+            ("by the default", &self.status_counts),
+            ("asked", &self.answers_by_method),
             ("unresolved", &self.unresolved),
-            ("first query, for --only", &self.first_queries),
-            ("refused", &self.refused),
+            ("first query, for --only", &self.first_query_numbers),
+            ("refused", &self.refusal_counts),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {
             let all: Vec<String> = map.iter().map(|(k, n)| format!("{k}: {n}")).collect();
             writeln!(f, "  {name}: {}", all.join("; "))?;
         }
         if self.has_failures() {
-            write!(f, "  FAULTS: {:?}", self.faults)
+            write!(f, "  FAULTS: {:?}", self.fault_counts)
         } else {
             write!(f, "  no fault")
         }

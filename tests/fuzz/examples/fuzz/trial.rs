@@ -30,7 +30,7 @@ fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
     let mut asked = vec![(Kind::Triangles, Method::Direct)];
     let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
     let small = case.shapes.iter().all(|s| s.faces.len() < 200);
-    if draw.chance(0.4) {
+    if draw.bool_with_probability(0.4) {
         asked.push((Kind::Triangles, draw.pick(&[Method::Gjk, Method::Vmarch])));
     }
     let pieces = match (form(Form::Convex), form(Form::Solid)) {
@@ -38,7 +38,7 @@ fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
         (false, true) => Kind::Patches,
         _ => Kind::Triangles,
     };
-    if pieces != Kind::Triangles && draw.chance(0.6) {
+    if pieces != Kind::Triangles && draw.bool_with_probability(0.6) {
         asked.push((
             pieces,
             draw.pick(&[Method::Direct, Method::Gjk, Method::Vmarch]),
@@ -49,11 +49,11 @@ fn methods(draw: &mut RandomSource, case: &Case) -> Vec<(Kind, Method)> {
         .iter()
         .map(|c| c.rotation_angle(case.duration))
         .sum();
-    if small && turn < 20.0 && draw.chance(0.15) {
+    if small && turn < 20.0 && draw.bool_with_probability(0.15) {
         asked.push((draw.pick(&[Kind::Triangles, pieces]), Method::Naive));
     }
     // Trees need exact predicates, which the finest coordinates do not allow.
-    if small && turn < 20.0 && draw.chance(0.1) {
+    if small && turn < 20.0 && draw.bool_with_probability(0.1) {
         asked.push((pieces, Method::Fast));
     }
     asked

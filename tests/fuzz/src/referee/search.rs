@@ -181,8 +181,8 @@ impl<'a> Search<'a> {
         let middles = [snapshots[0].arm_of(p.middle), snapshots[1].arm_of(q.middle)];
         let apart = (middles[1] + between - middles[0]).length().rounded();
         let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
-        let velocity =
-            a.track.velocity_of(middles[0].rounded()) - b.track.velocity_of(middles[1].rounded());
+        let velocity = a.track.point_velocity(middles[0].rounded())
+            - b.track.point_velocity(middles[1].rounded());
         let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
         let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
         GapRate {

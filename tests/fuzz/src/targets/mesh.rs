@@ -37,7 +37,7 @@ pub(super) fn run_scene(format: Format, bytes: &[u8]) {
 }
 
 /// Reads a 3MF: the bytes are a package, or else the model of a generated package.
-pub(super) fn run_packed(bytes: &[u8]) {
+pub(super) fn run_3mf(bytes: &[u8]) {
     run_scene(Format::ThreeMf, bytes);
     run_scene(Format::ThreeMf, &package(bytes));
 }
@@ -60,7 +60,7 @@ fn read(format: Format, bytes: &[u8], memory: usize) {
             }
             details
                 .into_iter()
-                .for_each(|detail| check_prepared(&mesh, detail));
+                .for_each(|detail| check_prepared_body(&mesh, detail));
         }),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
@@ -104,7 +104,7 @@ fn package(model: &[u8]) -> Vec<u8> {
     pack().expect("memory takes all bytes")
 }
 
-fn check_prepared(mesh: &TriangleMesh, detail: Detail) {
+fn check_prepared_body(mesh: &TriangleMesh, detail: Detail) {
     match prepare(mesh, detail) {
         Ok(model) => bodies::check_storing(&model),
         Err(error) => assert!(!error.to_string().is_empty()),

@@ -13,7 +13,7 @@ const MEMORY: usize = 1 << 24;
 const MEMORY_PER_BYTE: usize = 1 << 11;
 
 pub(super) fn run(bytes: &[u8]) {
-    within_limits(bytes, || {
+    run_within_memory_limit(bytes, || {
         let whole = MotionTable::read(bytes);
         let slow = MotionTable::read(OneByteReader(bytes));
         match (whole, slow) {
@@ -28,7 +28,7 @@ pub(super) fn run(bytes: &[u8]) {
 }
 
 /// Runs a check of a small table within a memory limit.
-pub(super) fn within_limits(bytes: &[u8], check: impl FnOnce()) {
+pub(super) fn run_within_memory_limit(bytes: &[u8], check: impl FnOnce()) {
     if bytes.len() <= MAX_BYTES {
         memory::with_memory_limit(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
     }

@@ -1,6 +1,6 @@
 //! The fuzz target that reads tables of paths.
 
-use super::motions::{OneByteReader, within_limits};
+use super::motions::{OneByteReader, run_within_memory_limit};
 use rigid_ccd::table::courses::{CourseRow, Courses, Movements};
 use rigid_ccd::table::motions::{RowPosition, TableError};
 use rigid_ccd::table::paths::Grouping;
@@ -9,7 +9,7 @@ use std::io::Read;
 pub(super) fn run(bytes: &[u8]) {
     // Most headers are those of motions; one more column makes a table of paths.
     let paths = [b"t,", bytes].concat();
-    within_limits(bytes, || {
+    run_within_memory_limit(bytes, || {
         for bytes in [bytes, &paths] {
             for grouping in [Grouping::ById, Grouping::EachRow] {
                 check(bytes, grouping);

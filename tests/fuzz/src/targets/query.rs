@@ -35,7 +35,7 @@ pub(super) fn run(bytes: &[u8]) {
 
 /// Checks that other vector instructions give answers of the same bits, and that contacts can be listed.
 fn check_equal_bits(case: &Case) {
-    let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::Without) else {
+    let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::NotBuilt) else {
         return;
     };
     let answer = |instructions| {

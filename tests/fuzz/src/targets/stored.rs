@@ -16,7 +16,7 @@ const MEMORY_PER_BYTE: usize = 1 << 10;
 /// The length of the magic number and the version, which begin the file. The length of the payload and its checksum
 /// follow.
 const HEADER_BYTES: usize = 12;
-const LENGTH: usize = 8;
+const LENGTH_BYTES: usize = 8;
 const CHECKSUM_BYTES: usize = 4;
 
 /// The magic number and the version of this build's format.
@@ -41,7 +41,9 @@ pub(super) fn run(bytes: &[u8]) {
 /// Returns the file with the magic number, version, length and checksum that fit its payload.
 fn with_repaired_frame(bytes: &[u8]) -> Vec<u8> {
     let end = bytes.len().saturating_sub(CHECKSUM_BYTES);
-    let payload = bytes.get(HEADER_BYTES + LENGTH..end).unwrap_or_default();
+    let payload = bytes
+        .get(HEADER_BYTES + LENGTH_BYTES..end)
+        .unwrap_or_default();
     let mut file = HEADER.clone();
     file.extend((payload.len() as u64).to_le_bytes());
     file.extend(payload);

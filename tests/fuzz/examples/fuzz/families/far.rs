@@ -14,13 +14,13 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     };
     let bodies = [shapes::any_shape(draw), shapes::any_shape(draw)];
     let mut case = passing_case(draw, bodies, 0.0, config);
-    let far = if draw.chance(0.7) {
+    let far = if draw.bool_with_probability(0.7) {
         scale_array(draw.direction(), draw.log_uniform(1.0..1e12))
     } else {
         [0.0; 3]
     };
-    let whole = draw.chance(0.5);
-    case.duration = if draw.chance(0.5) {
+    let whole = draw.bool_with_probability(0.5);
+    case.duration = if draw.bool_with_probability(0.5) {
         1.0
     } else {
         draw.log_uniform(1e-6..1e6)
@@ -53,7 +53,7 @@ fn between_end_poses(
         1 => draw.point(),
         _ => scale_array(draw.direction(), draw.log_uniform(1.0..1e9)),
     };
-    if draw.chance(0.15) {
+    if draw.bool_with_probability(0.15) {
         let slow = |v: [f64; 3]| scale_array(v, 1.0 / duration);
         let goal = Goal::Velocities {
             linear: slow(linear),

@@ -1,7 +1,7 @@
 //! Draws queries of bodies in contact at the start that are released: they separate, slide, approach or rotate.
 
-use super::{motion_at_rest, random_tolerance};
-use crate::case::{Case, Expect, Shape};
+use super::{motion_at_rest, settings_with_random_tolerance};
+use crate::case::{Case, Expectation, Shape};
 use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::{RawMotion, RawPose};
 use crate::shapes;
@@ -10,7 +10,7 @@ use ccd_core::StartPolicy;
 pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let half = [(); 3].map(|()| draw.log_uniform(0.2..2.0));
     let floor = shapes::cuboid([8.0, 8.0, 0.5]).map(|[x, y, z]| [x, y, z - 0.5]);
-    let floor = if draw.chance(0.2) {
+    let floor = if draw.bool_with_probability(0.2) {
         floor.flipped()
     } else {
         floor
@@ -24,9 +24,9 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
             with_lowest_corner_at_zero(shapes::soup(draw, count))
         }
     };
-    let mut config = random_tolerance(draw);
+    let mut config = settings_with_random_tolerance(draw);
     config.start = StartPolicy::Leave;
-    if draw.chance(0.3) {
+    if draw.bool_with_probability(0.3) {
         config.margin = draw.log_uniform(1e-3..1.0);
     }
     // The body is on the floor, within the tolerance of it, or within the margin.
@@ -45,7 +45,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
         motion_at_rest(),
         RawMotion::velocities(RawPose::at(at), velocity, spin),
     ];
-    if draw.chance(0.3) {
+    if draw.bool_with_probability(0.3) {
         // The tangential velocity has no upward part, so that the gap is unchanged.
         let by = [draw.uniform(-1e3..1e3), draw.uniform(-1e3..1e3), 0.0];
         courses
@@ -53,7 +53,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
             .for_each(|c| c.start.position = add_arrays(c.start.position, by));
     }
     let mut shapes = [floor, top];
-    if draw.chance(0.5) {
+    if draw.bool_with_probability(0.5) {
         shapes.swap(0, 1);
         courses.swap(0, 1);
     }
@@ -77,32 +77,40 @@ fn with_lowest_corner_at_zero(shape: Shape) -> (Shape, f64) {
 }
 
 /// Returns the velocity and the angular velocity of a released body, and the expected result.
-fn released_motion(draw: &mut RandomSource, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
+fn released_motion(
+    draw: &mut RandomSource,
+    gap: f64,
+    margin: f64,
+) -> ([f64; 3], [f64; 3], Expectation) {
     let along = scale_array(draw.point(), draw.uniform(0.0..3.0));
     match draw.count(0..5) {
-        0 => ([0.0, 0.0, draw.uniform(0.0..3.0)], [0.0; 3], Expect::Free),
+        0 => (
+            [0.0, 0.0, draw.uniform(0.0..3.0)],
+            [0.0; 3],
+            Expectation::Free,
+        ),
         // Inside the margin, motion over the next triangle of the floor is a contact.
         1 if margin == 0.0 => (
             [along[0], along[1], draw.uniform(0.1..2.0)],
             [0.0; 3],
-            Expect::Free,
+            Expectation::Free,
         ),
-        2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
+        2 => ([along[0], along[1], 0.0], [0.0; 3], Expectation::Nothing),
         3 => {
             let down = draw.log_uniform(1e-3..3.0);
             // All of the gap is closed by then.
             let by = (1.001 * gap + 1e-6) / down;
             let expect = if by < 1.0 {
-                Expect::ContactBy(by)
+                Expectation::ContactBy(by)
             } else {
-                Expect::Nothing
+                Expectation::Nothing
             };
             ([along[0], along[1], -down], [0.0; 3], expect)
         }
         _ => (
             along,
             scale_array(draw.direction(), draw.log_uniform(1e-3..6.0)),
-            Expect::Nothing,
+            Expectation::Nothing,
         ),
     }
 }

@@ -1,6 +1,6 @@
 //! Draws queries of needles and slivers, with denormal components and faces without area.
 
-use super::{motion_at_rest, passing_case, random_tolerance};
+use super::{motion_at_rest, passing_case, settings_with_random_tolerance};
 use crate::case::{Case, Shape};
 use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::Goal;
@@ -8,32 +8,32 @@ use crate::shapes;
 
 pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let thin = thin_triangles(draw);
-    let other = if draw.chance(0.5) {
+    let other = if draw.bool_with_probability(0.5) {
         self::thin_triangles(draw)
     } else {
         shapes::any_shape(draw)
     };
-    let mut config = random_tolerance(draw);
-    if draw.chance(0.4) {
+    let mut config = settings_with_random_tolerance(draw);
+    if draw.bool_with_probability(0.4) {
         config.margin = draw.log_uniform(1e-2..2.0);
     }
-    let turn = if draw.chance(0.4) {
+    let turn = if draw.bool_with_probability(0.4) {
         0.0
     } else {
         draw.log_uniform(1e-3..6.0)
     };
-    let shapes = if draw.chance(0.5) {
+    let shapes = if draw.bool_with_probability(0.5) {
         [thin, other]
     } else {
         [other, thin]
     };
     let mut case = passing_case(draw, shapes, turn, config.clone());
-    if draw.chance(0.3) {
+    if draw.bool_with_probability(0.3) {
         for course in &mut case.courses {
             course.start.quaternion = [1.0, 0.0, 0.0, 0.0];
         }
     }
-    if draw.chance(0.3) {
+    if draw.bool_with_probability(0.3) {
         // The body moves straight at the other one, across a plane that holds needles.
         let reach = case.shapes[0].radius() + case.shapes[1].radius() + config.margin;
         let way = lattice_direction(draw);
@@ -57,8 +57,10 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
         _ => draw.log_uniform(1e-14..1e-1),
     };
     let count = draw.log_uniform(1.0..9.0) as usize;
-    let common = draw.chance(0.5).then(|| lattice_direction(draw));
-    let about = draw.chance(0.5).then_some([0.0; 3]);
+    let common = draw
+        .bool_with_probability(0.5)
+        .then(|| lattice_direction(draw));
+    let about = draw.bool_with_probability(0.5).then_some([0.0; 3]);
     let mut shape = Shape::default();
     for _ in 0..count {
         let at = about.unwrap_or_else(|| scale_array(draw.point(), 0.5));
@@ -72,7 +74,7 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
             2 => add_arrays(at, add_arrays(along, aside)),
             _ => add_arrays(add_arrays(at, scale_array(along, share)), aside),
         };
-        let first = if draw.chance(0.3) {
+        let first = if draw.bool_with_probability(0.3) {
             add_arrays(at, scale_array(aside, -0.5))
         } else {
             at
@@ -86,7 +88,7 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
 
 /// Returns a direction with small whole components, or any direction.
 fn lattice_direction(draw: &mut RandomSource) -> [f64; 3] {
-    if draw.chance(0.3) {
+    if draw.bool_with_probability(0.3) {
         return draw.direction();
     }
     let whole = [(); 3].map(|()| draw.pick(&[-2.0, -1.0, 0.0, 0.0, 1.0, 1.0, 2.0]));

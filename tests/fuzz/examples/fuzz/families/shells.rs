@@ -1,31 +1,31 @@
 //! Draws queries of closed parts next to each other and nested, oriented outward or inward.
 
-use super::{motion_at_rest, passing_case, random_tolerance};
-use crate::case::{Case, Expect, Form, Shape};
+use super::{motion_at_rest, passing_case, settings_with_random_tolerance};
+use crate::case::{Case, Expectation, Form, Shape};
 use crate::draw::{RandomSource, add_arrays, scale_array};
 use crate::raw_motion::RawMotion;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let several = closed_parts(draw);
-    let other = if draw.chance(0.3) {
+    let other = if draw.bool_with_probability(0.3) {
         self::closed_parts(draw)
     } else {
         shapes::any_shape(draw)
     };
     let size = draw.pick(&[0.1, 0.3, 1.0]);
     let other = other.map(|v| scale_array(v, size));
-    let config = random_tolerance(draw);
-    let turn = if draw.chance(0.5) {
+    let config = settings_with_random_tolerance(draw);
+    let turn = if draw.bool_with_probability(0.5) {
         0.0
     } else {
         draw.log_uniform(0.01..6.0)
     };
-    if draw.chance(0.5) {
+    if draw.bool_with_probability(0.5) {
         return passing_case(draw, [several, other], turn, config);
     }
     // The position is somewhere within, or on, the parts.
-    let at = if draw.chance(0.3) {
+    let at = if draw.bool_with_probability(0.3) {
         draw.pick(&several.vertices)
     } else {
         scale_array(draw.point(), several.radius())
@@ -42,7 +42,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
         courses,
         duration: 1.0,
         config,
-        expected: Expect::Nothing,
+        expected: Expectation::Nothing,
     }
 }
 
@@ -52,14 +52,14 @@ fn closed_parts(draw: &mut RandomSource) -> Shape {
     let mut all = Shape::default();
     let (mut at, mut size) = ([0.0; 3], 1.0);
     for _ in 0..count {
-        let part = if draw.chance(0.6) {
+        let part = if draw.bool_with_probability(0.6) {
             shapes::cuboid([0.5; 3])
         } else {
             shapes::closed_shape(draw)
         };
         let (here, scale) = (at, size);
         let part = part.map(|v| add_arrays(scale_array(v, scale), here));
-        let part = if draw.chance(0.5) {
+        let part = if draw.bool_with_probability(0.5) {
             part.flipped()
         } else {
             part
@@ -77,6 +77,6 @@ fn closed_parts(draw: &mut RandomSource) -> Shape {
             _ => at[draw.count(0..3)] += size,
         }
     }
-    all.form = Form::Soup;
+    all.form = Form::TriangleSoup;
     all
 }

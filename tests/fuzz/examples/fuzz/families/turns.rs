@@ -1,20 +1,20 @@
 //! Draws queries with rotations of up to a thousand radians.
 
-use super::{passing_case, random_tolerance};
+use super::{passing_case, settings_with_random_tolerance};
 use crate::case::Case;
 use crate::draw::{RandomSource, scale_array};
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let bodies = [shapes::any_shape(draw), shapes::any_shape(draw)];
-    let mut config = random_tolerance(draw);
-    if draw.chance(0.2) {
+    let mut config = settings_with_random_tolerance(draw);
+    if draw.bool_with_probability(0.2) {
         config.margin = draw.log_uniform(1e-3..1.0);
     }
     let turn = draw.log_uniform(0.1..1000.0);
     let mut case = passing_case(draw, bodies, turn, config);
     for course in &mut case.courses {
-        if draw.chance(0.3) {
+        if draw.bool_with_probability(0.3) {
             course.centre = scale_array(draw.direction(), draw.log_uniform(0.1..10.0));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Question;
 use super::source::Source;
-use crate::case::{Case, Expect, Form, Shape};
+use crate::case::{Case, Expectation, Form, Shape};
 use crate::engine::{Kind, Method};
 use crate::raw_motion::{Goal, RawMotion, RawPose};
 use crate::vector::Vector;
@@ -20,9 +20,9 @@ pub(super) const SCALED_BIT: u8 = 128;
 /// The bit for a rotated start, in the byte before a motion.
 pub(super) const ROTATED_BIT: u8 = 1;
 pub(super) const VELOCITY_BIT: u8 = 2;
-pub(super) const SPINS: u8 = 4;
+pub(super) const SPIN_BIT: u8 = 4;
 pub(super) const CENTRE_BIT: u8 = 8;
-pub(super) const ENDS: u8 = 16;
+pub(super) const END_POSE_BIT: u8 = 16;
 /// The bit for a margin, in the byte before the settings.
 pub(super) const MARGIN: u8 = 1;
 pub(super) const LEAVE_BIT: u8 = 2;
@@ -44,16 +44,16 @@ pub(super) fn decode_question(bytes: &[u8]) -> Question {
     let shapes = [shape(&mut source), shape(&mut source)];
     let mut courses = [course(&mut source), course(&mut source)];
     let duration = duration.abs();
-    courses.iter_mut().for_each(|c| limit_turn(c, duration));
+    courses.iter_mut().for_each(|c| limit_rotation(c, duration));
     let mut case = Case {
         shapes,
         courses,
         duration,
         config,
-        expected: Expect::Nothing,
+        expected: Expectation::Nothing,
     };
     if flags & AIMED_BIT > 0 {
-        aim(&mut source, &mut case);
+        aim_at_corner(&mut source, &mut case);
     }
     Question {
         case,
@@ -128,7 +128,7 @@ fn shape(source: &mut Source<'_>) -> Shape {
     shape.form = match kind >> 3 & 3 {
         0 => Form::Convex,
         1 => Form::Solid,
-        _ => Form::Soup,
+        _ => Form::TriangleSoup,
     };
     if kind & FLIPPED_BIT > 0 {
         shape = shape.flipped();
@@ -147,7 +147,7 @@ fn mesh(source: &mut Source<'_>) -> Shape {
         faces: (0..faces)
             .map(|_| [(); 3].map(|()| u32::from(source.count(0, vertices))))
             .collect(),
-        form: Form::Soup,
+        form: Form::TriangleSoup,
     }
 }
 
@@ -158,7 +158,7 @@ fn soup(source: &mut Source<'_>, triangles: u8) -> Shape {
         faces: (0..triangles)
             .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
             .collect(),
-        form: Form::Soup,
+        form: Form::TriangleSoup,
     }
 }
 
@@ -166,7 +166,7 @@ fn tetrahedron(source: &mut Source<'_>) -> Shape {
     Shape {
         vertices: (0..4).map(|_| source.numbers()).collect(),
         faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
-        form: Form::Soup,
+        form: Form::TriangleSoup,
     }
 }
 
@@ -186,7 +186,7 @@ fn bipyramid(source: &mut Source<'_>) -> Shape {
     Shape {
         vertices,
         faces,
-        form: Form::Soup,
+        form: Form::TriangleSoup,
     }
 }
 
@@ -219,15 +219,15 @@ fn course(source: &mut Source<'_>) -> RawMotion {
         quaternion: source.numbers_if(has(ROTATED_BIT), RawPose::at(none).quaternion),
     };
     let centre = source.numbers_if(has(CENTRE_BIT), none);
-    let goal = if has(ENDS) {
+    let goal = if has(END_POSE_BIT) {
         Goal::End(RawPose {
             position: source.numbers(),
-            quaternion: source.numbers_if(has(SPINS), start.quaternion),
+            quaternion: source.numbers_if(has(SPIN_BIT), start.quaternion),
         })
     } else {
         Goal::Velocities {
             linear: source.numbers_if(has(VELOCITY_BIT), none),
-            spin: source.numbers_if(has(SPINS), none),
+            spin: source.numbers_if(has(SPIN_BIT), none),
         }
     };
     RawMotion {
@@ -237,7 +237,7 @@ fn course(source: &mut Source<'_>) -> RawMotion {
     }
 }
 
-fn limit_turn(course: &mut RawMotion, duration: f64) {
+fn limit_rotation(course: &mut RawMotion, duration: f64) {
     if let Goal::Velocities { spin, .. } = &mut course.goal {
         let turn = Vector(*spin).length() * duration;
         if turn > MAX_ROTATION {
@@ -248,7 +248,7 @@ fn limit_turn(course: &mut RawMotion, duration: f64) {
 
 /// Moves A so that a corner of A meets a corner of B at some time, up to an offset. Bodies at random places rarely
 /// meet.
-fn aim(source: &mut Source<'_>, case: &mut Case) {
+fn aim_at_corner(source: &mut Source<'_>, case: &mut Case) {
     let share = f64::from(source.byte()) / 255.0;
     let time = share * case.duration;
     let mut corner = |k: usize| {

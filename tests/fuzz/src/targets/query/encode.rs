@@ -1,8 +1,8 @@
 //! Encodes a query as bytes, to turn cases into seeds.
 
 use super::decode::{
-    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, ENDS, LEAVE_BIT, MARGIN, MESH_KIND, ROTATED_BIT, SPINS,
-    TOLERANCE, VELOCITY_BIT,
+    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN, MESH_KIND, ROTATED_BIT,
+    SPIN_BIT, TOLERANCE, VELOCITY_BIT,
 };
 use super::source::{RAW_NUMBER_TAG, SIXTEENTH_TAGS};
 use crate::case::{Case, Form, Shape};
@@ -59,7 +59,7 @@ impl Writer {
         let form = match shape.form {
             Form::Convex => 0,
             Form::Solid => 1,
-            Form::Soup | Form::Points => 2,
+            Form::TriangleSoup | Form::Points => 2,
         };
         self.0.push(MESH_KIND | form << 3);
         let (vertices, faces) = (shape.vertices.len(), shape.faces.len());
@@ -75,8 +75,8 @@ impl Writer {
 
     fn course(&mut self, course: &RawMotion) {
         let goal = match course.goal {
-            Goal::Velocities { .. } => VELOCITY_BIT | SPINS,
-            Goal::End(_) => ENDS | SPINS,
+            Goal::Velocities { .. } => VELOCITY_BIT | SPIN_BIT,
+            Goal::End(_) => END_POSE_BIT | SPIN_BIT,
         };
         self.0.push(ROTATED_BIT | CENTRE_BIT | goal);
         self.numbers(&course.start.position);
