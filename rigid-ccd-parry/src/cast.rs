@@ -5,8 +5,10 @@ use crate::horizon::{Horizon, MotionWithExtent, relative_displacement};
 use crate::interval::Interval;
 use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
-use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{DIFFERENCE_ROUNDING, END_ROUNDING_FACTOR, MAX_TOLERANCE_SHARE};
+use crate::scene::{CastHit, CastStatus, Scene};
+use crate::tolerance::{
+    INTERVAL_END_ROUNDING_FACTOR, MAX_TOLERANCE_SHARE, VELOCITY_DIFFERENCE_ROUNDING,
+};
 use crate::{CastError, Options, Prepared};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_TOLERANCE;
@@ -114,7 +116,7 @@ impl Cast {
         let side = shifted[1 - index].without_ball_rotation(body);
         let stray = side.stray;
         let side = side.motion_with_extent(body);
-        let of_plane = shifted[index].plane_with_extent(&side);
+        let of_plane = shifted[index].plane_motion_with_extent(&side);
         let within = self.settings(&[body], body.slack())?;
         let within = within.margin + within.tolerance;
         let wanted = self.interval.length();
@@ -127,7 +129,7 @@ impl Cast {
         let slack =
             body.slack() + point_deviation(stray, &side) + off + self.velocity_rounding(reach);
         let settings = self.settings(&[body], slack)?;
-        let stand_in = plane.box_within(of_plane, 2.0 * reach).map_err(|error| {
+        let stand_in = plane.covering_box(of_plane, 2.0 * reach).map_err(|error| {
             let which = index as u8 + 1;
             CastError::Shape {
                 shape_number: which,
@@ -155,9 +157,9 @@ impl Cast {
         let found = scene.first_contact(solver)?;
         match found {
             Some(found)
-                if found.ending == Ending::Overlap
+                if found.status == CastStatus::Overlap
                     && self.start == StartPolicy::Leave
-                    && scene.may_part() =>
+                    && scene.may_ignore_overlap() =>
             {
                 first_contact_unless_parting(scene, found, solver)
             }
@@ -170,7 +172,7 @@ impl Cast {
     fn motions_from_start(&self) -> Result<[ShiftedMotion; 2], CastError> {
         let along = self.motions[1].velocity();
         let shifted = |motion: &Motion| ShiftedMotion::new(motion, self.interval.start, along);
-        CastError::of_motions(self.motions.each_ref().map(shifted))
+        CastError::motions_or_error(self.motions.each_ref().map(shifted))
     }
 
     /// Bounds the rounding error of subtracting the velocities, for bodies that move `displacement` past each other.
@@ -178,7 +180,7 @@ impl Cast {
         if self.motions[1].velocity() == DVec3::ZERO {
             0.0
         } else {
-            DIFFERENCE_ROUNDING * displacement
+            VELOCITY_DIFFERENCE_ROUNDING * displacement
         }
     }
 
@@ -197,7 +199,7 @@ impl Cast {
     fn settings(&self, bodies: &[&Prepared], slack: f64) -> Result<Settings, CastError> {
         let margin = self.target + slack;
         if !(self.target >= 0.0 && margin.is_finite()) {
-            return Err(CastError::Number {
+            return Err(CastError::InvalidNumber {
                 what: "the target distance",
                 value: self.target,
                 allowed: "at least 0 and finite",
@@ -246,12 +248,12 @@ impl ShiftedMotion {
         MotionWithExtent {
             motion: self.motion,
             about,
-            reach: (length(middle - about) + radius) * END_ROUNDING_FACTOR,
+            reach: (length(middle - about) + radius) * INTERVAL_END_ROUNDING_FACTOR,
         }
     }
 
     /// Returns the motion of a half-space, about its point nearest to the other body.
-    fn plane_with_extent(&self, other: &MotionWithExtent) -> MotionWithExtent {
+    fn plane_motion_with_extent(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
         let about = if self.motion.spin() == DVec3::ZERO {
             start.inverse().transform_point(other.start_position())

@@ -18,17 +18,17 @@ pub enum CastError {
         error: ShapeError,
     },
     /// A motion or a pose is invalid.
-    #[error("motion {which}: {error}")]
+    #[error("motion {motion_number}: {error}")]
     Motion {
         /// The number of the motion: 1 or 2.
-        which: u8,
+        motion_number: u8,
         /// The reason why the motion is refused.
         #[source]
         error: InputError,
     },
     /// A number given as a time or a distance is invalid.
     #[error("{what} is {value}, but must be {allowed}")]
-    Number {
+    InvalidNumber {
         /// The name of the argument in the function's signature.
         what: &'static str,
         /// The given number.
@@ -49,14 +49,23 @@ pub enum CastError {
 
 impl CastError {
     /// Returns what was made of both motions; an error says which motion it is about.
-    pub(crate) fn of_motions<T>(made: [Result<T, InputError>; 2]) -> Result<[T; 2], CastError> {
-        let named = |which| move |error| CastError::Motion { which, error };
+    pub(crate) fn motions_or_error<T>(
+        made: [Result<T, InputError>; 2],
+    ) -> Result<[T; 2], CastError> {
+        let named = |which| {
+            move |error| CastError::Motion {
+                motion_number: which,
+                error,
+            }
+        };
         let [a, b] = made;
         Ok([a.map_err(named(1))?, b.map_err(named(2))?])
     }
 
     /// Returns what was made of both shapes; an error says which shape it is about.
-    pub(crate) fn of_shapes<T>(made: [Result<T, ShapeError>; 2]) -> Result<[T; 2], CastError> {
+    pub(crate) fn shapes_or_error<T>(
+        made: [Result<T, ShapeError>; 2],
+    ) -> Result<[T; 2], CastError> {
         let named = |which| {
             move |error| CastError::Shape {
                 shape_number: which,
@@ -80,7 +89,7 @@ pub enum ShapeError {
     HalfSpace,
     /// A size of the shape is negative, NaN or infinite.
     #[error("its {what} is {value}, but must be at least 0 and finite")]
-    Size {
+    InvalidSize {
         /// The name of the size, such as a radius.
         what: &'static str,
         /// The given size.
@@ -103,7 +112,7 @@ pub enum ShapeError {
     #[error(
         "the mesh is oriented, but has an edge without a neighbour, from vertex {from} to {to}"
     )]
-    Open {
+    OpenMesh {
         /// The index of one end of the edge.
         from: u32,
         /// The index of the other end.
@@ -117,7 +126,7 @@ pub enum ShapeError {
         "its parts are nested more than {} deep",
         crate::limits::MAX_NESTING_DEPTH
     )]
-    Nested,
+    NestedTooDeeply,
     /// A part of the compound is refused.
     #[error("part {part}: {error}")]
     Part {

@@ -111,7 +111,7 @@ impl ShapeGeometry {
     }
 
     /// Adds the hull of a few points without facets, grown by a radius, like [`Form::push_hull`].
-    pub(crate) fn push_points<const N: usize>(
+    pub(crate) fn push_hull_of_points<const N: usize>(
         &mut self,
         points: [DVec3; N],
         radius: f64,
@@ -124,13 +124,13 @@ impl ShapeGeometry {
     pub(crate) fn push_box(&mut self, low: DVec3, high: DVec3, radius: f64) {
         let pick = |corner: u32, bit: u32| [low, high][(corner >> bit & 1) as usize];
         let corner = |k| DVec3::new(pick(k, 0).x, pick(k, 1).y, pick(k, 2).z);
-        self.push_corners((0..8).map(corner).collect(), radius);
+        self.push_box_of_corners((0..8).map(corner).collect(), radius);
     }
 
     /// Adds a box given by its eight corners: bits 0, 1 and 2 of `k` are set if corner `k` is high along the first,
     /// second and third axis of a right-handed frame.
-    pub(crate) fn push_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
-        self.push_hull(corners, radius, BOX, 0);
+    pub(crate) fn push_box_of_corners(&mut self, corners: Vec<DVec3>, radius: f64) {
+        self.push_hull(corners, radius, BOX_FACES, 0);
     }
 
     /// Adds triangles, with their sub-shape indices.
@@ -153,7 +153,7 @@ impl ShapeGeometry {
     /// [`ShapeError::Open`] unless they are closed.
     pub(crate) fn into_solid(self) -> Result<Self, ShapeError> {
         match open_edge(&self.vertices, &self.triangles) {
-            Some([from, to]) => Err(ShapeError::Open { from, to }),
+            Some([from, to]) => Err(ShapeError::OpenMesh { from, to }),
             None => Ok(ShapeGeometry {
                 volume: Volume::Solid,
                 ..self
@@ -214,7 +214,10 @@ impl ShapeGeometry {
             |part: &Part| farthest(part.polytope.points.iter(), middle) + part.polytope.radius;
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, farthest(self.vertices.iter(), middle));
-        (middle, radius * crate::tolerance::END_ROUNDING_FACTOR)
+        (
+            middle,
+            radius * crate::tolerance::INTERVAL_END_ROUNDING_FACTOR,
+        )
     }
 
     /// Returns the centre if the form is a single ball; `None` for other forms.
@@ -337,13 +340,13 @@ impl ShapeGeometry {
 /// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
 fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosure, ShapeError> {
     let asked = match excess {
-        Excess::Fine => round.usual_excess(),
+        Excess::RadiusFraction => round.usual_excess(),
         Excess::Length(length) => length,
-        Excess::Refuse => return Err(ShapeError::Round),
+        Excess::NotAllowed => return Err(ShapeError::Round),
     };
     // Written so that NaN is refused.
     if !(asked >= 0.0) {
-        return Err(ShapeError::Size {
+        return Err(ShapeError::InvalidSize {
             what: "excess",
             value: asked,
         });
@@ -360,7 +363,7 @@ fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosur
 }
 
 /// The corners of each face of a box: bits 0, 1 and 2 of `k` are set if corner `k` is high in x, y and z.
-const BOX: [[u32; 4]; 6] = [
+const BOX_FACES: [[u32; 4]; 6] = [
     [0, 4, 6, 2],
     [1, 3, 7, 5],
     [0, 1, 5, 4],

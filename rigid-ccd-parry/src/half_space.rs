@@ -4,9 +4,9 @@
 //! part of the half-space in that ball, and hardly more, has the same contacts.
 
 use crate::form::ShapeGeometry;
-use crate::horizon::{Horizon, MotionWithExtent, repetition_time, time_of_turn};
+use crate::horizon::{Horizon, MotionWithExtent, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{END_ROUNDING_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
+use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LARGEST_PLANE_EXTENT, PLANE_ROUNDING};
 use crate::{Prepared, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
@@ -24,7 +24,7 @@ impl HalfSpace {
     /// # Errors
     /// [`ShapeError::Size`] for a normal that has no direction.
     pub(crate) fn new(normal: DVec3) -> Result<Self, ShapeError> {
-        let size = ShapeError::Size {
+        let size = ShapeError::InvalidSize {
             what: "normal",
             value: length(normal),
         };
@@ -75,7 +75,7 @@ impl HalfSpace {
         let upright = p.start().rotation() == DQuat::IDENTITY;
         if upright && self.normal * velocity == DVec3::ZERO {
             // The body moves exactly along the plane.
-            return Some(time_of_turn(b.spin()));
+            return Some(rotation_period(b.spin()));
         }
         let normal = p.start().rotation() * self.normal;
         let (from, to) = (p.start().translation(), body.start_position());
@@ -83,14 +83,14 @@ impl HalfSpace {
         let rounding = PLANE_ROUNDING * length(velocity);
         let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         let height = normal.dot(to - from);
-        let reach = (body.reach + within + PLANE_ROUNDING * spread) * END_ROUNDING_FACTOR;
+        let reach = (body.reach + within + PLANE_ROUNDING * spread) * INTERVAL_END_ROUNDING_FACTOR;
         let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, needed) / rate * END_ROUNDING_FACTOR)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * INTERVAL_END_ROUNDING_FACTOR)
     }
 
     /// Bounds the distance from `plane.about` of all points of the half-space that the body may touch.
@@ -105,11 +105,11 @@ impl HalfSpace {
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let spread = plane.sum_of_magnitudes() + body.sum_of_magnitudes();
         (length(b - p) + speed * duration + body.reach + within + PLANE_ROUNDING * spread)
-            * END_ROUNDING_FACTOR
+            * INTERVAL_END_ROUNDING_FACTOR
     }
 
     /// Returns a box that contains all points of the half-space within the distance `reach` of `plane.about`.
-    pub(crate) fn box_within(
+    pub(crate) fn covering_box(
         &self,
         plane: MotionWithExtent,
         reach: f64,
@@ -122,7 +122,7 @@ impl HalfSpace {
         // The face is above the plane, whatever rounding does to the corners.
         let above = PLANE_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
-        let wide = reach * END_ROUNDING_FACTOR + above;
+        let wide = reach * INTERVAL_END_ROUNDING_FACTOR + above;
         let corner = |k: u32| {
             let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
             let high = if k & 4 == 4 { above } else { below };
@@ -130,7 +130,7 @@ impl HalfSpace {
         };
         let mut form = ShapeGeometry::EMPTY;
         form.excess = 2.0 * above;
-        form.push_corners((0..8).map(corner).collect(), 0.0);
+        form.push_box_of_corners((0..8).map(corner).collect(), 0.0);
         Prepared::new(&form)
     }
 }

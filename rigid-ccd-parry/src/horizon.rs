@@ -4,7 +4,7 @@
 //! have passed each other, and a motion that repeats itself need be looked at once.
 
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{END_ROUNDING_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
+use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
@@ -69,12 +69,14 @@ impl Horizon {
 fn time_when_passed(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0).then(|| relative_displacement(&bodies, within) / speed * END_ROUNDING_FACTOR)
+    (speed > 0.0)
+        .then(|| relative_displacement(&bodies, within) / speed * INTERVAL_END_ROUNDING_FACTOR)
 }
 
 /// Bounds the relative displacement of the bodies while they may be in contact.
 pub(crate) fn relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
-    let rounding = (END_ROUNDING_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
+    let rounding =
+        (INTERVAL_END_ROUNDING_FACTOR - 1.0) * (a.sum_of_magnitudes() + b.sum_of_magnitudes());
     length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
 }
 
@@ -84,15 +86,15 @@ pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     let still = a.spin() == DVec3::ZERO || b.spin() == DVec3::ZERO;
     // Two bodies that both turn repeat their poses if they do so about parallel axes, at one rate.
     let repeats = a.velocity() == b.velocity() && (still || a.spin() == b.spin());
-    repeats.then(|| greater(time_of_turn(a.spin()), time_of_turn(b.spin())))
+    repeats.then(|| greater(rotation_period(a.spin()), rotation_period(b.spin())))
 }
 
 /// Returns the time of a whole turn; 0 without one.
-pub(crate) fn time_of_turn(spin: DVec3) -> f64 {
+pub(crate) fn rotation_period(spin: DVec3) -> f64 {
     if spin == DVec3::ZERO {
         0.0
     } else {
-        TAU / length(spin) * END_ROUNDING_FACTOR
+        TAU / length(spin) * INTERVAL_END_ROUNDING_FACTOR
     }
 }
 

@@ -16,7 +16,7 @@ impl Interval {
     /// # Errors
     /// [`CastError::Number`] for NaN, and for a start that is infinite.
     pub(crate) fn new(start: f64, end: f64) -> Result<Option<Self>, CastError> {
-        let number = |what, value, allowed| CastError::Number {
+        let number = |what, value, allowed| CastError::InvalidNumber {
             what,
             value,
             allowed,

@@ -7,8 +7,8 @@ mod direction;
 
 use crate::form::ShapeGeometry;
 use crate::order::{greater, length, lesser};
-use crate::scene::{CastHit, Ending, Scene};
-use crate::tolerance::{END_ROUNDING_FACTOR, LARGEST_SLIDING_RATE};
+use crate::scene::{CastHit, CastStatus, Scene};
+use crate::tolerance::{INTERVAL_END_ROUNDING_FACTOR, LARGEST_SLIDING_RATE};
 use crate::{CastError, Prepared};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
@@ -35,11 +35,11 @@ pub(crate) fn first_contact_unless_parting(
         let Some(found) = first_contact_of_pieces(scene, &task, solver)? else {
             continue;
         };
-        match found.ending {
-            Ending::Overlap => {
+        match found.status {
+            CastStatus::Overlap => {
                 left_out += 1;
                 let [a, b] = found.numbers;
-                if left_out > MAX_PARTING_PAIRS || !begin_to_part(scene, [a, b], solver) {
+                if left_out > MAX_PARTING_PAIRS || !pieces_begin_to_part(scene, [a, b], solver) {
                     return Ok(Some(overlap));
                 }
                 let [mut of_a, of_b] = task;
@@ -48,10 +48,10 @@ pub(crate) fn first_contact_unless_parting(
                 of_a.retain(|piece| *piece != a);
                 tasks.push([of_a, of_b]);
             }
-            Ending::Inside => return Ok(Some(overlap)),
-            Ending::Near | Ending::Contact | Ending::Limit => {
+            CastStatus::Inside => return Ok(Some(overlap)),
+            CastStatus::Near | CastStatus::Contact | CastStatus::Limit => {
                 if first.is_none_or(|first| found.time < first.time) {
-                    let numbers = [0, 1].map(|k| scene.bodies[k].sub_shape(found.numbers[k]));
+                    let numbers = [0, 1].map(|k| scene.bodies[k].sub_shape_index(found.numbers[k]));
                     first = Some(CastHit { numbers, ..found });
                 }
             }
@@ -67,7 +67,7 @@ fn first_contact_of_pieces(
     solver: &mut Solver,
 ) -> Result<Option<CastHit>, CastError> {
     let bodies = [0, 1].map(|k| body_of_pieces(scene.bodies[k], &pieces[k]));
-    let [a, b] = CastError::of_shapes(bodies)?;
+    let [a, b] = CastError::shapes_or_error(bodies)?;
     let part = Scene {
         bodies: [&a, &b],
         ..scene.clone()
@@ -102,11 +102,11 @@ fn pieces_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let comes_near = |piece: &Piece<'_>| {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
-        let rounding =
-            (END_ROUNDING_FACTOR - 1.0) * (length(place) + length(from) + length(displacement));
+        let rounding = (INTERVAL_END_ROUNDING_FACTOR - 1.0)
+            * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * END_ROUNDING_FACTOR + rounding)
+        !(apart > (within + radius) * INTERVAL_END_ROUNDING_FACTOR + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces
@@ -134,7 +134,7 @@ fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
 }
 
 /// Returns whether two pieces that overlap at the start begin to move apart.
-fn begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
+fn pieces_begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();

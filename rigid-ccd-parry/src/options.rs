@@ -48,11 +48,11 @@ impl Default for Options {
 pub enum Excess {
     /// The polytope may exceed the shape by 1/4000 of the radius.
     #[default]
-    Fine,
+    RadiusFraction,
     /// The polytope may exceed the shape by this length.
     Length(f64),
     /// Cylinders and cones are refused.
-    Refuse,
+    NotAllowed,
 }
 
 /// Whether the interior of a triangle mesh belongs to the body.

@@ -65,7 +65,7 @@ impl Prepared {
 
     /// Returns the sub-shape index of a piece of the body, as in `parry3d::query::ShapeCastHit::subshape1`; 0 for a
     /// piece that does not exist.
-    pub fn sub_shape(&self, piece: u32) -> u32 {
+    pub fn sub_shape_index(&self, piece: u32) -> u32 {
         self.numbers.get(piece as usize).copied().unwrap_or(0)
     }
 

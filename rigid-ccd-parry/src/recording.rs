@@ -67,7 +67,7 @@ impl Recording {
         let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
         Model::from_body(&self.bodies[0])?.save(&a)?;
         Model::from_body(&self.bodies[1])?.save(&b)?;
-        let table = self.table();
+        let table = self.motions_table_text();
         ccd_file::write(&motions, |out| out.write_all(table.as_bytes()))
             .map_err(failed(&motions))?;
         let Settings {
@@ -86,7 +86,7 @@ impl Recording {
     }
 
     /// Returns the text of the table of motions, which has one row.
-    fn table(&self) -> String {
+    fn motions_table_text(&self) -> String {
         let (mut names, mut cells) = (String::from("duration"), self.duration.to_string());
         for (body, motion) in ["a", "b"].iter().zip(&self.motions) {
             let start = motion.start();

@@ -34,12 +34,12 @@ pub(crate) struct CastHit {
     pub(crate) normals: [DVec3; 2],
     /// The indices of the nearest sub-shapes.
     pub(crate) numbers: [u32; 2],
-    pub(crate) ending: Ending,
+    pub(crate) status: CastStatus,
 }
 
 /// Why a cast ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Ending {
+pub(crate) enum CastStatus {
     /// The bodies come into contact after the start.
     Contact,
     /// Two pieces overlap at the start.
@@ -63,7 +63,7 @@ impl Scene<'_> {
 
     /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
     /// their pieces overlap.
-    pub(crate) fn may_part(&self) -> bool {
+    pub(crate) fn may_ignore_overlap(&self) -> bool {
         let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
         // Inside a solid mesh there may be no piece from which a body could part.
         let bare = |body: &&Prepared| {
@@ -76,19 +76,19 @@ impl Scene<'_> {
     fn hit(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
-                Some(self.hit_of(time, &contact, Ending::Contact))
+                Some(self.hit_of(time, &contact, CastStatus::Contact))
             }
             Outcome::Touching { contact } => {
                 let within = self.target > 0.0 && contact.separation.upper <= self.target;
                 let ending = if within {
-                    Ending::Near
+                    CastStatus::Near
                 } else {
-                    Ending::Contact
+                    CastStatus::Contact
                 };
                 Some(self.hit_of(0.0, &contact, ending))
             }
             Outcome::Overlapping { overlap, .. } => Some(match overlap {
-                Overlap::Pieces(contact) => self.hit_of(0.0, &contact, Ending::Overlap),
+                Overlap::Pieces(contact) => self.hit_of(0.0, &contact, CastStatus::Overlap),
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => self.inside(point),
             }),
             Outcome::Unresolved(known) => Some(self.hit_at_limit(known.safe_until, solver)),
@@ -103,7 +103,7 @@ impl Scene<'_> {
     }
 
     /// Returns a contact at the time `after` as a hit in the bodies' frames.
-    fn hit_of(&self, after: f64, contact: &Contact, ending: Ending) -> CastHit {
+    fn hit_of(&self, after: f64, contact: &Contact, ending: CastStatus) -> CastHit {
         let separation = &contact.separation;
         let points = [separation.witness_a, separation.witness_b];
         let normals = [separation.normal, -separation.normal];
@@ -113,10 +113,10 @@ impl Scene<'_> {
             witnesses: [0, 1].map(|k| poses[k].inverse().transform_point(points[k])),
             normals: [0, 1].map(|k| poses[k].rotation().conjugate() * normals[k]),
             numbers: [
-                self.bodies[0].sub_shape(contact.piece_a),
-                self.bodies[1].sub_shape(contact.piece_b),
+                self.bodies[0].sub_shape_index(contact.piece_a),
+                self.bodies[1].sub_shape_index(contact.piece_b),
             ],
-            ending,
+            status: ending,
         }
     }
 
@@ -127,7 +127,7 @@ impl Scene<'_> {
             .map(|pose| pose.inverse().transform_point(point));
         CastHit {
             witnesses,
-            ..CastHit::without_points(self.interval.start, Ending::Inside)
+            ..CastHit::without_points(self.interval.start, CastStatus::Inside)
         }
     }
 
@@ -149,8 +149,8 @@ impl Scene<'_> {
             Err(_) => None,
         };
         match contact {
-            Some(contact) => self.hit_of(after, &contact, Ending::Limit),
-            None => CastHit::without_points(self.interval.time_after(after), Ending::Limit),
+            Some(contact) => self.hit_of(after, &contact, CastStatus::Limit),
+            None => CastHit::without_points(self.interval.time_after(after), CastStatus::Limit),
         }
     }
 
@@ -161,13 +161,13 @@ impl Scene<'_> {
 
 impl CastHit {
     /// Returns a hit without nearest points, for which parry's placeholders stand.
-    fn without_points(time: f64, ending: Ending) -> Self {
+    fn without_points(time: f64, ending: CastStatus) -> Self {
         CastHit {
             time,
             witnesses: [DVec3::ZERO; 2],
             normals: [DVec3::X; 2],
             numbers: [0; 2],
-            ending,
+            status: ending,
         }
     }
 }

@@ -46,11 +46,11 @@ pub(crate) const LARGEST_PLANE_EXTENT: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
 /// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
-pub(crate) const DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
+pub(crate) const VELOCITY_DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
 
 /// The factor on lengths and times at the end of an interval that covers their rounding: the sums and quotients that
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
-pub(crate) const END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
+pub(crate) const INTERVAL_END_ROUNDING_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
 
 /// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;

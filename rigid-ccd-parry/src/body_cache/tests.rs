@@ -3,11 +3,11 @@ use ccd_core::glam::DVec3;
 
 fn ball(radius: f64) -> ShapeGeometry {
     let mut form = ShapeGeometry::EMPTY;
-    form.push_points([DVec3::ZERO], radius, 0);
+    form.push_hull_of_points([DVec3::ZERO], radius, 0);
     form
 }
 
-fn triangle_strip_form(triangles: usize, last: f64) -> ShapeGeometry {
+fn triangle_strip_geometry(triangles: usize, last: f64) -> ShapeGeometry {
     let mut form = ShapeGeometry::EMPTY;
     for k in 0..triangles {
         let x = k as f64;
@@ -22,13 +22,13 @@ fn triangle_strip_form(triangles: usize, last: f64) -> ShapeGeometry {
 fn equal_forms_share_a_body_and_others_do_not() {
     let mut body_cache = BodyCache::default();
     let first = body_cache
-        .body(triangle_strip_form(100, 1.0))
+        .body(triangle_strip_geometry(100, 1.0))
         .expect("a body");
     let again = body_cache
-        .body(triangle_strip_form(100, 1.0))
+        .body(triangle_strip_geometry(100, 1.0))
         .expect("a body");
     let other = body_cache
-        .body(triangle_strip_form(100, 1.0f64.next_up()))
+        .body(triangle_strip_geometry(100, 1.0f64.next_up()))
         .expect("a body");
     assert!(Arc::ptr_eq(&first, &again) && !Arc::ptr_eq(&first, &other));
     assert_eq!(body_cache.len(), 2);
@@ -55,7 +55,7 @@ fn bodies_stay_within_the_memory() {
     };
     for k in 0..10 {
         body_cache
-            .body(triangle_strip_form(1000, f64::from(k)))
+            .body(triangle_strip_geometry(1000, f64::from(k)))
             .expect("a body");
         let held: usize = body_cache.bodies.iter().map(|kept| kept.bytes).sum();
         assert!(held <= 1 << 20 && body_cache.len() >= 1, "{held}");
@@ -68,7 +68,7 @@ fn bodies_stay_within_the_memory() {
     // A body that alone exceeds the limit is made, but not cached.
     let before = body_cache.len();
     body_cache
-        .body(triangle_strip_form(20_000, 1.0))
+        .body(triangle_strip_geometry(20_000, 1.0))
         .expect("a body");
     assert!(body_cache.len() <= before);
 }

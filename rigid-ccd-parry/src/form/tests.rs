@@ -31,7 +31,7 @@ fn pieces_keep_their_numbers_in_any_order() {
         assert_eq!(first.x, f64::from(number * 7 % 50));
     }
     // Triangles combined with other parts.
-    mesh.push_points([DVec3::X * 100.0, DVec3::Y], 0.0, 50);
+    mesh.push_hull_of_points([DVec3::X * 100.0, DVec3::Y], 0.0, 50);
     let at = sub_shapes_with_points(&mesh);
     assert_eq!((at.len(), at[50]), (51, (50, DVec3::X * 100.0)));
     assert!(
@@ -55,7 +55,7 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
     beside
         .push_at_pose(&Pose::IDENTITY, &form, 7)
         .expect("not looked at yet");
-    beside.push_points([DVec3::ZERO], 1.0, 0);
+    beside.push_hull_of_points([DVec3::ZERO], 1.0, 0);
     let error = beside.body().expect_err("refused");
     assert!(
         matches!(error, ShapeError::Piece { number: 7, .. }),
@@ -70,7 +70,7 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     let far = 1e6 * DVec3::new(1.0, -3.0, 2.0);
     let pose = Pose::new(far, [axis.x, axis.y, axis.z, 0.0]).expect("a pose");
     let mut inner = ShapeGeometry::EMPTY;
-    inner.push_points([axis, 5.0 * DVec3::X], 0.0, 0);
+    inner.push_hull_of_points([axis, 5.0 * DVec3::X], 0.0, 0);
     let mut form = ShapeGeometry::EMPTY;
     form.push_at_pose(&pose, &inner, 0).expect("a part");
     let (body, _) = form.body().expect("a body");
@@ -92,7 +92,7 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
 fn a_ball_is_about_all_points() {
     let mut form = ShapeGeometry::EMPTY;
     form.push_box(DVec3::ONE, 3.0 * DVec3::ONE, 0.5);
-    form.push_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
+    form.push_hull_of_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
     let (middle, radius) = form.ball();
     let far = [1.0, 3.0].map(|x| length(DVec3::new(x, 1.0, 1.0) - middle) + 0.5);
     assert!(far.iter().all(|far| radius >= *far) && radius >= 10.0 - middle.x);
@@ -102,8 +102,8 @@ fn a_ball_is_about_all_points() {
 #[test]
 fn only_a_ball_is_a_point() {
     let mut ball = ShapeGeometry::EMPTY;
-    ball.push_points([DVec3::X], 2.0, 0);
+    ball.push_hull_of_points([DVec3::X], 2.0, 0);
     assert_eq!(ball.point(), Some(DVec3::X));
-    ball.push_points([DVec3::X; 2], 0.0, 0);
+    ball.push_hull_of_points([DVec3::X; 2], 0.0, 0);
     assert_eq!(ball.point(), None);
 }

@@ -29,7 +29,7 @@ fn the_box_is_above_the_plane_by_a_hair_and_as_wide_as_the_reach() {
                 ..at([0.0; 3], [0.0; 3], [0.0; 3], 0.0)
             };
             let reach = 30.0;
-            let body = plane.box_within(side, reach).expect("a box");
+            let body = plane.covering_box(side, reach).expect("a box");
             let points = body.body().pieces().points();
             let unit = plane.normal;
             // The normals of the facets: the box contains the ball's part of the half-space along each.
@@ -63,7 +63,7 @@ fn normals_without_direction_are_refused() {
     for normal in [DVec3::ZERO, DVec3::NAN, DVec3::new(f64::INFINITY, 0.0, 0.0)] {
         assert!(matches!(
             HalfSpace::new(normal),
-            Err(ShapeError::Size { what: "normal", .. })
+            Err(ShapeError::InvalidSize { what: "normal", .. })
         ));
     }
 }

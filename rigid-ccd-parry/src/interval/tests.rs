@@ -47,7 +47,7 @@ fn an_end_before_the_start_leaves_no_time() {
 #[test]
 fn numbers_that_are_none_are_refused_by_name() {
     let named = |start, end| match Interval::new(start, end) {
-        Err(CastError::Number { what, .. }) => what,
+        Err(CastError::InvalidNumber { what, .. }) => what,
         other => panic!("{other:?}"),
     };
     assert_eq!(named(f64::NAN, 1.0), "the start time");

@@ -18,9 +18,9 @@ pub(super) fn nonlinear_cast(
     stop_at_penetration: bool,
     options: &Options,
 ) -> Result<Option<Cast>, CastError> {
-    let motions = CastError::of_motions(motions.map(motion))?;
+    let motions = CastError::motions_or_error(motions.map(motion))?;
     let interval = times.map(f64::from);
-    cast(motions, interval, 0.0, stop_at_penetration, options)
+    cast_of_motions(motions, interval, 0.0, stop_at_penetration, options)
 }
 
 /// Returns the cast with the arguments of `cast_shapes`; `None` if its interval contains no time.
@@ -31,10 +31,10 @@ pub(super) fn linear_cast(
 ) -> Result<Option<Cast>, CastError> {
     let slides =
         |(at, velocity): (&Pose, Vector)| Motion::new(pose(at)?, point(velocity), [0.0; 3]);
-    let motions = CastError::of_motions(bodies.map(slides))?;
+    let motions = CastError::motions_or_error(bodies.map(slides))?;
     let interval = [0.0, f64::from(asked.max_time_of_impact)];
     let target = f64::from(asked.target_distance);
-    cast(
+    cast_of_motions(
         motions,
         interval,
         target,
@@ -53,7 +53,7 @@ pub(super) fn answer(
     Ok(found.flatten().as_ref().map(hit))
 }
 
-fn cast(
+fn cast_of_motions(
     motions: [Motion; 2],
     [start, end]: [f64; 2],
     target: f64,

@@ -135,7 +135,7 @@ impl Caster {
     ) -> Result<Recording, CastError> {
         let (motions, times) = ([motion1, motion2], [start_time, end_time]);
         let cast = nonlinear_cast(motions, times, stop_at_penetration, &self.options)?;
-        let [a, b] = CastError::of_shapes([g1, g2].map(|shape| self.prepared_shape(shape)))?;
+        let [a, b] = CastError::shapes_or_error([g1, g2].map(|shape| self.prepared_shape(shape)))?;
         let cast = cast.ok_or(CastError::EmptyInterval)?;
         cast.with_scene([&a, &b], |scene| Ok(Recording::new(scene)))
     }
@@ -152,19 +152,19 @@ impl Caster {
     }
 
     /// Returns the number of bodies in the cache.
-    pub fn kept(&self) -> usize {
+    pub fn cached_body_count(&self) -> usize {
         self.shapes.len()
     }
 
     /// Removes the bodies of shapes that have no owner besides this cache.
-    pub fn forget_unused(&mut self) {
+    pub fn remove_unused_bodies(&mut self) {
         self.shapes
             .retain(|_, (shape, _)| Arc::strong_count(&shape.0) > 1);
         self.bodies_after_removal = self.shapes.len();
     }
 
     fn prepared_shape(&mut self, shape: &SharedShape) -> Result<PreparedShape, ShapeError> {
-        if let Some((_, kept)) = self.shapes.get(&address(shape)) {
+        if let Some((_, kept)) = self.shapes.get(&shape_address(shape)) {
             return Ok(kept.clone());
         }
         let ready = match shape.as_typed_shape() {
@@ -172,10 +172,10 @@ impl Caster {
             _ => PreparedShape::Body(Arc::new(body(&**shape, &self.options)?)),
         };
         if self.shapes.len() >= 2 * self.bodies_after_removal + MIN_BODIES_FOR_REMOVAL {
-            self.forget_unused();
+            self.remove_unused_bodies();
         }
         self.shapes
-            .insert(address(shape), (shape.clone(), ready.clone()));
+            .insert(shape_address(shape), (shape.clone(), ready.clone()));
         Ok(ready)
     }
 
@@ -184,7 +184,7 @@ impl Caster {
         cast: Option<Cast>,
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = CastError::of_shapes(shapes.map(|shape| self.prepared_shape(shape)))?;
+        let [a, b] = CastError::shapes_or_error(shapes.map(|shape| self.prepared_shape(shape)))?;
         ask::answer(cast, [&a, &b], &mut self.solver)
     }
 }
@@ -192,7 +192,7 @@ impl Caster {
 /// The number of cached bodies below which unused ones are not searched for.
 const MIN_BODIES_FOR_REMOVAL: usize = 32;
 
-fn address(shape: &SharedShape) -> usize {
+fn shape_address(shape: &SharedShape) -> usize {
     Arc::as_ptr(&shape.0).cast::<()>() as usize
 }
 

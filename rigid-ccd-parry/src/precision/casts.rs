@@ -4,7 +4,7 @@ use super::ask::{self, linear_cast, nonlinear_cast};
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions, Unsupported};
 use super::library::shape::{Shape, TypedShape};
-use super::shapes::{form, half_space};
+use super::shapes::{half_space, shape_geometry};
 use crate::body_cache::BodyCache;
 use crate::cast::{Cast, PreparedShape};
 use crate::{CastError, Options, ShapeError};
@@ -128,15 +128,15 @@ struct ThreadMemory {
 
 thread_local! {
     /// The thread's memory, taken out while a call uses it.
-    static MEMORY: Cell<Option<Box<ThreadMemory>>> = const { Cell::new(None) };
+    static THREAD_MEMORY: Cell<Option<Box<ThreadMemory>>> = const { Cell::new(None) };
 }
 
 fn answer(cast: Option<Cast>, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCastHit>, CastError> {
     // The memory is gone while its thread ends.
-    let memory = MEMORY.try_with(Cell::take).ok().flatten();
+    let memory = THREAD_MEMORY.try_with(Cell::take).ok().flatten();
     let mut memory = memory.unwrap_or_default();
     let found = memory.answer(cast, shapes);
-    let _ = MEMORY.try_with(|place| place.set(Some(memory)));
+    let _ = THREAD_MEMORY.try_with(|place| place.set(Some(memory)));
     found
 }
 
@@ -146,7 +146,7 @@ impl ThreadMemory {
         cast: Option<Cast>,
         shapes: [&dyn Shape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
-        let [a, b] = CastError::of_shapes(shapes.map(|shape| self.prepared_shape(shape)))?;
+        let [a, b] = CastError::shapes_or_error(shapes.map(|shape| self.prepared_shape(shape)))?;
         ask::answer(cast, [&a, &b], &mut self.solver)
     }
 
@@ -154,7 +154,7 @@ impl ThreadMemory {
         match shape.as_typed_shape() {
             TypedShape::HalfSpace(plane) => half_space(plane).map(PreparedShape::HalfSpace),
             _ => {
-                let form = form(shape, &Options::default())?;
+                let form = shape_geometry(shape, &Options::default())?;
                 self.body_cache.body(form).map(PreparedShape::Body)
             }
         }

@@ -2,7 +2,7 @@
 
 use super::convert::{time, vector};
 use super::library::query::{ShapeCastHit, ShapeCastStatus};
-use crate::scene::{CastHit, Ending};
+use crate::scene::{CastHit, CastStatus};
 
 /// Converts a hit to parry's type, with the time rounded down.
 pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
@@ -15,12 +15,12 @@ pub(super) fn hit(found: &CastHit) -> ShapeCastHit {
         witness2,
         normal1,
         normal2,
-        status: match found.ending {
-            Ending::Contact => ShapeCastStatus::Converged,
-            Ending::Overlap | Ending::Inside | Ending::Near => {
+        status: match found.status {
+            CastStatus::Contact => ShapeCastStatus::Converged,
+            CastStatus::Overlap | CastStatus::Inside | CastStatus::Near => {
                 ShapeCastStatus::PenetratingOrWithinTargetDist
             }
-            Ending::Limit => ShapeCastStatus::OutOfIterations,
+            CastStatus::Limit => ShapeCastStatus::OutOfIterations,
         },
         subshape1,
         subshape2,

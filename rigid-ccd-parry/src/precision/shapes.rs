@@ -35,11 +35,14 @@ use ccd_core::{InputError, SolidOfRevolution};
 /// # Ok::<(), rigid_ccd_parry::ShapeError>(())
 /// ```
 pub fn body(shape: &dyn Shape, options: &Options) -> Result<Prepared, ShapeError> {
-    Prepared::new(&form(shape, options)?)
+    Prepared::new(&shape_geometry(shape, options)?)
 }
 
 /// Returns the geometry of a shape in double precision.
-pub(super) fn form(shape: &dyn Shape, options: &Options) -> Result<ShapeGeometry, ShapeError> {
+pub(super) fn shape_geometry(
+    shape: &dyn Shape,
+    options: &Options,
+) -> Result<ShapeGeometry, ShapeError> {
     let form = geometry_at_depth(shape, options, 0)?;
     let TypedShape::TriMesh(mesh) = shape.as_typed_shape() else {
         return Ok(form);
@@ -66,7 +69,7 @@ fn geometry_at_depth(
     let mut form = ShapeGeometry::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
-            form.push_points([DVec3::ZERO], size("radius", ball.radius)?, 0);
+            form.push_hull_of_points([DVec3::ZERO], size("radius", ball.radius)?, 0);
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
@@ -75,15 +78,15 @@ fn geometry_at_depth(
         }
         TypedShape::Capsule(capsule) => {
             let ends = [capsule.segment.a, capsule.segment.b].map(point);
-            form.push_points(ends, size("radius", capsule.radius)?, 0);
+            form.push_hull_of_points(ends, size("radius", capsule.radius)?, 0);
         }
         TypedShape::Segment(segment) => {
-            form.push_points([segment.a, segment.b].map(point), 0.0, 0);
+            form.push_hull_of_points([segment.a, segment.b].map(point), 0.0, 0);
         }
         TypedShape::Triangle(t) => form.push_triangles([t.a, t.b, t.c].map(point), &ONE, 0..),
         TypedShape::RoundTriangle(round) => {
             let corners = round.inner_shape.vertices().map(point);
-            form.push_points(corners, border_radius(round.border_radius)?, 0);
+            form.push_hull_of_points(corners, border_radius(round.border_radius)?, 0);
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
         TypedShape::RoundConvexPolyhedron(round) => {
@@ -95,18 +98,21 @@ fn geometry_at_depth(
             form.push_triangles(vertices, mesh.indices(), 0..);
         }
         TypedShape::Polyline(line) => push_polyline(&mut form, line),
-        TypedShape::HeightField(field) => push_heights(&mut form, field),
+        TypedShape::HeightField(field) => push_height_field(&mut form, field),
         TypedShape::Voxels(voxels) => push_voxels(&mut form, voxels)?,
-        TypedShape::Compound(compound) => push_parts(&mut form, compound, options, depth)?,
+        TypedShape::Compound(compound) => push_compound(&mut form, compound, options, depth)?,
         TypedShape::HalfSpace(_) => return Err(ShapeError::HalfSpace),
         TypedShape::Custom(_) => return Err(ShapeError::Custom),
-        typed => return round_geometry(&typed, options),
+        typed => return solid_of_revolution_geometry(&typed, options),
     }
     Ok(form)
 }
 
 /// Returns the geometry of a cylinder or a cone, perhaps grown by a radius.
-fn round_geometry(shape: &TypedShape<'_>, options: &Options) -> Result<ShapeGeometry, ShapeError> {
+fn solid_of_revolution_geometry(
+    shape: &TypedShape<'_>,
+    options: &Options,
+) -> Result<ShapeGeometry, ShapeError> {
     let cylinder = |s: &Cylinder| round(SolidOfRevolution::cylinder, s.half_height, s.radius);
     let cone = |s: &Cone| round(SolidOfRevolution::cone, s.half_height, s.radius);
     let (made, grown) = match shape {
@@ -135,7 +141,7 @@ fn round(
 fn push_cuboid(form: &mut ShapeGeometry, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
     let half = point(cuboid.half_extents);
     for length in half.to_array() {
-        not_negative("half extent", length)?;
+        check_size("half extent", length)?;
     }
     form.push_box(-half, half, radius);
     Ok(())
@@ -160,7 +166,7 @@ fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
     let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
     for (number, ends) in (0..).zip(line.indices()) {
-        form.push_points(ends.map(vertex), 0.0, number);
+        form.push_hull_of_points(ends.map(vertex), 0.0, number);
     }
 }
 
@@ -168,7 +174,7 @@ fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
 const ONE: [[u32; 3]; 1] = [[0, 1, 2]];
 
 /// Adds the triangles of a height field to a form, with parry's numbers and corners.
-fn push_heights(form: &mut ShapeGeometry, field: &HeightField) {
+fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
     let (rows, columns) = (field.nrows(), field.ncols());
     for j in 0..columns {
         for i in 0..rows {
@@ -212,14 +218,14 @@ fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeErr
 }
 
 /// Adds the parts of a compound to a form, each at its pose.
-fn push_parts(
+fn push_compound(
     form: &mut ShapeGeometry,
     compound: &Compound,
     options: &Options,
     depth: usize,
 ) -> Result<(), ShapeError> {
     if depth >= MAX_NESTING_DEPTH {
-        return Err(ShapeError::Nested);
+        return Err(ShapeError::NestedTooDeeply);
     }
     for (part, (at, shape)) in (0..).zip(compound.shapes()) {
         let named = |error| ShapeError::Part {
@@ -238,14 +244,14 @@ fn border_radius(radius: Real) -> Result<f64, ShapeError> {
 }
 
 fn size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
-    not_negative(what, f64::from(value))
+    check_size(what, f64::from(value))
 }
 
-fn not_negative(what: &'static str, value: f64) -> Result<f64, ShapeError> {
+fn check_size(what: &'static str, value: f64) -> Result<f64, ShapeError> {
     if value >= 0.0 && value.is_finite() {
         Ok(value)
     } else {
-        Err(ShapeError::Size { what, value })
+        Err(ShapeError::InvalidSize { what, value })
     }
 }
 

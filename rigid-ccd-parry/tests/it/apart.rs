@@ -47,7 +47,7 @@ impl Scene {
     }
 
     /// Returns the shapes and motions in single precision.
-    fn in_single_precision(
+    fn shapes_and_motions_f32(
         &self,
     ) -> (
         [single::make::SharedShape; 2],
@@ -90,7 +90,7 @@ impl Scene {
     }
 
     /// Returns whether the bodies are more than `by` apart at sampled times before the end.
-    fn is_apart(&self, [start, end]: [Real; 2], by: Real) -> bool {
+    fn are_bodies_apart(&self, [start, end]: [Real; 2], by: Real) -> bool {
         let at = |k: i32| start + (end - start) * Real::from(k) / 60.0;
         (0..60)
             .map(at)
@@ -180,7 +180,10 @@ impl HitCounts {
             } else {
                 0.0
             };
-            assert!(scene.is_apart([start, until], by), "{name}: before {until}");
+            assert!(
+                scene.are_bodies_apart([start, until], by),
+                "{name}: before {until}"
+            );
         }
         match found {
             Some(time) => {
@@ -208,7 +211,7 @@ fn nothing_touches_before_a_hit() {
         let scene = Scene::new(seed);
         let start = [0.0, 0.0, -0.25, 0.125f32][seed as usize % 4];
         let interval = [f64::from(start), 2.0];
-        let ([a, b], [m, n]) = scene.in_single_precision();
+        let ([a, b], [m, n]) = scene.shapes_and_motions_f32();
         let hit32 = ours32::cast_shapes_nonlinear(&m, &*a, &n, &*b, start, 2.0, true);
         let ([a, b], [m, n]) = (&scene.shapes, &scene.motions);
         let hit64 = ours64::cast_shapes_nonlinear(m, &**a, n, &**b, interval[0], 2.0, true);

@@ -9,14 +9,14 @@ use rigid_ccd_parry::f64::{cast_shapes, cast_shapes_nonlinear};
 
 /// The numbers of hits of both casts at about the same time, and of those with equal points, directions and sub-shapes.
 #[derive(Debug, Default)]
-struct Count {
+struct AgreementCounts {
     hits: u32,
     points: u32,
     normals: u32,
     parts: u32,
 }
 
-impl Count {
+impl AgreementCounts {
     fn add(
         &mut self,
         shapes: [&make::SharedShape; 2],
@@ -36,8 +36,8 @@ impl Count {
         self.normals += near(ours.normal1, theirs.normal1) * near(ours.normal2, theirs.normal2);
         let [a, b] = shapes;
         self.parts += u32::from(
-            distance_of(a, ours.subshape1, ours.witness1) < 1e-6
-                && distance_of(b, ours.subshape2, ours.witness2) < 1e-6,
+            distance_to_sub_shape(a, ours.subshape1, ours.witness1) < 1e-6
+                && distance_to_sub_shape(b, ours.subshape2, ours.witness2) < 1e-6,
         );
     }
 
@@ -54,7 +54,7 @@ impl Count {
 }
 
 /// Returns the distance of a point from a sub-shape, or from the whole shape if it has no sub-shapes.
-fn distance_of(shape: &make::SharedShape, number: u32, point: Vector) -> f64 {
+fn distance_to_sub_shape(shape: &make::SharedShape, number: u32, point: Vector) -> f64 {
     let mut found = f64::INFINITY;
     let mut measure = |at: Option<&Pose>, part: &dyn Shape| {
         found = part.distance_to_point(at.unwrap_or(&Pose::IDENTITY), point, true);
@@ -81,7 +81,7 @@ fn pair(seed: u64, kinds: [u32; 2]) -> ([make::SharedShape; 2], [MotionSpec; 2])
 
 #[test]
 fn nonlinear_hits_are_in_the_frames_of_parry() {
-    let mut count = Count::default();
+    let mut count = AgreementCounts::default();
     for seed in 0..600 {
         // Balls, boxes, capsules and rounded hulls: parry converges on most of them.
         let kinds = [
@@ -104,7 +104,7 @@ fn nonlinear_hits_are_in_the_frames_of_parry() {
 
 #[test]
 fn linear_hits_are_in_the_frames_of_parry() {
-    let mut count = Count::default();
+    let mut count = AgreementCounts::default();
     for seed in 0..900 {
         // Meshes and compounds are included, whose sub-shapes have numbers.
         let kinds = [

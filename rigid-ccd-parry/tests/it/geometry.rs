@@ -19,7 +19,7 @@ fn reach(body: &Prepared, direction: DVec3) -> f64 {
 }
 
 /// Returns the extent of a parry shape in a direction, computed by parry.
-fn reach_of(shape: &dyn Shape, at: &Pose, direction: Vector) -> f64 {
+fn support_height(shape: &dyn Shape, at: &Pose, direction: Vector) -> f64 {
     if let Some(map) = shape.as_support_map() {
         return map.support_point(at, direction).dot(direction);
     }
@@ -43,7 +43,7 @@ fn reach_of(shape: &dyn Shape, at: &Pose, direction: Vector) -> f64 {
         })),
         TypedShape::Compound(compound) => {
             let part = |(inner, shape): &(Pose, SharedShape)| {
-                reach_of(&**shape, &(at * *inner), direction)
+                support_height(&**shape, &(at * *inner), direction)
             };
             compound
                 .shapes()
@@ -83,7 +83,7 @@ fn bodies_hold_their_shapes_and_exceed_them_by_what_they_say() {
             exact &= ours.excess() == 0.0;
             for direction in directions(seed) {
                 let v = Vector::new(direction.x, direction.y, direction.z);
-                let more = reach(&ours, direction) - reach_of(&*theirs, &Pose::IDENTITY, v);
+                let more = reach(&ours, direction) - support_height(&*theirs, &Pose::IDENTITY, v);
                 assert!(more > -1e-14 - ours.slack(), "{recipe:?} lacks {more:e}");
                 assert!(
                     more < ours.excess() + ours.slack() + 1e-14,

@@ -10,14 +10,14 @@ use parry3d::utils::Array2;
 use rigid_ccd_parry::CastError;
 use rigid_ccd_parry::f32::{cast_shapes_nonlinear, try_cast_shapes_nonlinear};
 
-fn resting(x: f32) -> NonlinearRigidMotion {
+fn motion_at_rest(x: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::constant_position(Pose::translation(x, 0.0, 0.0))
 }
 
 fn linear_motion(x: f32, speed: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion {
         linvel: speed * Vector::X,
-        ..resting(x)
+        ..motion_at_rest(x)
     }
 }
 
@@ -40,10 +40,15 @@ fn shapes_without_size_meet() {
     ];
     for a in &shapes {
         for b in &shapes {
-            let found =
-                time(&**a, &**b, [linear_motion(-4.0, 2.0), resting(0.0)], 9.0).expect("they meet");
+            let found = time(
+                &**a,
+                &**b,
+                [linear_motion(-4.0, 2.0), motion_at_rest(0.0)],
+                9.0,
+            )
+            .expect("they meet");
             assert!(found <= 2.0 && found > 1.999999, "{found}");
-            let beside = resting(0.0);
+            let beside = motion_at_rest(0.0);
             let past = NonlinearRigidMotion {
                 start: Pose::translation(-4.0, 0.001, 0.0),
                 ..linear_motion(0.0, 2.0)
@@ -60,7 +65,7 @@ fn tiny_bodies_are_not_in_contact_at_their_own_size() {
         let found = time(
             &ball,
             &cube,
-            [linear_motion(-4.0 * scale, scale), resting(0.0)],
+            [linear_motion(-4.0 * scale, scale), motion_at_rest(0.0)],
             9.0,
         );
         let found = found.expect("they meet");
@@ -71,7 +76,7 @@ fn tiny_bodies_are_not_in_contact_at_their_own_size() {
             ..past
         };
         assert_eq!(
-            time(&ball, &cube, [past, resting(0.0)], 9.0),
+            time(&ball, &cube, [past, motion_at_rest(0.0)], 9.0),
             None,
             "{scale:e}"
         );
@@ -87,7 +92,7 @@ fn large_scenes_and_far_origins_are_met_in_time() {
         let found = time(
             &ball,
             &cube,
-            [linear_motion(far - step, 1.0), resting(far)],
+            [linear_motion(far - step, 1.0), motion_at_rest(far)],
             1e6,
         );
         let exact = step - 2.0;
@@ -102,16 +107,16 @@ fn large_scenes_and_far_origins_are_met_in_time() {
         let found = time(
             &ball,
             &cube,
-            [linear_motion(-4.0 * size, size), resting(0.0)],
+            [linear_motion(-4.0 * size, size), motion_at_rest(0.0)],
             9.0,
         )
         .expect("they meet");
         assert!(found <= 2.0 && found > 1.999999, "{size:e}: {found}");
     }
     let beyond = try_cast_shapes_nonlinear(
-        &resting(2e12),
+        &motion_at_rest(2e12),
         &Ball::new(1.0),
-        &resting(0.0),
+        &motion_at_rest(0.0),
         &Ball::new(1.0),
         [0.0, 1.0],
         true,
@@ -130,7 +135,7 @@ fn speeds_beyond_all_scales_are_met() {
         let found = time(
             &ball,
             &ball,
-            [linear_motion(-4.0, speed), resting(0.0)],
+            [linear_motion(-4.0, speed), motion_at_rest(0.0)],
             f32::INFINITY,
         );
         let (found, exact) = (found.expect("they meet"), 2.0 / f64::from(speed));
@@ -143,7 +148,7 @@ fn speeds_beyond_all_scales_are_met() {
             time(
                 &ball,
                 &ball,
-                [linear_motion(-4.0, -speed), resting(0.0)],
+                [linear_motion(-4.0, -speed), motion_at_rest(0.0)],
                 f32::INFINITY
             ),
             None
@@ -162,8 +167,15 @@ fn spins_beyond_the_limit_end_as_a_limit() {
         ..linear_motion(-9.0, 1.0)
     };
     let cast = |shape: &dyn Shape, rate| {
-        let hit =
-            cast_shapes_nonlinear(&spins(rate), shape, &resting(0.0), &cube, 0.0, 100.0, true);
+        let hit = cast_shapes_nonlinear(
+            &spins(rate),
+            shape,
+            &motion_at_rest(0.0),
+            &cube,
+            0.0,
+            100.0,
+            true,
+        );
         hit.expect("served").expect("they meet")
     };
     let hit = cast(&cube, 1e8);
@@ -182,8 +194,14 @@ fn spins_beyond_the_limit_end_as_a_limit() {
 fn errors_name_what_is_wrong() {
     let ball = Ball::new(1.0);
     let told = |shape: &dyn Shape| {
-        let found =
-            try_cast_shapes_nonlinear(&resting(0.0), &ball, &resting(9.0), shape, [0.0, 1.0], true);
+        let found = try_cast_shapes_nonlinear(
+            &motion_at_rest(0.0),
+            &ball,
+            &motion_at_rest(9.0),
+            shape,
+            [0.0, 1.0],
+            true,
+        );
         found.expect_err("refused").to_string()
     };
     assert_eq!(
@@ -215,9 +233,16 @@ fn errors_name_what_is_wrong() {
         (Pose::IDENTITY, SharedShape::ball(f32::INFINITY)),
     ];
     assert!(told(&Compound::new(parts)).starts_with("shape 2: part 1: its radius is inf"));
-    let mut motion = resting(0.0);
+    let mut motion = motion_at_rest(0.0);
     motion.start.rotation = Rotation::from_xyzw(0.0, 0.0, 0.0, 0.0);
-    let found = try_cast_shapes_nonlinear(&motion, &ball, &resting(0.0), &ball, [0.0, 1.0], true);
+    let found = try_cast_shapes_nonlinear(
+        &motion,
+        &ball,
+        &motion_at_rest(0.0),
+        &ball,
+        [0.0, 1.0],
+        true,
+    );
     let told = found.expect_err("refused").to_string();
     assert_eq!(
         told,
@@ -232,11 +257,11 @@ fn a_speed_that_both_have_costs_no_digits() {
     let orbit = 8192.0 * Vector::new(1.0, -2.0, 3.0);
     let near = NonlinearRigidMotion {
         linvel: orbit + 0.125 * Vector::X,
-        ..resting(-10.0)
+        ..motion_at_rest(-10.0)
     };
     let ahead = NonlinearRigidMotion {
         linvel: orbit,
-        ..resting(0.0)
+        ..motion_at_rest(0.0)
     };
     let found = time(&ball, &ball, [near, ahead], f32::INFINITY).expect("they meet");
     assert!(found <= 64.0 && found > 64.0 - 2e-5, "{found}");
@@ -265,7 +290,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
             let found = time(
                 &ball,
                 &*ground,
-                [slides(1.5, speed, spin), resting(0.0)],
+                [slides(1.5, speed, spin), motion_at_rest(0.0)],
                 f32::MAX,
             );
             // At the highest speed a rotation leads farther than the plane is bounded.
@@ -275,7 +300,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
         let found = time(
             &ball,
             &*ground,
-            [slides(1.0, speed, 0.0), resting(0.0)],
+            [slides(1.0, speed, 0.0), motion_at_rest(0.0)],
             f32::MAX,
         );
         assert_eq!(found, Some(0.0), "{speed:e}");
@@ -284,7 +309,7 @@ fn a_body_slides_above_a_half_space_for_ever() {
     let found = time(
         &ball,
         &*ground,
-        [slides(1.2, 1.0, 1.0), resting(0.0)],
+        [slides(1.2, 1.0, 1.0), motion_at_rest(0.0)],
         f32::MAX,
     );
     assert!(

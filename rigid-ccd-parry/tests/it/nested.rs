@@ -17,7 +17,7 @@ fn parts_of_compounds_may_nest_and_not_without_end() {
         for _ in 0..depth {
             let place = Pose::translation(1.0, 0.0, 0.0);
             let inner = Compound::new(vec![(place, shape)]);
-            shape = SharedShape::new(Wrapped(inner));
+            shape = SharedShape::new(CustomCompound(inner));
         }
         shape
     };
@@ -34,14 +34,14 @@ fn parts_of_compounds_may_nest_and_not_without_end() {
     while let ShapeError::Part { error: inner, .. } = error {
         error = *inner;
     }
-    assert_eq!(error, ShapeError::Nested);
+    assert_eq!(error, ShapeError::NestedTooDeeply);
 }
 
 /// A compound with a hidden type, which parry accepts as a part of another one.
 #[derive(Clone)]
-struct Wrapped(Compound);
+struct CustomCompound(Compound);
 
-impl RayCast for Wrapped {
+impl RayCast for CustomCompound {
     fn cast_local_ray_and_get_normal(
         &self,
         ray: &Ray,
@@ -52,7 +52,7 @@ impl RayCast for Wrapped {
     }
 }
 
-impl PointQuery for Wrapped {
+impl PointQuery for CustomCompound {
     fn project_local_point(&self, point: Vector, solid: bool) -> PointProjection {
         self.0.project_local_point(point, solid)
     }
@@ -62,7 +62,7 @@ impl PointQuery for Wrapped {
     }
 }
 
-impl Shape for Wrapped {
+impl Shape for CustomCompound {
     fn compute_local_aabb(&self) -> Aabb {
         self.0.compute_local_aabb()
     }

@@ -60,7 +60,7 @@ fn a_target_distance_is_kept() {
         assert!(
             matches!(
                 error,
-                CastError::Number {
+                CastError::InvalidNumber {
                     what: "the target distance",
                     ..
                 }
@@ -254,7 +254,7 @@ fn a_mesh_is_a_surface_unless_the_options_make_it_a_solid() {
         ..Options::default()
     });
     let open = caster.body(&mesh(oriented, 11));
-    assert!(matches!(open, Err(ShapeError::Open { .. })), "{open:?}");
+    assert!(matches!(open, Err(ShapeError::OpenMesh { .. })), "{open:?}");
 }
 
 #[test]
@@ -295,9 +295,9 @@ fn cylinders_are_early_by_at_most_the_excess() {
             "{time} of {excess}"
         );
     }
-    let fine = cast(Excess::Fine).expect("served");
+    let fine = cast(Excess::RadiusFraction).expect("served");
     assert!(fine <= exact && fine > exact - 1.0 / 4096.0 - 2e-6);
-    let refused = cast(Excess::Refuse).expect_err("refused");
+    let refused = cast(Excess::NotAllowed).expect_err("refused");
     let error = ShapeError::Round;
     assert_eq!(
         refused,

@@ -42,7 +42,7 @@ fn cast(
         .map(|hit| (hit.time_of_impact, hit.status))
 }
 
-const PENETRATING: ShapeCastStatus = ShapeCastStatus::PenetratingOrWithinTargetDist;
+const PENETRATING_STATUS: ShapeCastStatus = ShapeCastStatus::PenetratingOrWithinTargetDist;
 
 #[test]
 fn parting_convex_shapes_are_ignored_as_in_parry() {
@@ -78,7 +78,7 @@ fn parting_convex_shapes_are_ignored_as_in_parry() {
         ) {
             (None, false) => gone += 1,
             (Some(found), true) => {
-                assert_eq!(found, (0.0, PENETRATING));
+                assert_eq!(found, (0.0, PENETRATING_STATUS));
                 kept += 1;
             }
             // Two directions have nearly the same depth.
@@ -109,7 +109,7 @@ fn a_body_slides_on_a_floor_that_it_is_in() {
         assert_eq!(cast(&ball, within, Vector::Y, &**floor), None);
         assert_eq!(
             cast(&ball, within, slide - 0.01 * Vector::Y, &**floor),
-            Some((0.0, PENETRATING))
+            Some((0.0, PENETRATING_STATUS))
         );
     }
 }
@@ -160,7 +160,7 @@ fn a_body_that_leaves_one_part_hits_the_next() {
     assert_eq!(cast(&ball, at(-0.8, 0.0, 0.0), -Vector::X, &*walls), None);
     assert_eq!(
         cast(&ball, at(-0.8, 0.0, 0.0), Vector::X, &*walls),
-        Some((0.0, PENETRATING))
+        Some((0.0, PENETRATING_STATUS))
     );
     let hit = cast_shapes(
         &at(0.8, 0.0, 0.0),
@@ -196,9 +196,9 @@ fn bodies_that_turn_are_in_contact_where_they_overlap() {
         hit.expect("served")
             .map(|hit| (hit.time_of_impact, hit.status))
     };
-    assert_eq!(cast(Vector::ZERO, true), Some((0.0, PENETRATING)));
+    assert_eq!(cast(Vector::ZERO, true), Some((0.0, PENETRATING_STATUS)));
     assert_eq!(cast(Vector::ZERO, false), None);
-    assert_eq!(cast(Vector::Y, false), Some((0.0, PENETRATING)));
+    assert_eq!(cast(Vector::Y, false), Some((0.0, PENETRATING_STATUS)));
 }
 
 #[test]

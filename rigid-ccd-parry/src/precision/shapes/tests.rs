@@ -25,7 +25,7 @@ fn holes_of_height_fields_are_holes() {
     assert_eq!(holed.body().pieces().len(), 21);
     // Piece number k is triangle k.
     for piece in 0..21 {
-        let number = holed.sub_shape(piece);
+        let number = holed.sub_shape_index(piece);
         let theirs = field
             .triangle_at_id(number)
             .expect("a triangle that is there");
@@ -80,9 +80,9 @@ fn parts_of_a_compound_have_their_numbers() {
     let made = prepared(&Compound::new(parts.collect()));
     for piece in 0..9 {
         let at = made.body().pieces().get(piece as usize).points[0];
-        assert_eq!(at.x, f64::from(made.sub_shape(piece)));
+        assert_eq!(at.x, f64::from(made.sub_shape_index(piece)));
     }
-    assert_eq!(made.sub_shape(9), 0);
+    assert_eq!(made.sub_shape_index(9), 0);
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn refusals_name_the_reason() {
     assert_eq!(refused(&*plane), ShapeError::HalfSpace);
     assert!(matches!(
         refused(&Ball::new(-0.5)),
-        ShapeError::Size {
+        ShapeError::InvalidSize {
             what: "radius",
             value: -0.5
         }
@@ -113,7 +113,7 @@ fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
         excess,
         ..Options::default()
     };
-    for excess in [Excess::Fine, Excess::Length(1e-3)] {
+    for excess in [Excess::RadiusFraction, Excess::Length(1e-3)] {
         let (cylinder, cone) = (Cylinder::new(0.5, 0.25), Cone::new(0.5, 0.25));
         for shape in [&cylinder as &dyn Shape, &cone] {
             let made = body(shape, &within(excess)).expect("served");
@@ -142,7 +142,7 @@ fn cylinders_and_cones_are_along_y_with_the_reported_excess() {
     assert!(least < 1e-7 && body(&cylinder, &within(Excess::Length(least))).is_ok());
     assert!(matches!(
         refused(Excess::Length(-1.0)),
-        ShapeError::Size { what: "excess", .. }
+        ShapeError::InvalidSize { what: "excess", .. }
     ));
-    assert_eq!(refused(Excess::Refuse), ShapeError::Round);
+    assert_eq!(refused(Excess::NotAllowed), ShapeError::Round);
 }
