@@ -2,8 +2,9 @@
 
 use crate::arrays::{rows, triangles};
 use crate::errors::{InputError, file_error, input_error, warn, wrong_type};
+use crate::pickle::{Recipe, Reduced};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyTuple, PyType};
+use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Volume};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
@@ -44,8 +45,7 @@ pub(crate) struct PyBody {
 
 /// The data from which pickle makes the body again.
 enum PickleData {
-    /// The name of a shape's constructor, and its arguments.
-    Shape(&'static str, Vec<Option<f64>>),
+    Shape(Recipe),
     Mesh(Box<Model>),
 }
 
@@ -190,24 +190,26 @@ impl PyBody {
 
     /// Makes a box about its origin, by its half extents along x, y and z.
     #[classmethod]
-    fn r#box(_class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
+    fn r#box(class: &Bound<'_, PyType>, x: f64, y: f64, z: f64) -> PyResult<Self> {
         let report = format!("box of half extents {x}, {y}, {z}");
-        PyBody::shape("box", [x, y, z], Body::cuboid([x, y, z]), report)
+        let recipe = Recipe::new(class.py(), Some("box"), (x, y, z))?;
+        PyBody::from_shape(Body::cuboid([x, y, z]), recipe, report)
     }
 
     /// Makes a ball about its origin.
     #[classmethod]
-    fn sphere(_class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
+    fn sphere(class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
         let report = format!("ball of radius {radius}");
-        PyBody::shape("sphere", [radius], Body::sphere(radius), report)
+        let recipe = Recipe::new(class.py(), Some("sphere"), (radius,))?;
+        PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
     /// Makes a capsule along z; half its height is from its middle to the centre of either cap.
     #[classmethod]
-    fn capsule(_class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
+    fn capsule(class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
-        let body = Body::capsule(radius, half_height);
-        PyBody::shape("capsule", [radius, half_height], body, report)
+        let recipe = Recipe::new(class.py(), Some("capsule"), (radius, half_height))?;
+        PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
 
     /// Makes a cylinder along z, as a polytope around it: `sticks_out` tells by how much it exceeds the cylinder.
@@ -219,13 +221,19 @@ impl PyBody {
     #[classmethod]
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cylinder(
-        _class: &Bound<'_, PyType>,
+        class: &Bound<'_, PyType>,
         radius: f64,
         half_height: f64,
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = SolidOfRevolution::cylinder(radius, half_height).map_err(input_error)?;
-        PyBody::round("cylinder", &round, [radius, half_height], excess)
+        PyBody::round(
+            class.py(),
+            "cylinder",
+            &round,
+            [radius, half_height],
+            excess,
+        )
     }
 
     /// Makes a cone along z with its apex up, as a polytope around it, like `Body.cylinder`.
@@ -237,13 +245,13 @@ impl PyBody {
     #[classmethod]
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cone(
-        _class: &Bound<'_, PyType>,
+        class: &Bound<'_, PyType>,
         radius: f64,
         half_height: f64,
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = SolidOfRevolution::cone(radius, half_height).map_err(input_error)?;
-        PyBody::round("cone", &round, [radius, half_height], excess)
+        PyBody::round(class.py(), "cone", &round, [radius, half_height], excess)
     }
 
     /// Whether the inside of the body is solid.
@@ -280,22 +288,16 @@ impl PyBody {
         })
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let py = slf.py();
-        let make = |name: &str| py.get_type::<PyBody>().getattr(name);
-        Ok(match &slf.get().made {
-            PickleData::Shape(name, sizes) => (make(name)?, PyTuple::new(py, sizes)?),
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        match &slf.get().made {
+            PickleData::Shape(recipe) => recipe.reduced(slf.get_type()),
             PickleData::Mesh(model) => {
-                let mut bytes = Vec::new();
+                let (py, mut bytes) = (slf.py(), Vec::new());
                 py.detach(|| model.write(&mut bytes)).map_err(input_error)?;
-                (
-                    make("_from_bytes")?,
-                    PyTuple::new(py, [PyBytes::new(py, &bytes)])?,
-                )
+                Recipe::new(py, Some("_from_bytes"), (PyBytes::new(py, &bytes),))?
+                    .reduced(slf.get_type())
             }
-        })
+        }
     }
 
     /// Makes a body from its pickled form.
@@ -324,24 +326,21 @@ impl PyBody {
 
     fn from_model(model: Model) -> PyResult<Self> {
         let (body, report) = (model.body().map_err(input_error)?, model.report.to_string());
-        Ok(PyBody::from_parts(
-            body,
-            PickleData::Mesh(Box::new(model)),
-            report,
-        ))
+        let made = PickleData::Mesh(Box::new(model));
+        Ok(PyBody::from_parts(body, made, report))
     }
 
-    fn shape<const N: usize>(
-        name: &'static str,
-        sizes: [f64; N],
+    fn from_shape(
         body: Result<Body, rigid_ccd::InputError>,
+        recipe: Recipe,
         report: String,
     ) -> PyResult<Self> {
-        let made = PickleData::Shape(name, sizes.map(Some).to_vec());
-        Ok(PyBody::from_parts(body.map_err(input_error)?, made, report))
+        let body = body.map_err(input_error)?;
+        Ok(PyBody::from_parts(body, PickleData::Shape(recipe), report))
     }
 
     fn round(
+        py: Python<'_>,
         name: &'static str,
         round: &SolidOfRevolution,
         [radius, half_height]: [f64; 2],
@@ -354,18 +353,14 @@ impl PyBody {
             "{name} of radius {radius} and half height {half_height}, sticking out by up to {:.3e}",
             body.excess()
         );
-        let sizes = vec![Some(radius), Some(half_height), excess];
-        Ok(PyBody::from_parts(
-            body,
-            PickleData::Shape(name, sizes),
-            report,
-        ))
+        let recipe = Recipe::new(py, Some(name), (radius, half_height, excess))?;
+        PyBody::from_shape(Ok(body), recipe, report)
     }
 
     fn model(&self) -> PyResult<Cow<'_, Model>> {
         match &self.made {
             PickleData::Mesh(model) => Ok(Cow::Borrowed(model)),
-            PickleData::Shape(..) => Ok(Cow::Owned(
+            PickleData::Shape(_) => Ok(Cow::Owned(
                 Model::from_body(&self.body).map_err(input_error)?,
             )),
         }

@@ -4,8 +4,8 @@ use crate::Solver;
 use ccd_core::{Answer, DistanceOracle, InputError, MovingBody};
 use std::num::NonZeroUsize;
 use std::panic::resume_unwind;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread::{self, Builder, available_parallelism};
 
 /// Finds the first contact of each pair of moving bodies, on all cores.
@@ -168,24 +168,18 @@ impl<S: Send> ParallelSolver<S> {
     /// }
     /// # Ok::<(), rigid_ccd::Error>(())
     /// ```
-    pub fn map<Q: Sync, R: Send + Sync>(
+    pub fn map<Q: Sync, R: Send>(
         &mut self,
         queries: &[Q],
         answer: impl Fn(&mut S, &Q) -> R + Sync,
     ) -> Vec<R> {
-        let results: Vec<OnceLock<R>> = queries.iter().map(|_| OnceLock::new()).collect();
         // The counter only distributes the queries; joining a thread makes its results visible.
         let counter = CachePadded(AtomicUsize::new(0));
         let next = || {
             let index = counter.0.fetch_add(1, Ordering::Relaxed);
-            Some((queries.get(index)?, results.get(index)?))
+            Some((index, queries.get(index)?))
         };
-        self.call_on_each(queries.len(), next, |solver, (query, result)| {
-            // Only this thread has this index, so the cell is empty.
-            let _ = result.set(answer(solver, query));
-        });
-        let results = results.into_iter().filter_map(OnceLock::into_inner);
-        results.collect()
+        self.call_on_each(queries.len(), next, answer)
     }
 
     /// Calls a function with a solver and each query of an iterator, and returns the results in the order of
@@ -218,46 +212,44 @@ impl<S: Send> ParallelSolver<S> {
         let queries = queries.into_iter();
         let most = queries.size_hint().1.unwrap_or(usize::MAX);
         let queries = Mutex::new(queries.fuse().enumerate());
-        let results = Mutex::new(Vec::new());
         // The lock is poisoned if the iterator panicked; no work is left then.
         let next = || queries.lock().ok()?.next();
-        self.call_on_each(most, next, |solver, (index, query)| {
-            let result = answer(solver, query);
-            let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);
-            results.push((index, result));
-        });
-        let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
-        results.sort_unstable_by_key(|&(index, _)| index);
-        results.into_iter().map(|(_, result)| result).collect()
+        self.call_on_each(most, next, answer)
     }
 
-    /// Calls a function on each query, on up to `most` threads.
-    fn call_on_each<Q>(
+    /// Calls a function on each query, on up to `most` threads, and returns the results in the order of their indices.
+    fn call_on_each<Q, R: Send>(
         &mut self,
         most: usize,
-        next: impl Fn() -> Option<Q> + Sync,
-        work: impl Fn(&mut S, Q) + Sync,
-    ) {
+        next: impl Fn() -> Option<(usize, Q)> + Sync,
+        answer: impl Fn(&mut S, Q) -> R + Sync,
+    ) -> Vec<R> {
         let panicked = CachePadded(AtomicBool::new(false));
         let work = |own: &mut CachePadded<S>| {
             let _tells = SetOnPanic(&panicked.0);
+            let mut results = Vec::new();
             while !panicked.0.load(Ordering::Relaxed)
-                && let Some(query) = next()
+                && let Some((index, query)) = next()
             {
-                work(&mut own.0, query);
+                results.push((index, answer(&mut own.0, query)));
             }
+            results
         };
         let useful = self.solvers.len().min(most);
-        if let Some((mine, others)) = self.solvers[..useful].split_first_mut() {
-            thread::scope(|scope| {
-                let start = |own| Builder::new().spawn_scoped(scope, || work(own)).ok();
-                let others: Vec<_> = others.iter_mut().map_while(start).collect();
-                work(mine);
-                for other in others {
-                    other.join().unwrap_or_else(|panic| resume_unwind(panic));
-                }
-            });
-        }
+        let Some((mine, others)) = self.solvers[..useful].split_first_mut() else {
+            return Vec::new();
+        };
+        let mut results = thread::scope(|scope| {
+            let start = |own| Builder::new().spawn_scoped(scope, || work(own)).ok();
+            let others: Vec<_> = others.iter_mut().map_while(start).collect();
+            let mut results = work(mine);
+            for other in others {
+                results.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+            }
+            results
+        });
+        results.sort_by_key(|&(index, _)| index);
+        results.into_iter().map(|(_, result)| result).collect()
     }
 }
 

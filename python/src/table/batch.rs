@@ -137,7 +137,11 @@ pub(crate) fn unreadable(error: ArrowError) -> TableError {
 
 impl Batch {
     /// Creates a batch from checked columns. Columns of float64 are not copied.
-    fn new(batch: &RecordBatch, first: usize, names: IdReading) -> Result<Self, TableError> {
+    pub(crate) fn new(
+        batch: &RecordBatch,
+        first: usize,
+        names: IdReading,
+    ) -> Result<Self, TableError> {
         let schema = batch.schema();
         let (mut id, mut columns) = (None, Vec::new());
         for (field, column) in schema.fields().iter().zip(batch.columns()) {
@@ -174,13 +178,9 @@ impl Batch {
 
 impl Numbers {
     fn from_column(column: &ArrayRef) -> Result<Self, TableError> {
-        let inexact = match column.data_type() {
-            DataType::Int64 => {
-                inexact::<Int64Type>(column, |whole| whole as f64 as i128 == i128::from(whole))
-            }
-            DataType::UInt64 => {
-                inexact::<UInt64Type>(column, |whole| whole as f64 as i128 == i128::from(whole))
-            }
+        let inexact_integers = match column.data_type() {
+            DataType::Int64 => inexact_integers::<Int64Type>(column),
+            DataType::UInt64 => inexact_integers::<UInt64Type>(column),
             _ => None,
         };
         let values = if column.data_type().is_decimal() {
@@ -194,20 +194,22 @@ impl Numbers {
         let values = values.map_err(unreadable)?;
         Ok(Numbers {
             values: values.as_primitive::<Float64Type>().clone(),
-            inexact_integers: inexact,
+            inexact_integers,
         })
     }
 }
 
 /// Returns the numbers of a column that float64 cannot represent exactly, by row index.
-fn inexact<T: ArrowPrimitiveType<Native: std::fmt::Display>>(
+fn inexact_integers<T: ArrowPrimitiveType<Native: Into<i128>>>(
     column: &ArrayRef,
-    is_exact: fn(T::Native) -> bool,
 ) -> Option<HashMap<usize, String>> {
     let numbers = column.as_primitive::<T>().iter().enumerate();
-    let text = |number| format!("{number}, which has more digits than a float64,");
     let found: HashMap<usize, String> = numbers
-        .filter_map(|(row, number)| number.filter(|&n| !is_exact(n)).map(|n| (row, text(n))))
+        .filter_map(|(row, number)| {
+            let number: i128 = number?.into();
+            let text = || format!("{number}, which has more digits than a float64,");
+            (number as f64 as i128 != number).then(|| (row, text()))
+        })
         .collect();
     (!found.is_empty()).then_some(found)
 }
@@ -244,32 +246,6 @@ impl Record for Row {
             value if value.is_finite() => Ok(Some(value)),
             value => Err(value.to_string()),
         }
-    }
-}
-
-/// An iterator over the batches of a table.
-pub(crate) struct Batches {
-    reader: Reader,
-    rows: usize,
-    names: IdReading,
-}
-
-impl Batches {
-    pub(crate) fn new(reader: Reader, names: IdReading) -> Self {
-        Batches {
-            reader,
-            rows: 0,
-            names,
-        }
-    }
-
-    pub(crate) fn next(&mut self) -> Result<Option<Batch>, TableError> {
-        let Some(batch) = self.reader.next() else {
-            return Ok(None);
-        };
-        let batch = Batch::new(&batch.map_err(unreadable)?, self.rows, self.names)?;
-        self.rows += batch.rows;
-        Ok(Some(batch))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Splits a table into pieces, each answered by one thread.
 
-use super::batch::{Batch, Batches, IdReading, Row, Rows, check_types, header, unreadable, whole};
+use super::batch::{Batch, IdReading, Row, Rows, check_types, header, unreadable, whole};
 use super::input::Reader;
 use arrow_array::ArrayRef;
 use rigid_ccd::Remark;
@@ -32,7 +32,10 @@ pub(crate) struct Pieces<'p> {
 
 enum Source {
     Motions {
-        batches: Batches,
+        reader: Reader,
+        names: IdReading,
+        /// The number of rows read so far.
+        read: usize,
         /// The remaining rows of the last batch.
         rest: Option<(Arc<Batch>, Range<usize>)>,
     },
@@ -102,7 +105,9 @@ impl<'p> Pieces<'p> {
             Source::Paths(Box::new(Courses::of(rows, question.grouping())?), batch)
         } else {
             Source::Motions {
-                batches: Batches::new(reader, names),
+                reader,
+                names,
+                read: 0,
                 rest: None,
             }
         };
@@ -144,16 +149,23 @@ impl Source {
     /// Returns the next piece, which is empty only for an empty batch.
     fn next(&mut self, size: &ChunkSize) -> Result<Option<Piece>, TableError> {
         match self {
-            Source::Motions { batches, rest } => {
+            Source::Motions {
+                reader,
+                names,
+                read,
+                rest,
+            } => {
                 let (batch, rows) = match rest.take() {
                     Some((batch, rows)) if rows.start < rows.end => (batch, rows),
-                    _ => match batches.next()? {
-                        Some(batch) => {
-                            let rows = 0..batch.rows;
-                            (Arc::new(batch), rows)
-                        }
-                        None => return Ok(None),
-                    },
+                    _ => {
+                        let Some(batch) = reader.next().transpose().map_err(unreadable)? else {
+                            return Ok(None);
+                        };
+                        let batch = Batch::new(&batch, *read, *names)?;
+                        *read += batch.rows;
+                        let rows = 0..batch.rows;
+                        (Arc::new(batch), rows)
+                    }
                 };
                 let end = rows.start + size.next_rows(rows.len());
                 *rest = Some((Arc::clone(&batch), end..rows.end));

@@ -178,7 +178,7 @@ impl Audit<'_> {
         }
         let page = match (&mut self.pages, course) {
             (Some((pages, _)), Some(course))
-                if row.status != Status::Error && pages.len() < self.args.most_pages =>
+                if row.status != Status::Error && pages.count() < self.args.most_pages =>
             {
                 page_path(pages.write(course, row))?
             }
@@ -208,11 +208,11 @@ impl Audit<'_> {
             ));
             if let Some((pages, _)) = self
                 .pages
-                .filter(|(pages, _)| pages.len() == self.args.most_pages)
+                .filter(|(pages, _)| pages.count() == self.args.most_pages)
             {
                 print_error(&format!(
                     "wrote {} pages, and no more: see --most-pages",
-                    pages.len()
+                    pages.count()
                 ));
             }
         }

@@ -12,7 +12,7 @@ use crate::table::records::Records;
 use crate::{Remark, Scene};
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::order::lesser;
-use ccd_core::{Body, Motion, Settings};
+use ccd_core::{Body, Settings};
 use ccd_decomp::BodySource;
 use std::collections::HashMap;
 use std::fs::File;
@@ -38,21 +38,11 @@ pub(super) struct SceneTable {
     reports: Vec<String>,
     /// The remarks about probable mistakes in the motions.
     remarks: Vec<Remark>,
-    rows: Vec<Row>,
+    rows: Vec<BodyRow>,
     /// The time at which all motions end.
     pub(super) duration: f64,
     /// Whether `duration` is the default because none was given.
     is_default_duration: bool,
-}
-
-/// One row of the table: a body, its name and its motion.
-struct Row {
-    /// The description of the body in the column `body`.
-    text: String,
-    id: String,
-    /// The name in messages and results: the id, with the description if the id is a number.
-    name: String,
-    motion: Motion,
 }
 
 /// Reads the table that the command-line option `option` names, and loads each distinct body once. Refuses an output
@@ -75,20 +65,11 @@ pub(super) fn read(
         duration,
         is_default_duration: how.duration.is_none(),
     };
-    for (position, BodyRow { id, text, motion }) in rows {
+    for (position, row) in rows {
         scene
-            .load(&text, how)
+            .load(&row.text, how)
             .with_context(|| format!("{}: line {}", name(), position.line))?;
-        let name = match id.parse::<usize>() {
-            Ok(_) => format!("{id} {text}"),
-            Err(_) => id.clone(),
-        };
-        scene.rows.push(Row {
-            text,
-            id,
-            name,
-            motion,
-        });
+        scene.rows.push(row);
     }
     for file in &scene.files {
         refuse_overwriting(("a body of the scene", file), ("--out", out))?;
@@ -189,11 +170,15 @@ impl SceneTable {
     /// Returns the bodies to draw, in the order of their rows.
     pub(super) fn bodies_to_draw(&self) -> Vec<DrawnBody<'_>> {
         let shown = self.rows.iter().filter_map(|row| {
-            let body = self.bodies.get(&row.text)?;
+            let BodyRow { id, text, motion } = row;
             Some(DrawnBody {
-                name: &row.name,
-                body,
-                motion: row.motion,
+                // A number alone tells little.
+                name: match id.parse::<usize>() {
+                    Ok(_) => format!("{id} {text}"),
+                    Err(_) => id.clone(),
+                },
+                body: self.bodies.get(text)?,
+                motion: *motion,
             })
         });
         shown.collect()

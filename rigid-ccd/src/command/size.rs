@@ -21,11 +21,6 @@ impl Size {
         Size(sides(corners(body)))
     }
 
-    /// Returns the side lengths of the bounding box of points.
-    pub fn of_points(points: impl IntoIterator<Item = DVec3>) -> Self {
-        Size(sides(points))
-    }
-
     fn largest(self) -> f64 {
         self.0.to_array().into_iter().fold(0.0, greater)
     }

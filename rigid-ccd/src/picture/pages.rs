@@ -48,13 +48,8 @@ impl<'a> Pages<'a> {
     }
 
     /// Returns the number of pages written so far.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.names.len()
-    }
-
-    /// Returns whether no page has been written yet.
-    pub fn is_empty(&self) -> bool {
-        self.names.is_empty()
     }
 
     /// Writes the page of a row, and returns its path.

@@ -15,9 +15,9 @@ const FIXED_COLOR: &str = "#b8b8b8";
 const HUE_STEP: f64 = 137.508;
 
 /// A body of a scene to draw, with its name in the legend.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct DrawnBody<'a> {
-    pub(crate) name: &'a str,
+    pub(crate) name: String,
     pub(crate) body: &'a Body,
     pub(crate) motion: Motion,
 }
@@ -46,13 +46,10 @@ pub(crate) fn scene_view(
         } else {
             FIXED_COLOR.to_owned()
         };
-        ShownBody::new(shown.name, mesh, &color, &shown.motion)
+        ShownBody::new(&shown.name, mesh, &color, &shown.motion)
     });
     let shown: Vec<ShownBody> = shown.collect();
-    let hits: Vec<&Impact> = contacts
-        .iter()
-        .filter_map(|found| found.as_ref().ok())
-        .collect();
+    let hits = hits(contacts);
     let origin = bodies
         .first()
         .zip(shown.first())
@@ -77,10 +74,7 @@ pub(crate) fn scene_verdict(
     contacts: &[Result<Impact, PairError>],
     duration: f64,
 ) -> String {
-    let hits: Vec<&Impact> = contacts
-        .iter()
-        .filter_map(|found| found.as_ref().ok())
-        .collect();
+    let hits = hits(contacts);
     let all = match bodies.len() {
         1 => "One body".to_owned(),
         count => format!("{count} bodies"),
@@ -90,7 +84,7 @@ pub(crate) fn scene_verdict(
         None if contacts.is_empty() => format!("{all}, no contact, {end}. Proven."),
         None => format!("{all}, no contact found, {end}."),
         Some(first) => {
-            let [a, b] = first.bodies.map(|k| bodies[k].name);
+            let [a, b] = first.bodies.map(|k| &bodies[k].name);
             format!(
                 "{all}, {} in contact, {end}. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
                 pairs(hits.len()),
@@ -99,7 +93,7 @@ pub(crate) fn scene_verdict(
         }
     };
     if let Some(error) = contacts.iter().find_map(|found| found.as_ref().err()) {
-        let [a, b] = error.bodies.map(|k| bodies[k].name);
+        let [a, b] = error.bodies.map(|k| &bodies[k].name);
         let open = contacts.len() - hits.len();
         words += &format!(
             " {} without an answer, such as {a} and {b}: {}.",
@@ -108,6 +102,11 @@ pub(crate) fn scene_verdict(
         );
     }
     words
+}
+
+fn hits(contacts: &[Result<Impact, PairError>]) -> Vec<&Impact> {
+    let hits = contacts.iter().filter_map(|found| found.as_ref().ok());
+    hits.collect()
 }
 
 fn pairs(count: usize) -> String {

@@ -190,45 +190,35 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Refuses a header with some, but not all, columns of an orientation or of an end position.
+    /// Refuses a header with some, but not all, columns of an orientation or of an end position, and angular velocities in
+    /// a table of paths without orientations.
     fn check_complete_groups(&self) -> Result<(), TableError> {
-        let of_motions = [Quantity::EndPosition, Quantity::EndOrientation];
-        let further = match self.form {
-            Form::Motions | Form::Scene => &of_motions[..],
-            Form::Paths => &[],
-        };
+        let wholes = [
+            Quantity::Orientation,
+            Quantity::EndPosition,
+            Quantity::EndOrientation,
+        ];
+        let spin = self.is_path_table().then_some(Quantity::Spin);
+        let of_spin = spin.map(|spin| (spin, Quantity::Orientation));
+        let needs = wholes
+            .map(|whole| (whole, whole))
+            .into_iter()
+            .chain(of_spin);
+        let is_there = |&slot: &usize| self.cells[slot].is_some();
         for side in self.form.sides() {
-            for &quantity in [Quantity::Orientation].iter().chain(further) {
-                let is_there = |&slot: &usize| self.cells[slot].is_some();
-                let (given, missing): (Vec<usize>, Vec<usize>) =
-                    self.column_range(side, quantity).partition(is_there);
-                if let (Some(&given), Some(&missing)) = (given.first(), missing.first()) {
-                    return Err(self.missing(given, missing));
+            for (given, needed) in needs.clone() {
+                let given = self.column_range(side, given).find(is_there);
+                let mut needed = self.column_range(side, needed);
+                let missing = needed.find(|slot| !is_there(slot));
+                if let (Some(given), Some(missing)) = (given, missing) {
+                    return Err(TableError::MissingColumn {
+                        given: self.name(given).to_owned(),
+                        missing: self.name(missing).to_owned(),
+                    });
                 }
             }
-            self.check_angular_velocity(side)?;
         }
         Ok(())
-    }
-
-    /// Refuses angular velocities in a table of paths without orientations.
-    fn check_angular_velocity(&self, side: Side) -> Result<(), TableError> {
-        let is_there = |&slot: &usize| self.cells[slot].is_some();
-        let spin = self.column_range(side, Quantity::Spin).find(is_there);
-        let orientation = self
-            .column_range(side, Quantity::Orientation)
-            .find(|slot| !is_there(slot));
-        match (self.form, spin, orientation) {
-            (Form::Paths, Some(given), Some(missing)) => Err(self.missing(given, missing)),
-            _ => Ok(()),
-        }
-    }
-
-    fn missing(&self, given: usize, missing: usize) -> TableError {
-        TableError::MissingColumn {
-            given: self.name(given).to_owned(),
-            missing: self.name(missing).to_owned(),
-        }
     }
 
     /// Returns whether the rows are the poses of paths.

@@ -31,12 +31,13 @@ impl<R: Read> CsvRecords<R> {
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
     pub fn new(input: R) -> Result<Self, TableError> {
+        let input = Lines::new(input).map_err(csv::Error::from)?;
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
             // Every line needs a line end, including the last one: the line number of a row is computed from
             // its end.
-            .from_reader(QuoteTracker::new(Lines::new(input)).chain(&b"\n"[..]));
+            .from_reader(QuoteTracker::new(input).chain(&b"\n"[..]));
         let mut raw = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw)?;
         if let Some(line) = unclosed_quote_line(&reader) {

@@ -14,8 +14,6 @@ pub struct QuoteTracker<R> {
     line: u64,
     /// The line on which the last quoted cell began.
     quote_line: u64,
-    /// The number of bytes of a byte order mark read so far; `None` once the mark or the first cell is read.
-    bom_bytes: Option<usize>,
 }
 
 /// The state of the reader between two bytes.
@@ -31,8 +29,6 @@ enum State {
     Closing,
 }
 
-const BYTE_ORDER_MARK: [u8; 3] = *b"\xef\xbb\xbf";
-
 impl<R> QuoteTracker<R> {
     /// Creates a reader of `input`.
     pub fn new(input: R) -> Self {
@@ -41,7 +37,6 @@ impl<R> QuoteTracker<R> {
             state: State::Start,
             line: 1,
             quote_line: 0,
-            bom_bytes: Some(0),
         }
     }
 
@@ -59,17 +54,6 @@ impl<R> QuoteTracker<R> {
     }
 
     fn follow(&mut self, byte: u8) {
-        if let Some(seen) = self.bom_bytes {
-            let goes_on = BYTE_ORDER_MARK.get(seen) == Some(&byte);
-            self.bom_bytes = goes_on.then_some(seen + 1);
-            if goes_on {
-                return;
-            }
-            if (1..BYTE_ORDER_MARK.len()).contains(&seen) {
-                // A partial byte order mark is the start of a cell.
-                self.state = State::Plain;
-            }
-        }
         self.state = match (self.state, byte) {
             (State::Start, b'"') => {
                 self.quote_line = self.line;
@@ -91,7 +75,7 @@ impl<R: Read> Read for QuoteTracker<R> {
         let mut bytes = &out[..read];
         let within_quotes = matches!(self.state, State::Quoted | State::Closing);
         // Most tables have no quotes, and a search for them is many times as fast as tracking each byte.
-        if self.bom_bytes.is_none() && !within_quotes && !bytes.contains(&b'"') {
+        if !within_quotes && !bytes.contains(&b'"') {
             let Some((_, before)) = bytes.split_last() else {
                 return Ok(0);
             };

@@ -34,11 +34,11 @@ pub struct Worst {
 /// Those of the trajectory.
 ///
 /// ```
-/// use rigid_ccd::trajectory::{Ballistic, worst_stray};
+/// use rigid_ccd::trajectory::{Ballistic, worst_deviation};
 /// use rigid_ccd::{Motion, Pose};
 /// let thrown = Motion::new(Pose::IDENTITY, [3.0, 0.0, 4.0], [0.0, 9.0, 0.0])?;
 /// let ball = Ballistic::new(thrown, [0.0, 0.0, -9.81])?;
-/// let worst = worst_stray(&ball, 1.0, 0.5, 10_000, 1)?;
+/// let worst = worst_deviation(&ball, 1.0, 0.5, 10_000, 1)?;
 /// assert!(worst.ratio <= 1.0, "{worst:?}");
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```

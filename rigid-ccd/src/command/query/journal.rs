@@ -1,7 +1,7 @@
 //! The journal of a run of `ccd query`: its options, and a checkpoint after each batch of rows.
 //!
-//! The file is next to the tables. Each checkpoint ends with the checksum of all before it. It stays when the run has finished, so that the same command with
-//! `--resume` finds nothing left to do.
+//! The file is next to the tables. Each checkpoint ends with the checksum of all before it. The file stays when the run
+//! has finished, so that the same command with `--resume` finds nothing left to do.
 
 use crate::command::counts::Counts;
 use crate::command::output::CannotWrite;
@@ -10,7 +10,7 @@ use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The state of a run after a batch of rows, from which it can be continued.
@@ -40,7 +40,7 @@ pub(super) struct RecordedOptions(pub(super) Vec<(String, String)>);
 /// The prefix of an entry that holds the checksum of the file that an option names.
 pub(super) const CONTENT_PREFIX: &str = "content-of:";
 
-/// The journal file: the options of the run, followed by checkpoints.
+/// The journal file: the options of the run, followed by a line for each checkpoint, of which the last one counts.
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
@@ -88,16 +88,23 @@ impl RecordedOptions {
 }
 
 impl Journal {
-    pub(super) fn create(path: PathBuf, recorded: &RecordedOptions) -> Result<Self, CannotWrite> {
-        let head = format!("{}{CHECKPOINTS}", recorded.to_text());
+    /// Starts the journal of a run, which continues from a checkpoint if there is one; an older journal is replaced.
+    pub(super) fn start(
+        path: PathBuf,
+        recorded: &RecordedOptions,
+        from: Option<&Checkpoint>,
+    ) -> Result<Self, CannotWrite> {
+        let mut text = format!("{}{CHECKPOINTS}", recorded.to_text());
         let mut sum = Hasher::new();
-        sum.update(head.as_bytes());
-        let create = || {
-            let mut file = File::create(&path)?;
-            file.write_all(head.as_bytes())?;
-            Ok(file)
+        sum.update(text.as_bytes());
+        let mut open = || {
+            if let Some(from) = from {
+                text += &line(from, &mut sum)?;
+            }
+            ccd_file::write(&path, |out| out.write_all(text.as_bytes()))?;
+            File::options().append(true).open(&path)
         };
-        match create() {
+        match open() {
             Ok(file) => Ok(Journal { path, file, sum }),
             Err(source) => Err(CannotWrite::at(&path, source)),
         }
@@ -105,32 +112,26 @@ impl Journal {
 
     /// Appends a checkpoint to the journal.
     pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
-        let mut append = || {
-            let line = with_checksum(serde_json::to_string(&checkpoint)?, &mut self.sum);
-            self.file.write_all(line.as_bytes())
-        };
-        append().map_err(|source| CannotWrite::at(&self.path, source))
+        line(&checkpoint, &mut self.sum)
+            .and_then(|line| self.file.write_all(line.as_bytes()))
+            .map_err(|source| CannotWrite::at(&self.path, source))
     }
 }
 
-/// Returns a checkpoint's line with its checksum at the end, and adds the line to `sum`.
-fn with_checksum(mut line: String, sum: &mut Hasher) -> String {
-    sum.update(line.as_bytes());
-    let _ = writeln!(line, " {:08x}", sum.clone().finalize());
-    line
+/// Returns the line of a checkpoint, which ends with the checksum of all before it, and adds the line to `sum`.
+fn line(checkpoint: &Checkpoint, sum: &mut Hasher) -> io::Result<String> {
+    let checkpoint = serde_json::to_string(checkpoint)?;
+    sum.update(checkpoint.as_bytes());
+    let end = format!(" {:08x}\n", sum.clone().finalize());
+    sum.update(end.as_bytes());
+    Ok(checkpoint + &end)
 }
 
 /// What the journal of an earlier run tells.
 pub(super) struct EarlierRun {
-    recorded_options: String,
-    /// The number of rows that the earlier run answered.
-    pub(super) rows: usize,
+    options: String,
     /// The last checkpoint in the journal.
     pub(super) checkpoint: Checkpoint,
-    /// The length of the journal without an incomplete last line.
-    bytes: u64,
-    /// The checksum of the journal without an incomplete last line.
-    sum: Hasher,
 }
 
 /// The error of a journal that is missing or damaged.
@@ -143,58 +144,27 @@ impl EarlierRun {
     /// [`JournalLost`] when the journal is missing or damaged.
     pub(super) fn read(journal: &Path) -> Result<Option<Self>, JournalLost> {
         let text = fs::read_to_string(journal).map_err(|_| JournalLost)?;
-        let (recorded, checkpoints) = text.split_once(CHECKPOINTS).ok_or(JournalLost)?;
+        let (options, checkpoints) = text.split_once(CHECKPOINTS).ok_or(JournalLost)?;
         // A line without a line end may be incomplete.
-        let Some(end) = checkpoints.rfind('\n') else {
+        let Some((checkpoints, incomplete)) = checkpoints.rsplit_once('\n') else {
             return Ok(None);
         };
-        let complete = &checkpoints[..end + 1];
-        let mut sum = Hasher::new();
-        sum.update(recorded.as_bytes());
-        sum.update(CHECKPOINTS.as_bytes());
-        let mut lines = complete
-            .split_inclusive('\n')
-            .map(|line| parse_checked(line, &mut sum));
-        let first = lines.next().ok_or(JournalLost)??;
-        let checkpoint = lines.try_fold(first, |_, next| next)?;
+        let complete = &text[..text.len() - incomplete.len() - 1];
+        let (before, sum) = complete.rsplit_once(' ').ok_or(JournalLost)?;
+        if format!("{:08x}", crc32fast::hash(before.as_bytes())) != sum {
+            return Err(JournalLost);
+        }
+        let last = checkpoints.lines().next_back().unwrap_or_default();
+        let checkpoint = last.strip_suffix(sum).unwrap_or_default();
         Ok(Some(EarlierRun {
-            recorded_options: recorded.to_owned(),
-            rows: checkpoint.rows.saturating_sub(first.rows),
-            checkpoint,
-            bytes: (recorded.len() + CHECKPOINTS.len() + complete.len()) as u64,
-            sum,
+            options: options.to_owned(),
+            checkpoint: serde_json::from_str(checkpoint).map_err(|_| JournalLost)?,
         }))
     }
 
     /// Describes the options that differ from those of the earlier run.
     pub(super) fn changes(&self, recorded: &RecordedOptions) -> Option<String> {
-        recorded.changes(&self.recorded_options)
-    }
-
-    /// Opens the journal to append to it.
-    pub(super) fn reopen(&self, path: PathBuf) -> Result<Journal, CannotWrite> {
-        let open = || {
-            let file = File::options().append(true).open(&path)?;
-            file.set_len(self.bytes)?;
-            Ok(file)
-        };
-        match open() {
-            Ok(file) => {
-                let sum = self.sum.clone();
-                Ok(Journal { path, file, sum })
-            }
-            Err(source) => Err(CannotWrite::at(&path, source)),
-        }
-    }
-}
-
-/// Parses a checkpoint and verifies its [checksum](with_checksum).
-fn parse_checked(line: &str, sum: &mut Hasher) -> Result<Checkpoint, JournalLost> {
-    let (checkpoint, _) = line.rsplit_once(' ').ok_or(JournalLost)?;
-    if with_checksum(checkpoint.to_owned(), sum) == line {
-        serde_json::from_str(checkpoint).map_err(|_| JournalLost)
-    } else {
-        Err(JournalLost)
+        recorded.changes(&self.options)
     }
 }
 

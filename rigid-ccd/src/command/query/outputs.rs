@@ -108,14 +108,14 @@ impl ClaimedFiles {
                 let rows = results.partial().display().to_string();
                 let advice = format!("delete {rows} to start over");
                 check_options(&earlier, recorded, "interrupted", &advice)?;
-                let outputs = Outputs::resume(self, &earlier, journal)?;
+                let outputs = Outputs::resume(self, &earlier.checkpoint, recorded, journal)?;
                 Ok(OpenedTables::Resumed(outputs, earlier.checkpoint))
             }
-            Some((earlier, results)) if earlier.rows > 0 => bail!(
+            Some((earlier, results)) if earlier.checkpoint.counts.rows() > 0 => bail!(
                 "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
                  to start over",
                 results.partial().display(),
-                earlier.rows
+                earlier.checkpoint.counts.rows()
             ),
             _ => Ok(OpenedTables::New(Outputs::create(
                 args,
@@ -183,15 +183,18 @@ fn check_options(
 }
 
 impl Outputs {
-    fn resume(places: ClaimedFiles, earlier: &EarlierRun, journal: PathBuf) -> Result<Self> {
-        let Checkpoint {
-            results, contacts, ..
-        } = earlier.checkpoint;
-        let contacts = places.contacts.map(|table| resume_table(table, contacts));
+    fn resume(
+        places: ClaimedFiles,
+        from: &Checkpoint,
+        recorded: &RecordedOptions,
+        journal: PathBuf,
+    ) -> Result<Self> {
+        let contacts = places.contacts;
+        let contacts = contacts.map(|table| resume_table(table, from.contacts));
         Ok(Outputs {
             contacts: contacts.transpose()?,
-            results: resume_table(places.results, results)?,
-            journal: Some(earlier.reopen(journal)?),
+            results: resume_table(places.results, from.results)?,
+            journal: Some(Journal::start(journal, recorded, Some(from))?),
         })
     }
 
@@ -203,7 +206,7 @@ impl Outputs {
     ) -> Result<Self, CannotWrite> {
         // This comes first, because the journal of an earlier run does not describe these tables.
         let journal = journal
-            .map(|path| Journal::create(path, recorded))
+            .map(|path| Journal::start(path, recorded, None))
             .transpose()?;
         let results = Table::start(places.results, &names(&args.columns()))?;
         let contacts = places.contacts;

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 /// Counts, times and counters of many answers. Its size does not depend on their number.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Summary {
     /// The number of rows of each status, including those of an earlier run.
     pub(super) counts: Counts,
@@ -41,17 +41,9 @@ impl Summary {
     /// Creates an empty summary of queries with the given tolerance.
     pub(super) fn new(tolerance: f64) -> Self {
         Summary {
-            counts: Counts::default(),
-            earlier: 0,
-            times: TimeHistogram::default(),
-            iterations: 0,
-            oracle_calls: 0,
-            advancements: 0,
-            oracle_steps: 0,
             tolerance,
-            limits: [0; LIMITS.len()],
-            raised_tolerances: 0,
             largest_tolerance: tolerance,
+            ..Summary::default()
         }
     }
 
