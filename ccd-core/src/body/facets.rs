@@ -56,6 +56,12 @@ impl<'a> Facets<'a> {
     }
 }
 
+/// Returns the directed edges of a loop of corners.
+pub(crate) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(next.copied())
+}
+
 /// Returns the `k`-th range of a list that is stored by the ends of its ranges.
 #[inline]
 pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {

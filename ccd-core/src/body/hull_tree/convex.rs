@@ -1,6 +1,6 @@
 //! Decides exactly whether facets are those of a convex polytope.
 
-use super::edges::edges_of;
+use crate::body::facets::edges_of;
 use crate::body::piece::Piece;
 use crate::body::support::Support;
 use crate::math::exact::{side, too_fine};

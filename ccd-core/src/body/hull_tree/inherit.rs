@@ -3,10 +3,11 @@
 //! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
 //! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.
 
-use super::edges::{EdgeMap, edges_of};
+use super::edges::EdgeMap;
 use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar, non_collinear_corners};
 use super::node::{FacetData, Node};
+use crate::body::facets::edges_of;
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;

@@ -1,6 +1,7 @@
 //! Finds extremal points by a tree, and visits only the parts that may contain them.
 
-use crate::math::order::{greater, lesser};
+use crate::body::hierarchy::bounding_box;
+use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::distance;
 use crate::rounding::{DISC_F32, DISC_TILT_F32, FRAME_F64};
@@ -292,18 +293,6 @@ pub(super) fn bounding_ball(points: &[DVec3]) -> (DVec3, f64) {
     let middle = low + 0.5 * (high - low);
     let ways = points.iter().map(|&p| distance(p, middle));
     (middle, ways.fold(0.0, greater).next_up())
-}
-
-/// Returns the lowest and highest corner of the bounding box of one or more points.
-fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for point in points {
-        for axis in 0..3 {
-            low[axis] = lesser(low[axis], point[axis]);
-            high[axis] = greater(high[axis], point[axis]);
-        }
-    }
-    (low, high)
 }
 
 /// Returns the least power of two above a number; 1 for a number too small to divide by.
