@@ -15,15 +15,16 @@ use crate::rounding::{RESTING_DECREASE, is_direction_uncertain};
 /// Translates an outcome to the bodies that the caller gave. The normal, the nearest points and the bounds of a contact
 /// are those of the pieces that it names.
 ///
-/// Here `within` is the distance at which a contact was to be found.
+/// Here `within` returns the distance at which a contact was to be found.
 pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
     outcome: Outcome,
-    within: f64,
+    within: impl Fn(&Contact) -> f64,
 ) -> Outcome {
     outcome.map_contacts(|contact, time| {
+        let within = within(&contact);
         contact_for_given_bodies(problem, oracle, meter, contact, within, time)
     })
 }

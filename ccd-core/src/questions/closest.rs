@@ -7,7 +7,7 @@ mod nearing;
 pub(crate) mod required;
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
-use crate::contacts::given::contact_for_given_bodies;
+use crate::contacts::given::outcome_for_given_bodies;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{SearchResult, run_metered};
 use crate::engine::meter::Meter;
@@ -126,7 +126,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
             };
             let told = found.map(|found| {
                 let found = last_look(&problem, oracle, meter, found);
-                outcome_for_given_bodies(&problem, oracle, meter, found)
+                outcome_for_given_bodies(&problem, oracle, meter, found, |contact| {
+                    contact.separation.upper
+                })
             });
             let width = told.as_ref().map_or(0.0, Outcome::width);
             // Distances may not be known to the requested tolerance.
@@ -170,7 +172,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
             beyond,
             proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: ladder(problem),
+            ladder: LowerBoundLadder::new(least_distance(problem), problem.budget)
+                .with_early_start(problem.deadline.is_some() || problem.stop.is_some()),
         };
         let mut search = Search {
             waiting: &mut self.stack,
@@ -277,16 +280,6 @@ pub(crate) struct FartherThanCutoff {
     pub(crate) lower: f64,
 }
 
-/// Creates the ladder whose first lower bound comes from bounding balls of the bodies.
-fn ladder(problem: &Problem<'_>) -> LowerBoundLadder {
-    let ladder = LowerBoundLadder::new(least_distance(problem), problem.budget);
-    if problem.deadline.is_some() || problem.stop.is_some() {
-        ladder.with_early_start()
-    } else {
-        ladder
-    }
-}
-
 fn moves(problem: &Problem<'_>) -> bool {
     problem.a.path.moves() || problem.b.path.moves()
 }
@@ -303,19 +296,6 @@ pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
         }
         _ => false,
     }
-}
-
-/// Converts the contacts of an outcome to those of the bodies that the caller gave, if surfaces replaced them.
-fn outcome_for_given_bodies<O: DistanceOracle>(
-    problem: &Problem<'_>,
-    oracle: &mut O,
-    meter: &mut Meter,
-    found: Outcome,
-) -> Outcome {
-    found.map_contacts(|contact, time| {
-        let within = contact.separation.upper;
-        contact_for_given_bodies(problem, oracle, meter, contact, within, time)
-    })
 }
 
 /// The nearest two pieces found so far, with the clock at which they were measured.

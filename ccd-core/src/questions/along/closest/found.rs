@@ -106,16 +106,11 @@ pub(super) struct BestSoFar {
 
 impl BestSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
-        let ladder = LowerBoundLadder::new(0.0, query.terms.budget);
         let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
         BestSoFar {
             lower: f64::INFINITY,
             best: None,
-            ladder: if is_timed {
-                ladder.with_early_start()
-            } else {
-                ladder
-            },
+            ladder: LowerBoundLadder::new(0.0, query.terms.budget).with_early_start(is_timed),
         }
     }
 
