@@ -36,7 +36,7 @@ struct Block {
 
 /// Eight discs that bound points. Each contains the points below it: those at most `thickness` to either side of
 /// `centre` along `normal`, and at most `radius` across.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[repr(align(32))]
 struct Discs {
     centre: [[f32; LANES]; 3],
@@ -189,11 +189,8 @@ impl Discs {
     /// Builds the group over at most eight blocks of `width` points.
     fn new(points: &[DVec3], width: usize) -> Self {
         let mut discs = Discs {
-            centre: [[0.0; LANES]; 3],
-            normal: [[0.0; LANES]; 3],
-            radius: [0.0; LANES],
-            thickness: [0.0; LANES],
             rounding: [f32::NEG_INFINITY; LANES],
+            ..Discs::default()
         };
         for (lane, points) in points.chunks(width).enumerate() {
             let disc = Disc::enclosing(points);

@@ -140,7 +140,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let (found, query) = (&mut self.found, self.query);
         // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
         // the upper bound.
-        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance();
+        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance;
         let answer = self.schedule.least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.found {
