@@ -264,6 +264,15 @@ impl Outcome {
         }
     }
 
+    /// Creates the outcome for two bodies in contact at a time.
+    pub(crate) fn contact_at(time: f64, contact: Contact) -> Self {
+        if time > 0.0 {
+            Outcome::Contact { time, contact }
+        } else {
+            Outcome::Touching { contact }
+        }
+    }
+
     /// Creates the outcome for two bodies that overlap at the start.
     pub(crate) fn overlapping(overlap: Overlap) -> Self {
         Outcome::Overlapping {

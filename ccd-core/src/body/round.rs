@@ -1,5 +1,6 @@
 //! Cylinders and cones, enclosed in convex polytopes.
 
+use super::facets::fan_of;
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
@@ -18,9 +19,9 @@ use std::f64::consts::{PI, TAU};
 /// ```
 /// use ccd_core::SolidOfRevolution;
 /// let wheel = SolidOfRevolution::cylinder(0.5, 0.1)?;
-/// let fine = wheel.enclosed(1e-6)?;
+/// let fine = wheel.enclose(1e-6)?;
 /// assert!(fine.excess() <= 1e-6 && fine.polytope().points.len() > 3000);
-/// let coarse = wheel.enclosed(wheel.usual_excess())?;
+/// let coarse = wheel.enclose(wheel.usual_excess())?;
 /// assert_eq!(coarse.polytope().points.len(), 288);
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
@@ -165,8 +166,7 @@ impl Enclosure {
     pub fn triangles(&self) -> (Vec<[u32; 3]>, Vec<u32>) {
         let facets = (0..).zip(&self.polytope.facets);
         let fans = facets.flat_map(|(number, Facet { corners, .. })| {
-            let fan = 1..corners.len().saturating_sub(1);
-            fan.map(move |k| ([corners[0], corners[k], corners[k + 1]], number))
+            fan_of(corners).map(move |fan| (fan, number))
         });
         if self.is_flat {
             Default::default()

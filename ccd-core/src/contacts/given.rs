@@ -1,6 +1,6 @@
 //! Translates answers about the surfaces of convex bodies to the pieces that these surfaces bound.
 
-use super::meeting::SurroundingSurfaces;
+use super::meeting::common_normal;
 use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
@@ -74,8 +74,7 @@ fn with_common_normal(
     }
     let [frame, _] = &snapshot.frames;
     let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
-    let meeting = SurroundingSurfaces::at(&snapshot, points, meter);
-    let Some(axis) = meeting.common_normal(frame.inverse_vector(normal)) else {
+    let Some(axis) = common_normal(&snapshot, points, frame.inverse_vector(normal), meter) else {
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;

@@ -29,7 +29,6 @@ use nearing::LeastDistanceSearch;
 use required::RequiredClearance;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Bounds the least distance of the bodies over the duration, to within the tolerance. If a
@@ -82,14 +81,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
             distance,
             tolerance: problem.tolerance,
             budget: problem.budget,
+            deadline: problem.deadline,
             excess: problem.excess(),
         };
-        let begun = problem.deadline.map(|_| Instant::now());
-        let answer = required.decide(|rung| {
+        let answer = required.decide(|rung, deadline| {
             let mut problem = rung.problem(&problem.for_distances());
-            problem.deadline = begun.and_then(|begun| {
-                (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
-            });
+            problem.deadline = deadline;
             Ok::<_, Infallible>(self.any_contact_of(&problem, oracle))
         });
         answer.unwrap_or_else(|never| match never {})

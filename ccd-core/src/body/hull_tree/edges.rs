@@ -33,11 +33,8 @@ pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
 }
 
 /// A map from directed edges to values, for points numbered from 0. It has the end point and the value of each point's
-/// edges, sorted by end point if there are many.
+/// edges, sorted by end point.
 pub(super) struct EdgeMap(AdjacencyLists<(u32, u32)>);
-
-/// The number of edges from one point above which they are sorted.
-const SORT_THRESHOLD: usize = 8;
 
 impl EdgeMap {
     /// Creates the map in O(n log n). Of repeated edges the last one counts.
@@ -47,29 +44,16 @@ impl EdgeMap {
     ) -> Self {
         let pairs = edges.map(|((from, to), what)| (from, (to, what)));
         let mut edges = AdjacencyLists::new(points, pairs);
-        edges.for_each_list(|from| {
-            if from.len() > SORT_THRESHOLD {
-                from.sort_by_key(|edge| edge.0);
-            }
-        });
+        edges.for_each_list(|from| from.sort_by_key(|edge| edge.0));
         EdgeMap(edges)
     }
 
     /// Returns the value of an edge.
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let from = self.0.of(from as usize);
-        let up_to = if from.len() > SORT_THRESHOLD {
-            from.partition_point(|edge| edge.0 <= to)
-        } else {
-            from.len()
-        };
-        let mut found = from[..up_to].iter().rev();
-        if from.len() > SORT_THRESHOLD {
-            found.next().filter(|edge| edge.0 == to)
-        } else {
-            found.find(|edge| edge.0 == to)
-        }
-        .map(|edge| edge.1)
+        let up_to = from.partition_point(|edge| edge.0 <= to);
+        let last = from[..up_to].last()?;
+        (last.0 == to).then_some(last.1)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::fit::{NodePoints, Sample, best_frame};
 use crate::math::order::greater;
-use crate::math::vector::length;
+use crate::math::vector::{componentwise_max, length};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use glam::{DMat3, DVec3};
 
@@ -37,11 +37,7 @@ impl BodyBox {
         for &point in node_points.points {
             let way = point - centre;
             let along = (turned * way).abs();
-            half = DVec3::new(
-                greater(half.x, along.x),
-                greater(half.y, along.y),
-                greater(half.z, along.z),
-            );
+            half = componentwise_max(half, along);
             radius = greater(radius, length(way));
         }
         // A point's components along the axes add up to the point, except for the deviation of the axes from an

@@ -17,7 +17,6 @@ use crate::questions::depth_first::DepthFirst;
 use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
 use found::{BestSoFar, StretchResult};
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Bounds the least distance of the bodies along their trajectories, or decides whether they keep a required
@@ -59,15 +58,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
             distance,
             tolerance: query.terms.tolerance,
             budget: query.terms.budget,
+            deadline: query.terms.deadline,
             excess: query.excess(),
         };
-        let begun = query.terms.deadline.map(|_| Instant::now());
-        required.decide(|rung| {
+        required.decide(|rung, deadline| {
             let mut query = query.contact_query(rung);
-            query.terms.deadline = begun.and_then(|begun| {
-                let deadline = query.terms.deadline;
-                deadline.map(|deadline| deadline.saturating_sub(begun.elapsed()))
-            });
+            query.terms.deadline = deadline;
             self.any_contact_along(&query, oracle)
         })
     }

@@ -111,14 +111,7 @@ impl ProvenGap {
         motions: &StretchMotions,
         outcome: Outcome,
     ) -> Result<Answer, InputError> {
-        let at = |time: f64, contact: Contact| {
-            let contact = motions.contact(contact);
-            if time > 0.0 {
-                Outcome::Contact { time, contact }
-            } else {
-                Outcome::Touching { contact }
-            }
-        };
+        let at = |time: f64, contact| Outcome::contact_at(time, motions.contact(contact));
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(motions.time(time), contact),
             Outcome::Touching { contact } => at(motions.span.from, contact),
