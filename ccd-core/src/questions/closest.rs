@@ -172,11 +172,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             ladder: LowerBoundLadder::new(least_distance(problem), problem.budget)
                 .with_early_start(problem.deadline.is_some() || problem.stop.is_some()),
         };
-        let mut search = Search {
-            waiting: &mut self.stack,
-            oracle,
-            meter,
-        };
+        let mut search = Search::new(&mut self.stack, oracle, meter);
         if search.push_roots(problem).is_err() {
             return Ok(nearing.unresolved_outcome(problem, Limit::Budget));
         }

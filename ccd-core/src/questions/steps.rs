@@ -238,11 +238,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         };
         let clock = problem.clock(until);
         let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
-        let mut search = Search {
-            waiting: &mut self.memory.queue,
-            oracle,
-            meter: &mut self.meter,
-        };
+        let mut search = Search::new(&mut self.memory.queue, oracle, &mut self.meter);
         let SearchState { look, proven } = match &mut self.state {
             Some(state) => state,
             state => {

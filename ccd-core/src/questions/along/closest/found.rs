@@ -44,6 +44,7 @@ impl Query<'_> {
 }
 
 /// The bounds of the distance of a stretch's motions, and where they are nearest.
+#[derive(Default)]
 pub(super) struct StretchResult {
     pub(super) lower: f64,
     pub(super) upper: f64,
@@ -63,9 +64,7 @@ impl StretchResult {
         StretchResult {
             lower,
             upper: lower,
-            total_deviation: 0.0,
-            time: 0.0,
-            approach: 0.0,
+            ..StretchResult::default()
         }
     }
 
@@ -129,11 +128,8 @@ impl BestSoFar {
         outcome: &Outcome,
     ) -> Result<StretchResult, Limit> {
         let mut seen = StretchResult {
-            lower: 0.0,
-            upper: 0.0,
             total_deviation: motions.stray,
-            time: 0.0,
-            approach: 0.0,
+            ..StretchResult::default()
         };
         match *outcome {
             Outcome::LeastDistance {
