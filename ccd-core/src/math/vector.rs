@@ -105,6 +105,13 @@ pub(crate) fn scale_of(square: f64) -> (f64, f64) {
     }
 }
 
+/// Returns the lowest and the highest corner of the bounding box of some points.
+pub(crate) fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
+        (lo.min(p), hi.max(p))
+    })
+}
+
 /// Returns the least of each coordinate.
 pub(crate) fn componentwise_min(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z))

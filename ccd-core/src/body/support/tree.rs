@@ -1,8 +1,8 @@
 //! Finds extremal points by a tree, and visits only the parts that may contain them.
 
-use crate::body::hierarchy::bounding_box;
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
+use crate::math::vector::bounding_box;
 use crate::math::vector::distance;
 use crate::rounding::{DISC_F32, DISC_TILT_F32, FRAME_F64};
 use glam::{DMat3, DVec3, Vec3};

@@ -2,7 +2,7 @@
 
 use super::fit::{NodePoints, Sample, best_frame};
 use crate::math::order::greater;
-use crate::math::vector::{componentwise_max, length};
+use crate::math::vector::{bounding_box, componentwise_max, length};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use glam::{DMat3, DVec3};
 
@@ -30,8 +30,7 @@ impl BodyBox {
         sample.fill_from(node_points);
         let axes = best_frame(sample, node_points.triangles);
         let turned = axes.transpose();
-        let (low, high) =
-            crate::body::hierarchy::bounding_box(node_points.points.iter().map(|&p| turned * p));
+        let (low, high) = bounding_box(node_points.points.iter().map(|&p| turned * p));
         let centre = axes * (0.5 * (low + high));
         let (mut half, mut radius) = (DVec3::ZERO, 0.0);
         for &point in node_points.points {

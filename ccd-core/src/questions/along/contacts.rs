@@ -18,6 +18,7 @@ pub(super) struct ProvenGap {
 }
 
 /// What the search of a stretch found out.
+#[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 pub(super) enum StretchResult {
     /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined; or a
     /// limit was reached, which is the answer.
