@@ -43,10 +43,7 @@ use std::ops::ControlFlow;
 /// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
 /// # Ok::<(), InputError>(())
 /// ```
-pub struct FirstContact<'a, O: DistanceOracle> {
-    kind: Kind<'a, O>,
-    answer: Option<Answer>,
-}
+pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
 
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum Kind<'a, O: DistanceOracle> {
@@ -56,6 +53,7 @@ enum Kind<'a, O: DistanceOracle> {
     AtOnce {
         query: Query<'a>,
         memory: BestFirst<O>,
+        answer: Option<Answer>,
     },
 }
 
@@ -72,6 +70,7 @@ struct Steps<'a, O: DistanceOracle> {
     meter: Meter,
     /// The state of the search; `None` before the first step.
     state: Option<SearchState>,
+    answer: Option<Answer>,
 }
 
 /// The state of the search without the waiting pairs.
@@ -95,16 +94,19 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// Creates the search for a query, with the memory of a schedule. The time until the
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
-        let kind = match query.problem.take() {
+        FirstContact(match query.problem.take() {
             Some(problem) => Kind::InSteps(Steps::new(problem, memory)),
-            None => Kind::AtOnce { query, memory },
-        };
-        FirstContact { kind, answer: None }
+            None => Kind::AtOnce {
+                query,
+                memory,
+                answer: None,
+            },
+        })
     }
 
     /// Returns the memory of the schedule, for another search.
     pub fn into_memory(self) -> BestFirst<O> {
-        match self.kind {
+        match self.0 {
             Kind::InSteps(steps) => steps.into_memory(),
             Kind::AtOnce { memory, .. } => memory,
         }
@@ -120,19 +122,19 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
     pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
-        if let Some(answer) = self.answer {
-            return Ok(Progress::Answered(answer));
-        }
-        let progress = match &mut self.kind {
-            Kind::InSteps(steps) => steps.advance(oracle, until),
-            Kind::AtOnce { query, memory } => {
-                Progress::Answered(first_contact(memory, query, oracle)?)
+        match &mut self.0 {
+            Kind::InSteps(steps) => Ok(steps.advance(oracle, until)),
+            Kind::AtOnce {
+                query,
+                memory,
+                answer,
+            } => {
+                if answer.is_none() {
+                    *answer = Some(first_contact(memory, query, oracle)?);
+                }
+                Ok(answer.map_or(Progress::ApartUntil(0.0), Progress::Answered))
             }
-        };
-        if let Progress::Answered(answer) = progress {
-            self.answer = Some(answer);
         }
-        Ok(progress)
     }
 }
 
@@ -150,6 +152,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             memory,
             meter,
             state: None,
+            answer: None,
         }
     }
 
@@ -160,6 +163,9 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
     }
 
     fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
+        if let Some(answer) = self.answer {
+            return Progress::Answered(answer);
+        }
         let before = oracle.effort();
         let found = self
             .search(oracle, until)
@@ -173,11 +179,13 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         stats.effort = stats.effort + (oracle.effort() - before);
         match found {
             ControlFlow::Continue(time) => Progress::ApartUntil(time),
-            ControlFlow::Break((outcome, tolerance)) => Progress::Answered(Answer {
-                outcome,
-                tolerance,
-                stats: *stats,
-            }),
+            ControlFlow::Break((outcome, tolerance)) => {
+                Progress::Answered(*self.answer.insert(Answer {
+                    outcome,
+                    tolerance,
+                    stats: *stats,
+                }))
+            }
         }
     }
 
