@@ -1,5 +1,6 @@
 //! A rigid body: convex pieces, a tree over them, and whether they bound a solid.
 
+mod adjacency;
 pub(crate) mod excess;
 pub(crate) mod facets;
 pub(crate) mod facing;

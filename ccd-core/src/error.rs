@@ -123,7 +123,7 @@ pub enum InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NotFinite { quantity: what } => write!(f, "{what} is NaN or infinite"),
+            Self::NotFinite { quantity } => write!(f, "{quantity} is NaN or infinite"),
             Self::ZeroQuaternion => write!(f, "a quaternion of length zero names no orientation"),
             Self::OutOfRange {
                 what,
@@ -226,6 +226,15 @@ pub(crate) fn check(
             value,
             allowed: words,
         })
+    }
+}
+
+/// Returns an error for a quantity unless it is finite.
+pub(crate) fn check_finite(quantity: &'static str, is_finite: bool) -> Result<(), InputError> {
+    if is_finite {
+        Ok(())
+    } else {
+        Err(InputError::NotFinite { quantity })
     }
 }
 

@@ -11,7 +11,7 @@ pub(crate) mod relative;
 pub(crate) mod track;
 pub(crate) mod trajectory;
 
-use crate::error::InputError;
+use crate::error::{InputError, check, check_finite};
 use crate::math::vector::length;
 use glam::{DQuat, DVec3};
 use pose::{Frame, Pose};
@@ -85,9 +85,7 @@ impl Motion {
             ("angular velocity", spin),
             ("centre", centre),
         ] {
-            if !part.is_finite() {
-                return Err(InputError::NotFinite { quantity: what });
-            }
+            check_finite(what, part.is_finite())?;
         }
         Ok(Motion {
             start,
@@ -120,13 +118,8 @@ impl Motion {
         duration: f64,
     ) -> Result<Self, InputError> {
         let centre = DVec3::from_array(centre.into());
-        if !(duration > 0.0 && duration.is_finite()) {
-            return Err(InputError::OutOfRange {
-                what: "duration",
-                value: duration,
-                allowed: "positive and finite",
-            });
-        }
+        let allowed = duration > 0.0 && duration.is_finite();
+        check("duration", duration, allowed, "positive and finite")?;
         // The differences are computed first: positions far from the world's origin lose no accuracy.
         let turned = Frame::from(end).rotation - Frame::from(start).rotation;
         let travel = (end.translation() - start.translation()) + turned * centre;

@@ -29,7 +29,8 @@ pub(crate) struct Problem<'a> {
     duration: f64,
     /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
-    /// The tolerance for contacts, at least the least one that can be certified.
+    /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at the scene's
+    /// coordinates.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
     /// The required distance, if the query compares the closest approach to one.
@@ -147,12 +148,6 @@ impl<'a> Problem<'a> {
             level: terms.level,
             shortcuts: terms.shortcuts,
         })
-    }
-
-    /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the scene's
-    /// coordinates.
-    pub(crate) fn tolerance(&self) -> f64 {
-        self.tolerance
     }
 
     /// Returns the distance by which the caller's bodies may exceed their shapes.

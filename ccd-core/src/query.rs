@@ -218,7 +218,7 @@ impl<'a> Query<'a> {
     /// coordinates of the two motions. Along trajectories it may be larger.
     pub fn tolerance(&self) -> f64 {
         let problem = self.problem.as_ref();
-        problem.map_or(self.terms.tolerance, Problem::tolerance)
+        problem.map_or(self.terms.tolerance, |problem| problem.tolerance)
     }
 
     /// Returns all features that are in contact at a time, the contact manifold `[FAST06 §5.2]`.

@@ -2,8 +2,8 @@
 
 use crate::body::Body;
 use crate::error::InputError;
-use crate::math::order::{greater, lesser};
-use crate::math::vector::{distance, length};
+use crate::math::order::lesser;
+use crate::math::vector::{componentwise_max, componentwise_min, distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::trajectory::{Stretch, Trajectory};
@@ -108,8 +108,7 @@ fn of_stretch(
     terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     let swept = of_motion(body, &stretch.motion, time, terms)?;
-    let (centre, radius) = body.tree().bounding_ball();
-    let reach = centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius;
+    let reach = body.tree().max_distance_from(stretch.motion.centre());
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
     let room = (moved + stretch.deviation.at(reach)) * (1.0 + RETIMED_POSE_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
@@ -177,14 +176,6 @@ fn half_contact_distance(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> 
     let rounding = share_of_rounding(side.span(), path.rate, way);
     // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
-}
-
-fn componentwise_min(a: DVec3, b: DVec3) -> DVec3 {
-    DVec3::new(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z))
-}
-
-fn componentwise_max(a: DVec3, b: DVec3) -> DVec3 {
-    DVec3::new(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z))
 }
 
 #[cfg(test)]

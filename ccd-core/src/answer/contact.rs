@@ -45,20 +45,22 @@ pub struct Contact {
 impl Contact {
     /// Adds the excess of the bodies to the upper bound, so that it holds for the shapes within them.
     pub(crate) fn to_shapes(self, excess: Excess) -> Self {
-        Contact {
-            separation: Separation {
-                upper: excess.upper_bound_of_shapes(self.separation.upper),
-                ..self.separation
-            },
-            ..self
-        }
+        let Separation { lower, upper, .. } = self.separation;
+        self.with_bounds(lower, excess.upper_bound_of_shapes(upper))
     }
 
     /// Lowers the contact's lower bound to at most `least`.
     pub(crate) fn cap_lower_bound(self, least: f64) -> Self {
+        let Separation { lower, upper, .. } = self.separation;
+        self.with_bounds(lesser(lower, least), upper)
+    }
+
+    /// Replaces the bounds of the distance.
+    pub(crate) fn with_bounds(self, lower: f64, upper: f64) -> Self {
         Contact {
             separation: Separation {
-                lower: lesser(self.separation.lower, least),
+                lower,
+                upper,
                 ..self.separation
             },
             ..self

@@ -56,6 +56,17 @@ impl<'a> Facets<'a> {
     }
 }
 
+/// Returns the directed edges of a loop of corners.
+pub(crate) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(next.copied())
+}
+
+/// Returns the triangles of a polygon, a fan about its first corner.
+pub(crate) fn fan_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + Clone {
+    (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]])
+}
+
 /// Returns the `k`-th range of a list that is stored by the ends of its ranges.
 #[inline]
 pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {

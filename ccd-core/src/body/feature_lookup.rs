@@ -1,6 +1,7 @@
 //! Finds the mesh's vertex, edge or face that contains a point of a polytope.
 
-use super::facets::range;
+use super::adjacency::AdjacencyLists;
+use super::facets::edges_of;
 use super::piece::Combination;
 use super::piece::Piece;
 use super::polytope::FacetOrigin;
@@ -31,7 +32,7 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
         return MeshFeature::Vertex(v);
     }
     let near = match (FacetsByCorner::for_piece(piece), support.first()) {
-        (Some(by_corner), Some(&corner)) => Some(by_corner.at(corner)),
+        (Some(by_corner), Some(&corner)) => Some(by_corner.facets.of(corner as usize)),
         _ => None,
     };
     let count = near.map_or(facets.len(), <[u32]>::len);
@@ -43,11 +44,8 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
             FacetOrigin::Faces | FacetOrigin::Virtual => None,
         });
     if let [v, w] = *support {
-        let joins = |corners: &[u32]| {
-            let mut ends =
-                (0..corners.len()).map(|k| (corners[k], corners[(k + 1) % corners.len()]));
-            ends.any(|ends| ends == (v, w) || ends == (w, v))
-        };
+        let joins =
+            |corners: &[u32]| edges_of(corners).any(|ends| ends == (v, w) || ends == (w, v));
         if facets.is_empty() || whole.clone().any(|(_, corners)| joins(corners)) {
             return MeshFeature::Edge(v, w);
         }
@@ -73,9 +71,8 @@ fn is_on_mesh(piece: &Piece<'_>) -> bool {
 /// For each corner of a piece, the facets that meet in it.
 struct FacetsByCorner {
     is_on_mesh: bool,
-    facets: Vec<u32>,
-    /// The end of each corner's facets in the list of facets.
-    ends: Vec<u32>,
+    /// The facets of each corner, in ascending order.
+    facets: AdjacencyLists<u32>,
 }
 
 impl FacetsByCorner {
@@ -89,21 +86,11 @@ impl FacetsByCorner {
 
     fn new(piece: &Piece<'_>) -> Self {
         let facets = (0..).zip(piece.facets.iter());
-        let mut pairs: Vec<(u32, u32)> = facets
-            .flat_map(|(facet, corners)| corners.iter().map(move |&v| (v, facet)))
-            .collect();
-        pairs.sort_unstable();
-        let end = |v: usize| pairs.partition_point(|&(corner, _)| corner as usize <= v) as u32;
+        let pairs = facets.flat_map(|(facet, corners)| corners.iter().map(move |&v| (v, facet)));
         FacetsByCorner {
             is_on_mesh: piece.mesh_triangles().next().is_some(),
-            ends: (0..piece.points.len()).map(end).collect(),
-            facets: pairs.iter().map(|&(_, facet)| facet).collect(),
+            facets: AdjacencyLists::new(piece.points.len(), pairs),
         }
-    }
-
-    /// Returns the facets that meet in a corner, in ascending order.
-    fn at(&self, corner: u32) -> &[u32] {
-        &self.facets[range(&self.ends, corner as usize)]
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::pieces::Pieces;
 use crate::error::InputError;
+use crate::math::vector::bounding_box;
 use glam::DVec3;
 
 /// A binary tree whose leaves are the pieces of a body, each exactly once.
@@ -113,13 +114,6 @@ impl From<Hierarchy> for Vec<HierarchyNode> {
     fn from(hierarchy: Hierarchy) -> Self {
         hierarchy.nodes
     }
-}
-
-/// Returns the lowest and the highest corner of the bounding box of some points.
-pub(crate) fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
-        (lo.min(p), hi.max(p))
-    })
 }
 
 #[cfg(test)]

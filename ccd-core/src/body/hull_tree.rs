@@ -19,6 +19,7 @@ pub use error::{HullFault, HullTreeError};
 pub use hull::{FacetClass, Hull, HullNode};
 pub use loops::PolygonList;
 
+use super::adjacency::AdjacencyLists;
 use super::facets::range;
 use super::hierarchy::{Hierarchy, HierarchyNode};
 use super::piece::Combination;
@@ -63,9 +64,7 @@ struct Hulls {
     /// Half the diagonal of each hull's bounding box, rounding included.
     half_diagonals: Vec<f64>,
     /// The facets that meet in each point, for all points of all hulls, by their indices within the hull.
-    facets_by_point: Vec<u32>,
-    /// The end of each point's facets in `facets_by_point`.
-    facets_by_point_ends: Vec<u32>,
+    facets_by_point: AdjacencyLists<u32>,
 }
 
 impl HullTree {
@@ -167,12 +166,14 @@ impl Hulls {
         if !points.contains(&at) {
             return &[];
         }
-        &self.facets_by_point[range(&self.facets_by_point_ends, at)]
+        self.facets_by_point.of(at)
     }
 
     fn bytes(&self) -> usize {
-        let facets_by_point = 4 * (self.facets_by_point.len() + self.facets_by_point_ends.len());
-        self.pieces.bytes() + self.classes.len() + 25 * self.half_diagonals.len() + facets_by_point
+        self.pieces.bytes()
+            + self.classes.len()
+            + 25 * self.half_diagonals.len()
+            + self.facets_by_point.bytes()
     }
 }
 

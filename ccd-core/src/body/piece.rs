@@ -1,6 +1,6 @@
 //! Convex pieces, of which bodies consist and whose distances oracles compute.
 
-use super::facets::Facets;
+use super::facets::{Facets, fan_of};
 use super::polytope::FacetOrigin;
 use super::side_table::SideTable;
 use super::support::Support;
@@ -98,11 +98,9 @@ impl<'a> Piece<'a> {
                 FacetOrigin::Face(id) => Some(*id),
                 FacetOrigin::Faces | FacetOrigin::Virtual => None,
             };
-            let points = self.points;
-            let at = move |k: usize| points[corners[k] as usize];
-            let fan = (1..corners.len() - 1).map(move |k| [at(0), at(k), at(k + 1)]);
+            let at = |v: u32| self.points[v as usize];
             id.into_iter()
-                .flat_map(move |id| fan.clone().map(move |t| (id, t)))
+                .flat_map(move |id| fan_of(corners).map(move |fan| (id, fan.map(at))))
         });
         let faces = self.facets.faces.iter();
         fans.chain(faces.map(|face| (face.id, face.corners)))

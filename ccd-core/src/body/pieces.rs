@@ -14,6 +14,7 @@ use super::polytope::{Face, FacetOrigin};
 use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
+use builder::{PiecesBuilder, PolytopeParts};
 use glam::DVec3;
 
 /// The convex pieces of one body, with the numbers of the mesh from which they came.
@@ -26,10 +27,6 @@ use glam::DVec3;
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    /// The end of each piece's points; empty if all pieces are triangles. The list is empty for triangles, which have
-    /// three each.
-    point_ends: Vec<u32>,
-    radii: Radii,
     shape: Shape,
     /// The values that backends store with the pieces.
     side_table: SideTable,
@@ -40,23 +37,20 @@ pub struct Pieces {
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
-enum Radii {
-    Zero,
-    PerPiece(Vec<f64>),
-}
-
-#[derive(Clone, Debug)]
 enum Shape {
     /// Every piece is a triangle, and is one face of the mesh.
     Triangles {
         face_ids: Vec<u32>,
     },
-    Polytopes(Box<Surfaces>),
+    Polytopes(Box<Polytopes>),
 }
 
-/// The facets and mesh faces of all pieces.
+/// The data that convex polytopes have and triangles lack.
 #[derive(Clone, Debug, Default)]
-struct Surfaces {
+struct Polytopes {
+    /// The end of each piece's points.
+    point_ends: Vec<u32>,
+    radii: Vec<f64>,
     /// The end of each piece's facets in `corner_ends` and `origins`.
     facet_ends: Vec<u32>,
     origins: Vec<FacetOrigin>,
@@ -100,17 +94,18 @@ impl Pieces {
             }
         }
         let vertex_ids: Vec<u32> = faces.iter().flatten().copied().collect();
+        let points = vertex_ids.iter().map(|&v| vertices[v as usize]).collect();
+        let face_ids = face_ids.to_vec();
+        Pieces::with_shape(points, vertex_ids, Shape::Triangles { face_ids }).checked()
+    }
+
+    fn with_shape(points: Vec<DVec3>, vertex_ids: Vec<u32>, shape: Shape) -> Self {
         Pieces {
-            points: vertex_ids.iter().map(|&v| vertices[v as usize]).collect(),
+            points,
             vertex_ids,
-            point_ends: Vec::new(),
-            radii: Radii::Zero,
-            shape: Shape::Triangles {
-                face_ids: face_ids.to_vec(),
-            },
+            shape,
             side_table: SideTable::default(),
         }
-        .checked()
     }
 
     fn checked(self) -> Result<Self, InputError> {
@@ -119,6 +114,9 @@ impl Pieces {
         }
         if self.points.len() >= MAX_POINTS {
             return Err(InputError::TooManyPieces { pieces: self.len() });
+        }
+        for piece in 0..self.len() {
+            self.check_surface(piece)?;
         }
         for piece in 0..self.len() {
             let points = &self.points[self.point_range(piece)];
@@ -138,12 +136,28 @@ impl Pieces {
         Ok(self)
     }
 
+    /// Checks the facets and mesh faces of a piece.
+    fn check_surface(&self, piece: usize) -> Result<(), InputError> {
+        let facets = self.facets(piece);
+        let count = self.point_range(piece).len();
+        let exists = |&corner: &u32| (corner as usize) < count;
+        let good = |corners: &[u32]| corners.len() >= 3 && corners.iter().all(exists);
+        if let Some(facet) = facets.iter().position(|corners| !good(corners)) {
+            return Err(InputError::FacetOutOfRange { piece, facet });
+        }
+        let finite = |face: &Face| face.corners.iter().all(|p| p.is_finite());
+        match facets.faces.iter().position(|face| !finite(face)) {
+            Some(face) => Err(InputError::BadFace { piece, face }),
+            None => Ok(()),
+        }
+    }
+
     /// Returns the number of pieces, at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match &self.shape {
             Shape::Triangles { face_ids } => face_ids.len(),
-            Shape::Polytopes(_) => self.point_ends.len(),
+            Shape::Polytopes(polytopes) => polytopes.point_ends.len(),
         }
     }
 
@@ -183,12 +197,11 @@ impl Pieces {
 
     /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
-        let numbers = self.vertex_ids.len() + self.point_ends.len();
         let others = match &self.shape {
             Shape::Triangles { face_ids } => size_of_val(face_ids.as_slice()),
-            Shape::Polytopes(surfaces) => 4 * self.len() + surfaces.bytes(),
+            Shape::Polytopes(polytopes) => polytopes.bytes(),
         };
-        size_of_val(self.points.as_slice()) + 4 * numbers + others
+        size_of_val(self.points.as_slice()) + 4 * self.vertex_ids.len() + others
     }
 
     /// Returns the three corners of a piece. All pieces must be triangles.
@@ -215,28 +228,34 @@ impl Pieces {
 
     /// Returns the pieces in a new order: piece `k` of the result is piece `order[k]` of `self`.
     pub(crate) fn reordered(&self, order: &[u32]) -> Pieces {
-        let mut out = Pieces {
-            points: Vec::with_capacity(self.points.len()),
-            vertex_ids: Vec::with_capacity(self.points.len()),
-            point_ends: Vec::with_capacity(self.point_ends.len()),
-            radii: match &self.radii {
-                Radii::Zero => Radii::Zero,
-                Radii::PerPiece(radii) => {
-                    Radii::PerPiece(order.iter().map(|&k| radii[k as usize]).collect())
+        let order = order.iter().map(|&k| k as usize);
+        match &self.shape {
+            Shape::Triangles { face_ids } => {
+                let numbers = self.vertex_ids.as_chunks::<3>().0;
+                Pieces::with_shape(
+                    order.clone().flat_map(|k| self.triangle(k)).collect(),
+                    order.clone().flat_map(|k| numbers[k]).collect(),
+                    Shape::Triangles {
+                        face_ids: order.map(|k| face_ids[k]).collect(),
+                    },
+                )
+            }
+            Shape::Polytopes(_) => {
+                let mut builder = PiecesBuilder::default();
+                for k in order {
+                    let piece = self.get(k);
+                    let origins = piece.facets.origins().iter().copied();
+                    builder.push(PolytopeParts {
+                        points: piece.points,
+                        vertex_ids: self.vertex_ids(k),
+                        facets: piece.facets.iter().zip(origins),
+                        faces: piece.facets.faces.iter().copied(),
+                        radius: piece.radius,
+                    });
                 }
-            },
-            shape: self.shape.reordered(order),
-            side_table: SideTable::default(),
-        };
-        for &k in order {
-            let range = self.point_range(k as usize);
-            out.points.extend_from_slice(&self.points[range.clone()]);
-            out.vertex_ids.extend_from_slice(&self.vertex_ids[range]);
-            if !self.all_triangles() {
-                out.point_ends.push(out.points.len() as u32);
+                builder.into_unchecked_pieces()
             }
         }
-        out
     }
 
     /// Returns the mesh's feature at a point of a piece. This is the vertex, edge or face that has the combined
@@ -264,15 +283,15 @@ impl Pieces {
     pub(crate) fn point_range(&self, piece: usize) -> std::ops::Range<usize> {
         match &self.shape {
             Shape::Triangles { .. } => 3 * piece..3 * piece + 3,
-            Shape::Polytopes(_) => range(&self.point_ends, piece),
+            Shape::Polytopes(polytopes) => range(&polytopes.point_ends, piece),
         }
     }
 
     #[inline]
     fn radius(&self, piece: usize) -> f64 {
-        match &self.radii {
-            Radii::Zero => 0.0,
-            Radii::PerPiece(radii) => radii[piece],
+        match &self.shape {
+            Shape::Triangles { .. } => 0.0,
+            Shape::Polytopes(polytopes) => polytopes.radii[piece],
         }
     }
 
@@ -280,23 +299,12 @@ impl Pieces {
     fn facets(&self, piece: usize) -> Facets<'_> {
         match &self.shape {
             Shape::Triangles { .. } => Facets::NONE,
-            Shape::Polytopes(surfaces) => surfaces.facets_of(piece),
+            Shape::Polytopes(polytopes) => polytopes.facets_of(piece),
         }
     }
 }
 
-impl Shape {
-    fn reordered(&self, order: &[u32]) -> Shape {
-        match self {
-            Shape::Triangles { face_ids } => Shape::Triangles {
-                face_ids: order.iter().map(|&k| face_ids[k as usize]).collect(),
-            },
-            Shape::Polytopes(surfaces) => Shape::Polytopes(Box::new(surfaces.reordered(order))),
-        }
-    }
-}
-
-impl Surfaces {
+impl Polytopes {
     #[inline]
     fn facets_of(&self, piece: usize) -> Facets<'_> {
         let facets = range(&self.facet_ends, piece);
@@ -312,26 +320,10 @@ impl Surfaces {
         }
     }
 
-    fn reordered(&self, order: &[u32]) -> Surfaces {
-        let mut out = Surfaces::default();
-        for &k in order {
-            let facets = self.facets_of(k as usize);
-            for corners in facets.iter() {
-                out.corners.extend_from_slice(corners);
-                out.corner_ends.push(out.corners.len() as u32);
-            }
-            out.origins.extend_from_slice(facets.origins);
-            out.facet_ends.push(out.origins.len() as u32);
-            out.faces.extend_from_slice(facets.faces);
-            out.face_ends.push(out.faces.len() as u32);
-        }
-        out
-    }
-
     fn bytes(&self) -> usize {
         size_of_val(self.origins.as_slice())
             + size_of_val(self.faces.as_slice())
-            + 4 * (2 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())
+            + 4 * (4 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())
     }
 }
 

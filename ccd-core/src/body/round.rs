@@ -1,9 +1,10 @@
 //! Cylinders and cones, enclosed in convex polytopes.
 
+use super::facets::fan_of;
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
 use super::{Body, Volume};
-use crate::error::InputError;
+use crate::error::{InputError, check, check_length};
 use crate::limits::{DEFAULT_EXCESS_SHARE, MAX_CIRCLE_CORNERS, MAX_COORDINATE};
 use crate::math::order::{greater, lesser};
 use crate::rounding::{LEAST_F64, OUTWARD_FACTOR};
@@ -18,9 +19,9 @@ use std::f64::consts::{PI, TAU};
 /// ```
 /// use ccd_core::SolidOfRevolution;
 /// let wheel = SolidOfRevolution::cylinder(0.5, 0.1)?;
-/// let fine = wheel.enclosed(1e-6)?;
+/// let fine = wheel.enclose(1e-6)?;
 /// assert!(fine.excess() <= 1e-6 && fine.polytope().points.len() > 3000);
-/// let coarse = wheel.enclosed(wheel.usual_excess())?;
+/// let coarse = wheel.enclose(wheel.usual_excess())?;
 /// assert_eq!(coarse.polytope().points.len(), 288);
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
@@ -70,15 +71,7 @@ impl SolidOfRevolution {
 
     fn new(kind: Kind, radius: f64, half_height: f64) -> Result<Self, InputError> {
         for (what, value) in [("radius", radius), ("half height", half_height)] {
-            // Written so that NaN is refused.
-            if !(0.0..=MAX_COORDINATE).contains(&value) {
-                let allowed = "from 0 to 1e12";
-                return Err(InputError::OutOfRange {
-                    what,
-                    value,
-                    allowed,
-                });
-            }
+            check_length(what, value)?;
         }
         Ok(SolidOfRevolution {
             kind,
@@ -173,8 +166,7 @@ impl Enclosure {
     pub fn triangles(&self) -> (Vec<[u32; 3]>, Vec<u32>) {
         let facets = (0..).zip(&self.polytope.facets);
         let fans = facets.flat_map(|(number, Facet { corners, .. })| {
-            let fan = 1..corners.len().saturating_sub(1);
-            fan.map(move |k| ([corners[0], corners[k], corners[k + 1]], number))
+            fan_of(corners).map(move |fan| (fan, number))
         });
         if self.is_flat {
             Default::default()
@@ -206,13 +198,8 @@ impl Ring {
         let step = TAU / count;
         // This is the distance of the corners from the middle; the edges are at distance `radius`.
         let reach = radius / (0.5 * step).cos() * OUTWARD_FACTOR + 4.0 * LEAST_F64;
-        if !(reach <= MAX_COORDINATE) {
-            return Err(InputError::OutOfRange {
-                what: "radius",
-                value: radius,
-                allowed: "less than 1e12, with the excess",
-            });
-        }
+        let allowed = "less than 1e12, with the excess";
+        check("radius", radius, reach <= MAX_COORDINATE, allowed)?;
         let corner = |k: usize| {
             let (sine, cosine) = ((k as f64 + 0.5) * step).sin_cos();
             [reach * cosine, reach * sine]
@@ -231,16 +218,9 @@ fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
     let share = lesser(asked / radius - 4.0 * (OUTWARD_FACTOR - 1.0), 1.0);
     let half_angle = (share * (2.0 + share)).sqrt().atan();
     let count = 4.0 * greater(1.0, (PI / half_angle / 4.0).ceil());
-    // Written so that NaN is refused.
-    if asked >= 0.0 && share > 0.0 && count <= MAX_CIRCLE_CORNERS {
-        Ok(count)
-    } else {
-        Err(InputError::OutOfRange {
-            what: "excess",
-            value: asked,
-            allowed: "at least 1.9e-8 of the radius",
-        })
-    }
+    let allowed = asked >= 0.0 && share > 0.0 && count <= MAX_CIRCLE_CORNERS;
+    check("excess", asked, allowed, "at least 1.9e-8 of the radius")?;
+    Ok(count)
 }
 
 impl Body {

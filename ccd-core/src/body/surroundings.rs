@@ -1,6 +1,7 @@
 //! The shape of a body's surface around one of its points.
 
 use super::Body;
+use super::facets::fan_of;
 use super::piece::Piece;
 use super::tree::point_query::{is_farther_than, pieces_near};
 use glam::DVec3;
@@ -48,8 +49,8 @@ fn for_each_face(piece: &Piece<'_>, mut look: impl FnMut(&[DVec3])) {
         return;
     }
     for corners in piece.facets.iter() {
-        for k in 2..corners.len() {
-            look(&[0, k - 1, k].map(|k| piece.points[corners[k] as usize]));
+        for fan in fan_of(corners) {
+            look(&fan.map(|v| piece.points[v as usize]));
         }
     }
     if piece.facets.is_empty() {

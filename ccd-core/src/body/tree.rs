@@ -110,6 +110,12 @@ impl Tree {
         (self.nodes[0].centre, f64::from(self.nodes[0].radius))
     }
 
+    /// Returns an upper bound of the distances of all points from a point in the body's frame, by that ball.
+    pub(crate) fn max_distance_from(&self, point: DVec3) -> f64 {
+        let (centre, radius) = self.bounding_ball();
+        centre.distance(point) * (1.0 + f64::EPSILON) + radius
+    }
+
     /// Returns the radius of the ball around the root.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius

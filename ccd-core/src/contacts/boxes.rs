@@ -3,9 +3,11 @@
 use super::skin::NearSurface;
 use glam::DVec3;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// The box trees over the faces of one body's pieces. Each tree is built when its piece is first requested: a piece of
 /// many faces may be near many others, and is sorted only once.
+#[derive(Default)]
 pub(super) struct FaceTrees {
     nodes: Vec<FaceBox>,
     roots: HashMap<u32, u32>,
@@ -63,21 +65,15 @@ impl NearFaces {
     }
 }
 
-/// A tree of boxes over all faces of a skin.
-pub(super) struct FaceTree(FaceTrees);
-
-impl FaceTree {
-    pub(super) fn build(skin: &NearSurface<'_>) -> Self {
-        let mut faces: Vec<FaceBox> = skin
-            .all_faces()
-            .map(|face| FaceBox::new(skin, face))
-            .collect();
-        let mut tree = FaceTrees::new();
-        tree.add(&mut faces);
-        FaceTree(tree)
+impl FaceTrees {
+    /// Builds a single tree over all faces of a surface.
+    pub(super) fn over_all_faces(skin: &NearSurface<'_>) -> Self {
+        let mut trees = FaceTrees::default();
+        trees.add_faces(skin, skin.all_faces());
+        trees
     }
 
-    /// Returns the faces whose boxes are within `reach` of a point.
+    /// Returns the faces of the first tree whose boxes are within `reach` of a point.
     pub(super) fn faces_near(&self, at: DVec3, reach: f64) -> Vec<u32> {
         let point = FaceBox {
             low: at,
@@ -85,12 +81,10 @@ impl FaceTree {
             below: Below::Face(0),
         };
         let mut near = Vec::new();
-        let mut stack: Vec<u32> = (!self.0.nodes.is_empty())
-            .then_some(0)
-            .into_iter()
-            .collect();
+        let root = (!self.nodes.is_empty()).then_some(0);
+        let mut stack = Vec::from_iter(root);
         while let Some(id) = stack.pop() {
-            let node = self.0.get(id);
+            let node = self.get(id);
             match node.below {
                 _ if node.is_farther_apart(&point, reach) => {}
                 Below::Face(face) => near.push(face),
@@ -99,15 +93,6 @@ impl FaceTree {
         }
         near
     }
-}
-
-impl FaceTrees {
-    pub(super) fn new() -> Self {
-        FaceTrees {
-            nodes: Vec::new(),
-            roots: HashMap::new(),
-        }
-    }
 
     /// Returns the root of the tree over a piece's faces; `None` if the piece has none.
     pub(super) fn root(&mut self, skin: &mut NearSurface<'_>, piece: u32) -> Option<u32> {
@@ -115,10 +100,15 @@ impl FaceTrees {
             return Some(root);
         }
         let faces = skin.add_piece(piece);
-        let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
-        let root = self.add(&mut boxes)?;
+        let root = self.add_faces(skin, faces)?;
         self.roots.insert(piece, root);
         Some(root)
+    }
+
+    /// Adds a tree over some faces, and returns its root; `None` if there are none.
+    fn add_faces(&mut self, skin: &NearSurface<'_>, faces: Range<u32>) -> Option<u32> {
+        let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
+        self.add(&mut boxes)
     }
 
     fn get(&self, at: u32) -> &FaceBox {

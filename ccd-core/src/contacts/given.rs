@@ -1,6 +1,6 @@
 //! Translates answers about the surfaces of convex bodies to the pieces that these surfaces bound.
 
-use super::meeting::SurroundingSurfaces;
+use super::meeting::common_normal;
 use crate::answer::{Contact, Outcome, Separation};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
@@ -15,15 +15,16 @@ use crate::rounding::{RESTING_DECREASE, is_direction_uncertain};
 /// Translates an outcome to the bodies that the caller gave. The normal, the nearest points and the bounds of a contact
 /// are those of the pieces that it names.
 ///
-/// Here `within` is the distance at which a contact was to be found.
+/// Here `within` returns the distance at which a contact was to be found.
 pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
     outcome: Outcome,
-    within: f64,
+    within: impl Fn(&Contact) -> f64,
 ) -> Outcome {
     outcome.map_contacts(|contact, time| {
+        let within = within(&contact);
         contact_for_given_bodies(problem, oracle, meter, contact, within, time)
     })
 }
@@ -73,8 +74,7 @@ fn with_common_normal(
     }
     let [frame, _] = &snapshot.frames;
     let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
-    let meeting = SurroundingSurfaces::at(&snapshot, points, meter);
-    let Some(axis) = meeting.common_normal(frame.inverse_vector(normal)) else {
+    let Some(axis) = common_normal(&snapshot, points, frame.inverse_vector(normal), meter) else {
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;

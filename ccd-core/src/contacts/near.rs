@@ -18,7 +18,7 @@ pub(super) fn near_faces(
     b_to_a: &Frame,
     reach: f64,
 ) -> Option<Vec<[u32; 2]>> {
-    let mut trees = [FaceTrees::new(), FaceTrees::new()];
+    let mut trees = <[FaceTrees; 2]>::default();
     let mut near = NearFaces {
         pairs: Vec::new(),
         budget: problem.budget,

@@ -195,9 +195,7 @@ impl<'a> NearSurface<'a> {
 
     /// Returns the middle of a piece's points.
     pub(super) fn centroid(&self, piece: u32) -> DVec3 {
-        let points = self.body.pieces().get(piece as usize).points;
-        self.to_a
-            .point(points.iter().sum::<DVec3>() / points.len() as f64)
+        self.to_a.point(self.body.centroid(piece))
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.

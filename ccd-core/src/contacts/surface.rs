@@ -1,6 +1,6 @@
 //! Finds the shape of a body's surface around its points, by a tree over its triangles.
 
-use super::boxes::FaceTree;
+use super::boxes::FaceTrees;
 use super::closest::nearest_on_triangle;
 use super::skin::NearSurface;
 use crate::distance::common_normals::CommonNormals;
@@ -10,14 +10,14 @@ use glam::DVec3;
 /// The needed part of a body's surface, with a tree to find the triangles around a point.
 pub(super) struct Surface<'a> {
     near_surface: &'a NearSurface<'a>,
-    tree: FaceTree,
+    tree: FaceTrees,
 }
 
 impl<'a> Surface<'a> {
     pub(super) fn new(skin: &'a NearSurface<'a>) -> Self {
         Surface {
             near_surface: skin,
-            tree: FaceTree::build(skin),
+            tree: FaceTrees::over_all_faces(skin),
         }
     }
 

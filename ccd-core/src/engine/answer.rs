@@ -72,7 +72,7 @@ fn answer_under_policy<O: DistanceOracle>(
         };
         let within = problem.margin + tolerance;
         (
-            outcome_for_given_bodies(problem, oracle, meter, outcome, within),
+            outcome_for_given_bodies(problem, oracle, meter, outcome, |_| within),
             tolerance,
         )
     })

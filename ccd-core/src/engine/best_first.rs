@@ -87,11 +87,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
-        let mut search = Search {
-            waiting: &mut self.queue,
-            oracle,
-            meter,
-        };
+        let mut search = Search::new(&mut self.queue, oracle, meter);
         search.run(problem, &mut ProvenFacts::default())
     }
 }

@@ -67,12 +67,21 @@ pub(crate) struct AdvanceResult {
 
 /// The state of a search: the oracle, the waiting pairs and the counters.
 pub(crate) struct Search<'s, O, W> {
-    pub(crate) waiting: &'s mut W,
+    waiting: &'s mut W,
     pub(crate) oracle: &'s mut O,
     pub(crate) meter: &'s mut Meter,
 }
 
-impl<O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'_, O, W> {
+impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
+    #[inline]
+    pub(crate) fn new(waiting: &'s mut W, oracle: &'s mut O, meter: &'s mut Meter) -> Self {
+        Search {
+            waiting,
+            oracle,
+            meter,
+        }
+    }
+
     /// Runs the search from the pair of both roots until it has a result.
     pub(crate) fn run<Q: Question<O>>(
         &mut self,

@@ -4,6 +4,7 @@
 //! above 1e154 they overflow. A vector divided by such a length is not a unit vector, and a height along it is not a
 //! distance. Every proof along an axis uses the functions of this module for the axis.
 
+use super::order::{greater, lesser};
 use crate::rounding::{EXTREME_VECTOR_SCALE, SQUARES};
 use glam::DVec3;
 
@@ -102,6 +103,23 @@ pub(crate) fn scale_of(square: f64) -> (f64, f64) {
     } else {
         (1.0, 1.0)
     }
+}
+
+/// Returns the lowest and the highest corner of the bounding box of some points.
+pub(crate) fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
+        (lo.min(p), hi.max(p))
+    })
+}
+
+/// Returns the least of each coordinate.
+pub(crate) fn componentwise_min(a: DVec3, b: DVec3) -> DVec3 {
+    DVec3::new(lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z))
+}
+
+/// Returns the greatest of each coordinate.
+pub(crate) fn componentwise_max(a: DVec3, b: DVec3) -> DVec3 {
+    DVec3::new(greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z))
 }
 
 #[cfg(test)]

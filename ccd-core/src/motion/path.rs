@@ -83,15 +83,13 @@ impl Path {
         Path {
             cosine: self.cosine * cos + self.sine * sin,
             sine: self.sine * cos - self.cosine * sin,
-            constant: self.constant,
-            centre: self.centre,
             start: self.centre_at(from),
             velocity: self.centre_velocity_at(from) * time,
             acceleration: self.acceleration * (time * time),
             spin: self.spin * time,
             local_angular_velocity: self.local_angular_velocity * time,
             rate: self.rate * time,
-            axis: self.axis,
+            ..*self
         }
     }
 

@@ -1,6 +1,6 @@
 //! Rigid transforms: poses of bodies and frames.
 
-use crate::error::InputError;
+use crate::error::{InputError, check_finite};
 use crate::math::vector::scale_of;
 use glam::{DMat3, DQuat, DVec3};
 
@@ -38,16 +38,8 @@ impl Pose {
     ) -> Result<Self, InputError> {
         let translation = DVec3::from_array(translation.into());
         let rotation = DQuat::from_array(rotation.into());
-        if !translation.is_finite() {
-            return Err(InputError::NotFinite {
-                quantity: "position",
-            });
-        }
-        if !rotation.is_finite() {
-            return Err(InputError::NotFinite {
-                quantity: "quaternion",
-            });
-        }
+        check_finite("position", translation.is_finite())?;
+        check_finite("quaternion", rotation.is_finite())?;
         match unit(rotation) {
             Some(rotation) => Ok(Pose::from_unit(translation, rotation)),
             None => Err(InputError::ZeroQuaternion),

@@ -30,14 +30,14 @@ use glam::DVec3;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         let stray = DeviationBound { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
-///         Ok(Stretch { stray, ..Stretch::exact(motion) })
+///         let deviation = DeviationBound { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
+///         Ok(Stretch { deviation, ..Stretch::exact(motion) })
 ///     }
 /// }
 ///
 /// let stretch = Swing.stretch(1.0, 1.5)?;
 /// let middle = stretch.motion.pose(0.25).translation();
-/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.stray.shift);
+/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation.shift);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory: Sync {
@@ -196,13 +196,15 @@ impl std::ops::Add for DeviationBound {
 /// bodies that pass each other closely take no more stretches than others do.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, AccelerationBounds, InputError, Motion, Pose, SmoothTrajectory, Trajectory};
+/// use ccd_core::{
+///     glam::DVec3, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory, Trajectory,
+/// };
 ///
 /// /// Swings along x by the cosine of the time.
 /// struct Swing;
 ///
 /// impl SmoothTrajectory for Swing {
-///     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+///     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
 ///         Motion::new(Pose::at(time.cos() * DVec3::X)?, -time.sin() * DVec3::X, DVec3::ZERO)
 ///     }
 ///     fn accelerations(&self, _from: f64, _to: f64) -> AccelerationBounds {
@@ -211,7 +213,8 @@ impl std::ops::Add for DeviationBound {
 /// }
 ///
 /// let stretch = Swing.stretch(1.0, 1.5)?;
-/// assert!(stretch.stray.shift > 0.03 && stretch.stray.shift < 0.04 && stretch.stray.turn < 1e-13);
+/// let DeviationBound { shift, turn } = stretch.deviation;
+/// assert!(shift > 0.03 && shift < 0.04 && turn < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait SmoothTrajectory: Sync {

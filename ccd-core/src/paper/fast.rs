@@ -120,9 +120,10 @@ impl<O: DistanceOracle> Fast<O> {
                 front: &mut self.front,
                 reaches: &mut self.reaches,
                 proven: &proven,
+                oracle,
                 meter,
             };
-            let next = descent.step(oracle, s);
+            let next = descent.step(s);
             let stats = &mut meter.stats;
             stats.peak_front = stats.peak_front.max(self.front.peak());
             let next = match next {

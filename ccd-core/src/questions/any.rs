@@ -63,11 +63,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         if let Some(free) = free_by_bounding_volumes(problem) {
             return free;
         }
-        let mut search = Search {
-            waiting: &mut self.stack,
-            oracle,
-            meter,
-        };
+        let mut search = Search::new(&mut self.stack, oracle, meter);
         let mut any = AnyContactSearch::default();
         match search.run(problem, &mut any) {
             Outcome::Unresolved(known) => {

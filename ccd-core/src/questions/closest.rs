@@ -7,7 +7,7 @@ mod nearing;
 pub(crate) mod required;
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
-use crate::contacts::given::contact_for_given_bodies;
+use crate::contacts::given::outcome_for_given_bodies;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{SearchResult, run_metered};
 use crate::engine::meter::Meter;
@@ -29,7 +29,6 @@ use nearing::LeastDistanceSearch;
 use required::RequiredClearance;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Bounds the least distance of the bodies over the duration, to within the tolerance. If a
@@ -82,14 +81,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
             distance,
             tolerance: problem.tolerance,
             budget: problem.budget,
+            deadline: problem.deadline,
             excess: problem.excess(),
         };
-        let begun = problem.deadline.map(|_| Instant::now());
-        let answer = required.decide(|rung| {
+        let answer = required.decide(|rung, deadline| {
             let mut problem = rung.problem(&problem.for_distances());
-            problem.deadline = begun.and_then(|begun| {
-                (problem.deadline).map(|deadline| deadline.saturating_sub(begun.elapsed()))
-            });
+            problem.deadline = deadline;
             Ok::<_, Infallible>(self.any_contact_of(&problem, oracle))
         });
         answer.unwrap_or_else(|never| match never {})
@@ -126,7 +123,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
             };
             let told = found.map(|found| {
                 let found = last_look(&problem, oracle, meter, found);
-                outcome_for_given_bodies(&problem, oracle, meter, found)
+                outcome_for_given_bodies(&problem, oracle, meter, found, |contact| {
+                    contact.separation.upper
+                })
             });
             let width = told.as_ref().map_or(0.0, Outcome::width);
             // Distances may not be known to the requested tolerance.
@@ -170,13 +169,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             beyond,
             proven: ProvenFacts::default(),
             first_failure: None,
-            ladder: ladder(problem),
+            ladder: LowerBoundLadder::new(least_distance(problem), problem.budget)
+                .with_early_start(problem.deadline.is_some() || problem.stop.is_some()),
         };
-        let mut search = Search {
-            waiting: &mut self.stack,
-            oracle,
-            meter,
-        };
+        let mut search = Search::new(&mut self.stack, oracle, meter);
         if search.push_roots(problem).is_err() {
             return Ok(nearing.unresolved_outcome(problem, Limit::Budget));
         }
@@ -277,16 +273,6 @@ pub(crate) struct FartherThanCutoff {
     pub(crate) lower: f64,
 }
 
-/// Creates the ladder whose first lower bound comes from bounding balls of the bodies.
-fn ladder(problem: &Problem<'_>) -> LowerBoundLadder {
-    let ladder = LowerBoundLadder::new(least_distance(problem), problem.budget);
-    if problem.deadline.is_some() || problem.stop.is_some() {
-        ladder.with_early_start()
-    } else {
-        ladder
-    }
-}
-
 fn moves(problem: &Problem<'_>) -> bool {
     problem.a.path.moves() || problem.b.path.moves()
 }
@@ -303,19 +289,6 @@ pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
         }
         _ => false,
     }
-}
-
-/// Converts the contacts of an outcome to those of the bodies that the caller gave, if surfaces replaced them.
-fn outcome_for_given_bodies<O: DistanceOracle>(
-    problem: &Problem<'_>,
-    oracle: &mut O,
-    meter: &mut Meter,
-    found: Outcome,
-) -> Outcome {
-    found.map_contacts(|contact, time| {
-        let within = contact.separation.upper;
-        contact_for_given_bodies(problem, oracle, meter, contact, within, time)
-    })
 }
 
 /// The nearest two pieces found so far, with the clock at which they were measured.

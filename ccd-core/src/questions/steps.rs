@@ -167,28 +167,25 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             return Progress::Answered(answer);
         }
         let before = oracle.effort();
-        let progress = match self.search(oracle, until) {
-            ControlFlow::Continue(time) => Progress::ApartUntil(time),
-            ControlFlow::Break((outcome, tolerance)) => {
+        let found = self
+            .search(oracle, until)
+            .map_break(|(outcome, tolerance)| {
                 let within = self.problem.margin + tolerance;
-                let meter = &mut self.meter;
-                let outcome =
-                    outcome_for_given_bodies(&self.problem, oracle, meter, outcome, within);
-                Progress::Answered(Answer {
-                    outcome,
-                    tolerance,
-                    stats: meter.stats,
-                })
-            }
-        };
+                let (problem, meter) = (&self.problem, &mut self.meter);
+                let outcome = outcome_for_given_bodies(problem, oracle, meter, outcome, |_| within);
+                (outcome, tolerance)
+            });
         let stats = &mut self.meter.stats;
         stats.effort = stats.effort + (oracle.effort() - before);
-        match progress {
-            Progress::ApartUntil(_) => progress,
-            Progress::Answered(answer) => Progress::Answered(*self.answer.insert(Answer {
-                stats: *stats,
-                ..answer
-            })),
+        match found {
+            ControlFlow::Continue(time) => Progress::ApartUntil(time),
+            ControlFlow::Break((outcome, tolerance)) => {
+                Progress::Answered(*self.answer.insert(Answer {
+                    outcome,
+                    tolerance,
+                    stats: *stats,
+                }))
+            }
         }
     }
 
@@ -249,11 +246,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         };
         let clock = problem.clock(until);
         let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
-        let mut search = Search {
-            waiting: &mut self.memory.queue,
-            oracle,
-            meter: &mut self.meter,
-        };
+        let mut search = Search::new(&mut self.memory.queue, oracle, &mut self.meter);
         let SearchState { look, proven } = match &mut self.state {
             Some(state) => state,
             state => {

@@ -195,11 +195,7 @@ impl<'a> Rounds<'a> {
                 }
                 ControlFlow::Continue(())
             }
-            _ => ControlFlow::Break(if time > 0.0 {
-                Outcome::Contact { time, contact }
-            } else {
-                Outcome::Touching { contact }
-            }),
+            _ => ControlFlow::Break(Outcome::contact_at(time, contact)),
         }
     }
 
@@ -288,21 +284,13 @@ impl<'a> Sample<'a> {
 /// Widens the bounds of a contact by an error.
 fn widened(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
-    Contact {
-        separation: Separation {
-            lower: (lower - rounding).next_down(),
-            upper: (upper + rounding).next_up(),
-            ..contact.separation
-        },
-        ..contact
-    }
+    contact.with_bounds((lower - rounding).next_down(), (upper + rounding).next_up())
 }
 
 fn path_with_radius<'p>(side: &'p BodyWithPath<'_>) -> PathWithRadius<'p> {
-    let (centre, radius) = side.body.tree().bounding_ball();
     PathWithRadius {
         path: &side.path,
-        reach: centre.distance(side.path.centre) * (1.0 + f64::EPSILON) + radius,
+        reach: side.body.tree().max_distance_from(side.path.centre),
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::engine::answer::Solve;
+use crate::math::order::greater;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};

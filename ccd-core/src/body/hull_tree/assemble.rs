@@ -9,13 +9,15 @@ use super::inherit::{Child, inherit};
 use super::inside::PreparedHull;
 use super::node::{FacetData, Node};
 use super::{HullTree, Hulls};
-use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounding_box};
+use crate::body::adjacency::AdjacencyLists;
+use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::pieces::Pieces;
-use crate::body::pieces::builder::{Capacity, PiecesBuilder, PolytopeParts};
+use crate::body::pieces::builder::{PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
 use crate::math::exact::too_fine;
 use crate::math::order::greater;
+use crate::math::vector::bounding_box;
 use glam::DVec3;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -50,10 +52,8 @@ impl HullTree {
             }));
             class_ends.push(classes.len() as u32);
         }
-        let (facets_by_point, facets_by_point_ends) = facets_by_point(&done);
         let hulls = Hulls {
-            facets_by_point,
-            facets_by_point_ends,
+            facets_by_point: facets_by_point(&done),
             classes,
             class_ends,
             has_uniform_radius: done.iter().map(|node| node.has_uniform_radius).collect(),
@@ -69,15 +69,7 @@ impl HullTree {
 
 /// Moves the hulls of all nodes to one list, and frees each node's memory once its hull is copied.
 fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
-    let mut capacity = Capacity::default();
-    for node in &nodes {
-        capacity.pieces += 1;
-        capacity.points += node.points.len();
-        capacity.facets += node.loops.len();
-        capacity.corners += node.loops.corners().len();
-        capacity.faces += node.faces().count();
-    }
-    let mut builder = PiecesBuilder::with_capacity(capacity);
+    let mut builder = PiecesBuilder::default();
     for node in nodes {
         builder.push(PolytopeParts {
             points: &node.points,
@@ -88,35 +80,24 @@ fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
                 .zip(node.facet_data.iter().map(|facet| facet.origin)),
             faces: node.faces().copied(),
             radius: node.radius,
-        })?;
+        });
     }
     builder.into_pieces()
 }
 
-/// Returns the facets that meet in each point of all hulls, in ascending order, and the end of each point's list.
-fn facets_by_point(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
-    let (mut facets_by_point, mut ends) = (Vec::new(), Vec::new());
-    for Node { points, loops, .. } in nodes {
-        let start = ends.len();
-        let first = facets_by_point.len() as u32;
-        // The entries are first counts, then the next free positions, and finally the ends.
-        ends.resize(start + points.len(), 0);
-        let next = &mut ends[start..];
-        let corners = loops.corners().iter();
-        corners.for_each(|&corner| next[corner as usize] += 1);
-        let mut end = first;
-        for next in next.iter_mut() {
-            end += std::mem::replace(next, end);
-        }
-        facets_by_point.resize(end as usize, 0);
-        for (k, corners) in (0..).zip(loops.iter()) {
-            for &corner in corners {
-                facets_by_point[next[corner as usize] as usize] = k;
-                next[corner as usize] += 1;
-            }
-        }
+/// Returns the facets that meet in each point of all hulls, in ascending order.
+fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
+    let mut count = 0;
+    let mut starts = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        starts.push(count as u32);
+        count += node.points.len();
     }
-    (facets_by_point, ends)
+    let pairs = nodes.iter().zip(starts).flat_map(|(node, start)| {
+        let facets = node.loops.iter().zip(0..);
+        facets.flat_map(move |(corners, k)| corners.iter().map(move |&v| (start + v, k)))
+    });
+    AdjacencyLists::new(count, pairs)
 }
 
 /// Creates the leaf for a piece.

@@ -1,6 +1,6 @@
 //! Decides exactly whether facets are those of a convex polytope.
 
-use super::edges::edges_of;
+use crate::body::facets::{edges_of, fan_of};
 use crate::body::piece::Piece;
 use crate::body::support::Support;
 use crate::math::exact::{side, too_fine};
@@ -35,7 +35,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for corners in hull.facets.iter() {
         corners.iter().for_each(|&v| on_facets[v as usize] = true);
-        triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
+        triangles.extend(fan_of(corners));
         if !are_coplanar(hull.points, corners) || !is_convex_polygon(hull.points, corners, middle) {
             return false;
         }

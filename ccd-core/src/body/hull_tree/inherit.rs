@@ -3,10 +3,11 @@
 //! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
 //! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.
 
-use super::edges::{EdgeMap, edges_of};
+use super::edges::EdgeMap;
 use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar, non_collinear_corners};
 use super::node::{FacetData, Node};
+use crate::body::facets::{edges_of, fan_of};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
@@ -116,14 +117,11 @@ impl ChildFacet<'_> {
     fn mesh_faces(&self) -> Vec<Face> {
         let node = self.child.node;
         match self.facet.origin {
-            FacetOrigin::Face(id) => (1..self.corners.len() - 1)
-                .map(|k| {
-                    let corners = [0, k, k + 1].map(|k| self.corners[k]);
-                    Face {
-                        id,
-                        vertices: corners.map(|v| vertex_of(node, v)),
-                        corners: corners.map(|v| node.points[v as usize]),
-                    }
+            FacetOrigin::Face(id) => fan_of(self.corners)
+                .map(|corners| Face {
+                    id,
+                    vertices: corners.map(|v| vertex_of(node, v)),
+                    corners: corners.map(|v| node.points[v as usize]),
                 })
                 .collect(),
             FacetOrigin::Faces | FacetOrigin::Virtual => self.facet.faces.clone(),

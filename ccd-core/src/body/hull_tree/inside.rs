@@ -1,6 +1,7 @@
 //! Tests exactly whether points are in a convex hull `[SHE97]`.
 
 use super::loops::PolygonList;
+use crate::body::facets::fan_of;
 use crate::math::exact::{is_degenerate, line_side_along, side};
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
@@ -20,14 +21,10 @@ impl<'a> PreparedHull<'a> {
     /// reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &PolygonList) -> Self {
         let at = |&v: &u32| points[v as usize];
-        let fan = |corners: &[u32]| {
-            let corners: Vec<DVec3> = corners.iter().map(at).collect();
-            let triangles = 1..corners.len() - 1;
-            triangles.map(move |k| [corners[0], corners[k], corners[k + 1]])
-        };
+        let fans = facets.iter().flat_map(fan_of);
         PreparedHull {
             points,
-            fans: facets.iter().flat_map(fan).collect(),
+            fans: fans.map(|fan| fan.map(|v| at(&v))).collect(),
             first: facets
                 .get(0)
                 .map_or(Vec::new(), |corners| corners.iter().map(at).collect()),

@@ -1,8 +1,7 @@
 //! Builds a list of pieces, one by one.
 
-use super::{Pieces, Radii, Shape, Surfaces};
+use super::{Pieces, Polytopes, Shape};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
-use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 
@@ -17,23 +16,11 @@ pub(crate) struct PolytopeParts<'a, A, B> {
 }
 
 /// A list of pieces under construction.
+#[derive(Default)]
 pub(crate) struct PiecesBuilder {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    point_ends: Vec<u32>,
-    radii: Vec<f64>,
-    surfaces: Surfaces,
-}
-
-/// The total numbers of elements in the lists of the pieces.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Capacity {
-    pub(crate) pieces: usize,
-    pub(crate) points: usize,
-    pub(crate) facets: usize,
-    /// The number of corners of all facets.
-    pub(crate) corners: usize,
-    pub(crate) faces: usize,
+    polytopes: Polytopes,
 }
 
 impl Pieces {
@@ -48,14 +35,7 @@ impl Pieces {
     /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
     /// [`InputError::TooManyPieces`].
     pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
-        let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
-        let mut builder = PiecesBuilder::with_capacity(Capacity {
-            pieces: polytopes.len(),
-            points: polytopes.iter().map(|p| p.points.len()).sum(),
-            facets: facets().count(),
-            corners: facets().map(|facet| facet.corners.len()).sum(),
-            faces: polytopes.iter().map(|p| p.faces.len()).sum(),
-        });
+        let mut builder = PiecesBuilder::default();
         for polytope in polytopes {
             let facets = polytope.facets.iter();
             builder.push(PolytopeParts {
@@ -64,34 +44,14 @@ impl Pieces {
                 facets: facets.map(|facet| (&facet.corners[..], facet.origin)),
                 faces: polytope.faces.iter().copied(),
                 radius: polytope.radius,
-            })?;
+            });
         }
         builder.into_pieces()
     }
 }
 
 impl PiecesBuilder {
-    pub(crate) fn with_capacity(capacity: Capacity) -> Self {
-        PiecesBuilder {
-            points: Vec::with_capacity(capacity.points),
-            vertex_ids: Vec::with_capacity(capacity.points),
-            point_ends: Vec::with_capacity(capacity.pieces),
-            radii: Vec::with_capacity(capacity.pieces),
-            surfaces: Surfaces {
-                facet_ends: Vec::with_capacity(capacity.pieces),
-                origins: Vec::with_capacity(capacity.facets),
-                corner_ends: Vec::with_capacity(capacity.facets),
-                corners: Vec::with_capacity(capacity.corners),
-                face_ends: Vec::with_capacity(capacity.pieces),
-                faces: Vec::with_capacity(capacity.faces),
-            },
-        }
-    }
-
     /// Adds a piece to the list.
-    ///
-    /// # Errors
-    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`].
     pub(crate) fn push<'a>(
         &mut self,
         polytope: PolytopeParts<
@@ -99,35 +59,25 @@ impl PiecesBuilder {
             impl Iterator<Item = (&'a [u32], FacetOrigin)>,
             impl Iterator<Item = Face>,
         >,
-    ) -> Result<(), InputError> {
-        let (piece, count) = (self.point_ends.len(), polytope.points.len());
+    ) {
+        let count = polytope.points.len();
         self.points.extend_from_slice(polytope.points);
         if polytope.vertex_ids.len() == count {
             self.vertex_ids.extend_from_slice(polytope.vertex_ids);
         } else {
             self.vertex_ids.extend(0..count as u32);
         }
-        self.point_ends.push(self.points.len() as u32);
-        self.radii.push(polytope.radius);
-        let surfaces = &mut self.surfaces;
-        let exists = |&c: &u32| (c as usize) < count;
-        for (facet, (corners, origin)) in polytope.facets.enumerate() {
-            if corners.len() < 3 || !corners.iter().all(exists) {
-                return Err(InputError::FacetOutOfRange { piece, facet });
-            }
-            surfaces.corners.extend_from_slice(corners);
-            surfaces.corner_ends.push(surfaces.corners.len() as u32);
-            surfaces.origins.push(origin);
+        let polytopes = &mut self.polytopes;
+        polytopes.point_ends.push(self.points.len() as u32);
+        polytopes.radii.push(polytope.radius);
+        for (corners, origin) in polytope.facets {
+            polytopes.corners.extend_from_slice(corners);
+            polytopes.corner_ends.push(polytopes.corners.len() as u32);
+            polytopes.origins.push(origin);
         }
-        surfaces.facet_ends.push(surfaces.origins.len() as u32);
-        for (face, on_it) in polytope.faces.enumerate() {
-            if !on_it.corners.iter().all(|p| p.is_finite()) {
-                return Err(InputError::BadFace { piece, face });
-            }
-            surfaces.faces.push(on_it);
-        }
-        surfaces.face_ends.push(surfaces.faces.len() as u32);
-        Ok(())
+        polytopes.facet_ends.push(polytopes.origins.len() as u32);
+        polytopes.faces.extend(polytope.faces);
+        polytopes.face_ends.push(polytopes.faces.len() as u32);
     }
 
     /// Returns the finished list of pieces.
@@ -135,14 +85,12 @@ impl PiecesBuilder {
     /// # Errors
     /// The errors of [`Pieces::polytopes`].
     pub(crate) fn into_pieces(self) -> Result<Pieces, InputError> {
-        Pieces {
-            points: self.points,
-            vertex_ids: self.vertex_ids,
-            point_ends: self.point_ends,
-            radii: Radii::PerPiece(self.radii),
-            shape: Shape::Polytopes(Box::new(self.surfaces)),
-            side_table: SideTable::default(),
-        }
-        .checked()
+        self.into_unchecked_pieces().checked()
+    }
+
+    /// Returns the finished list of pieces, which are known to be valid.
+    pub(super) fn into_unchecked_pieces(self) -> Pieces {
+        let shape = Shape::Polytopes(Box::new(self.polytopes));
+        Pieces::with_shape(self.points, self.vertex_ids, shape)
     }
 }

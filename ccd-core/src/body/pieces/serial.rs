@@ -1,8 +1,7 @@
 //! Serialisation of lists of pieces. Pieces that are read are checked like pieces that are built.
 
-use super::{Pieces, Radii, Shape};
+use super::{Pieces, Shape};
 use crate::body::polytope::Polytope;
-use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -59,14 +58,6 @@ impl TryFrom<Stored> for Pieces {
                 vertices: points.len(),
             });
         }
-        Pieces {
-            points,
-            vertex_ids,
-            point_ends: Vec::new(),
-            radii: Radii::Zero,
-            shape: Shape::Triangles { face_ids },
-            side_table: SideTable::default(),
-        }
-        .checked()
+        Pieces::with_shape(points, vertex_ids, Shape::Triangles { face_ids }).checked()
     }
 }

@@ -2,7 +2,8 @@
 
 use super::directions::{self, DIRECTIONS};
 use super::tree::bounding_ball;
-use crate::body::facets::Facets;
+use crate::body::adjacency::AdjacencyLists;
+use crate::body::facets::{Facets, edges_of};
 use crate::math::order::greater;
 use crate::rounding::HEIGHT_F64;
 use crate::tuning::MAX_PLATEAU_POINTS;
@@ -19,9 +20,7 @@ pub struct SupportTable {
     /// The largest absolute coordinate.
     reach: f64,
     ball: (DVec3, f64),
-    neighbours: Vec<u32>,
-    /// The end of each point's neighbours in the list of neighbours.
-    ends: Vec<u32>,
+    neighbours: AdjacencyLists<u32>,
     starts: [u32; DIRECTIONS],
 }
 
@@ -29,23 +28,18 @@ impl SupportTable {
     /// Builds the table for points with the facets of their hull; `None` if no facets are known.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
         let first = *facets.iter().next()?.first()?;
-        let edges = facets.iter().flat_map(|corners| {
-            let next = corners.iter().cycle().skip(1);
-            corners.iter().copied().zip(next.copied())
-        });
+        let edges = facets.iter().flat_map(edges_of);
         // Each of the two facets that meet in an edge contains one of its directions. Both directions are added, so
         // that neither is lost if the facets are wrong.
         let mut edges: Vec<(u32, u32)> = edges.flat_map(|(v, w)| [(v, w), (w, v)]).collect();
         edges.sort_unstable();
         edges.dedup();
-        let end = |v: usize| edges.partition_point(|&(from, _)| from as usize <= v) as u32;
         let reach = |p: &DVec3| p.abs().max_element();
         let mut table = SupportTable {
             points: points.to_vec(),
             reach: points.iter().map(reach).fold(0.0, greater),
             ball: bounding_ball(points),
-            ends: (0..points.len()).map(end).collect(),
-            neighbours: edges.iter().map(|&(_, to)| to).collect(),
+            neighbours: AdjacencyLists::new(points.len(), edges.into_iter()),
             starts: [first; DIRECTIONS],
         };
         let mut at = first;
@@ -82,12 +76,7 @@ impl SupportTable {
     /// Returns the corners that share an edge with a corner; empty for a point on no facet.
     #[inline]
     pub fn neighbours(&self, corner: u32) -> &[u32] {
-        let at = corner as usize;
-        let Some(&end) = self.ends.get(at) else {
-            return &[];
-        };
-        let start = if at == 0 { 0 } else { self.ends[at - 1] };
-        &self.neighbours[start as usize..end as usize]
+        self.neighbours.of(corner as usize)
     }
 
     /// Returns the centre and radius of a ball around the points.

@@ -1,7 +1,8 @@
 //! Finds extremal points by a tree, and visits only the parts that may contain them.
 
-use crate::math::order::{greater, lesser};
+use crate::math::order::greater;
 use crate::math::principal::principal_axes;
+use crate::math::vector::bounding_box;
 use crate::math::vector::distance;
 use crate::rounding::{DISC_F32, DISC_TILT_F32, FRAME_F64};
 use glam::{DMat3, DVec3, Vec3};
@@ -35,7 +36,7 @@ struct Block {
 
 /// Eight discs that bound points. Each contains the points below it: those at most `thickness` to either side of
 /// `centre` along `normal`, and at most `radius` across.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[repr(align(32))]
 struct Discs {
     centre: [[f32; LANES]; 3],
@@ -188,11 +189,8 @@ impl Discs {
     /// Builds the group over at most eight blocks of `width` points.
     fn new(points: &[DVec3], width: usize) -> Self {
         let mut discs = Discs {
-            centre: [[0.0; LANES]; 3],
-            normal: [[0.0; LANES]; 3],
-            radius: [0.0; LANES],
-            thickness: [0.0; LANES],
             rounding: [f32::NEG_INFINITY; LANES],
+            ..Discs::default()
         };
         for (lane, points) in points.chunks(width).enumerate() {
             let disc = Disc::enclosing(points);
@@ -292,18 +290,6 @@ pub(super) fn bounding_ball(points: &[DVec3]) -> (DVec3, f64) {
     let middle = low + 0.5 * (high - low);
     let ways = points.iter().map(|&p| distance(p, middle));
     (middle, ways.fold(0.0, greater).next_up())
-}
-
-/// Returns the lowest and highest corner of the bounding box of one or more points.
-fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for point in points {
-        for axis in 0..3 {
-            low[axis] = lesser(low[axis], point[axis]);
-            high[axis] = greater(high[axis], point[axis]);
-        }
-    }
-    (low, high)
 }
 
 /// Returns the least power of two above a number; 1 for a number too small to divide by.

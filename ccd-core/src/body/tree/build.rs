@@ -172,7 +172,7 @@ impl Layout {
         for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
             *node = self.nodes[k].fit_nodes(pieces, sample);
         });
-        let mut boxes = vec![BoxGroup::EMPTY; self.boxes.len()];
+        let mut boxes = vec![BoxGroup::default(); self.boxes.len()];
         for_each(&mut boxes, &(), |(), k, group| {
             let BoxesBelow {
                 parent,
@@ -184,7 +184,7 @@ impl Layout {
         });
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
-        let mut triangles = vec![StoredTriangleGroup::EMPTY; self.triangles.len()];
+        let mut triangles = vec![StoredTriangleGroup::default(); self.triangles.len()];
         for_each(&mut triangles, &(), |(), k, group| {
             let TrianglesBelow { parent, start, end } = self.triangles[k];
             let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;

@@ -6,7 +6,7 @@ use super::group::round_up_to_f32;
 use super::group::{Node, NodeChildren};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
-use crate::math::vector::{length, unit};
+use crate::math::vector::{bounding_box, length, unit};
 use crate::rounding::{FRAME_F64, UNIT_ROUNDOFF_F64};
 use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
@@ -96,7 +96,7 @@ struct FittedBox {
 impl FittedBox {
     fn fit_along(frame: DMat3, points: &[DVec3]) -> Self {
         let turned = frame.transpose();
-        let (low, high) = crate::body::hierarchy::bounding_box(points.iter().map(|&p| turned * p));
+        let (low, high) = bounding_box(points.iter().map(|&p| turned * p));
         FittedBox { frame, low, high }
     }
 

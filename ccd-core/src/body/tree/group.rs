@@ -12,7 +12,7 @@ pub(crate) const LANES: usize = 8;
 pub(crate) type Rows3 = [[f32; LANES]; 3];
 
 /// The boxes of up to eight nodes, relative to an origin; unused lanes repeat the last child.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[repr(align(32))]
 pub(crate) struct BoxGroup {
     pub(crate) centre: Rows3,
@@ -26,7 +26,7 @@ pub(crate) struct BoxGroup {
 }
 
 /// The stored data of a group of up to eight triangles. Their corners are in the pieces.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct StoredTriangleGroup {
     pub(crate) members: GroupHeader,
     /// The radius of each triangle's ball, as in [`TriangleGroup`].
@@ -47,7 +47,7 @@ pub(crate) struct TriangleGroup {
 }
 
 /// The fields that groups of boxes and of triangles share.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct GroupHeader {
     /// The origin of the group's coordinates, in the body's frame.
     pub(crate) origin: DVec3,
@@ -59,17 +59,6 @@ pub(crate) struct GroupHeader {
 }
 
 impl BoxGroup {
-    /// A placeholder for a group that is not computed yet.
-    pub(super) const EMPTY: BoxGroup = BoxGroup {
-        centre: [[0.0; LANES]; 3],
-        axes: [[[0.0; LANES]; 3]; 3],
-        half: [[0.0; LANES]; 3],
-        rounding: [0.0; LANES],
-        radius: [0.0; LANES],
-        members: GroupHeader::NONE,
-        leaves: 0,
-    };
-
     /// Creates a group of consecutive nodes; `first` is the id of the first one.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {
         let mut group = BoxGroup {
@@ -79,7 +68,7 @@ impl BoxGroup {
                 first,
                 count: nodes.len() as u32,
             },
-            ..BoxGroup::EMPTY
+            ..BoxGroup::default()
         };
         for lane in 0..LANES {
             let node = &nodes[lane.min(nodes.len() - 1)];
@@ -106,23 +95,7 @@ impl BoxGroup {
     }
 }
 
-impl GroupHeader {
-    /// The fields of a group without children.
-    const NONE: GroupHeader = GroupHeader {
-        origin: DVec3::ZERO,
-        reach: 0.0,
-        first: 0,
-        count: 0,
-    };
-}
-
 impl StoredTriangleGroup {
-    /// A placeholder for a row that is not computed yet.
-    pub(super) const EMPTY: StoredTriangleGroup = StoredTriangleGroup {
-        members: GroupHeader::NONE,
-        radius: [0.0; LANES],
-    };
-
     /// Computes the balls of consecutive triangles; `first` is the id of the first one.
     pub(crate) fn new(triangles: &[[DVec3; 3]], first: u32, origin: DVec3) -> Self {
         let mut row = StoredTriangleGroup {

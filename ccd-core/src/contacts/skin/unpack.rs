@@ -1,6 +1,7 @@
 //! Converts pieces to triangles with mesh numbers.
 
 use super::{Corner, Face, NearSurface, PointBits};
+use crate::body::facets::fan_of;
 use crate::body::feature::Feature;
 use crate::body::piece::Combination;
 use crate::body::piece::Piece;
@@ -50,11 +51,7 @@ impl NearSurface<'_> {
                 corners.map(|k| (point(k), self.mesh_number_of_point(index, k))),
             )
         };
-        let fan = |corners: &[u32]| -> Vec<[u32; 3]> {
-            let inner = corners.windows(2).skip(1);
-            inner.map(|pair| [corners[0], pair[0], pair[1]]).collect()
-        };
-        let facets = piece.facets.iter().flat_map(fan);
+        let facets = piece.facets.iter().flat_map(fan_of);
         let hull = match piece.points.len() as u32 {
             _ if !piece.facets.is_empty() => facets.collect(),
             1 => vec![[0, 0, 0]],

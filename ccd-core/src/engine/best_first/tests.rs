@@ -32,7 +32,7 @@ fn apart(rng: &mut Pcg64) -> Scene {
         let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
         let scene = scene(rng, kind, 12);
         let problem = scene.problem();
-        if distance(&problem, 0.0) > 2.0 * problem.tolerance() {
+        if distance(&problem, 0.0) > 2.0 * problem.tolerance {
             return scene;
         }
     }
@@ -45,7 +45,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     for number in 0..1_600 {
         let scene = apart(&mut rng);
         let problem = scene.problem();
-        let (margin, tolerance) = (problem.margin, problem.tolerance());
+        let (margin, tolerance) = (problem.margin, problem.tolerance);
         let answer = solve(&problem);
         let twin = Naive::default().solve(&problem, &mut ExhaustiveOracle);
         let (until, least) = match (answer.outcome, twin.outcome) {
@@ -96,7 +96,7 @@ fn answers_hold_at_sampled_times_where_bodies_accelerate() {
     for number in 0..800 {
         let scene = apart(&mut rng).accelerating(&mut rng);
         let problem = scene.problem();
-        if distance(&problem, 0.0) <= 2.0 * problem.tolerance() {
+        if distance(&problem, 0.0) <= 2.0 * problem.tolerance {
             continue;
         }
         let within = problem.contact_distance() + problem.rounding;

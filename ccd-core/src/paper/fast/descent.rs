@@ -19,13 +19,14 @@ use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
 /// A search for the nearest pairs, from the front of the last descent.
-pub(super) struct Descent<'s, 'p, C> {
+pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullPair<'p>,
     pub(super) bound: VelocityBound,
-    pub(super) front: &'s mut Front<C>,
+    pub(super) front: &'s mut Front<O::Cache>,
     pub(super) reaches: &'s mut AxisDistances,
     pub(super) proven: &'s ProvenFacts,
+    pub(super) oracle: &'s mut O,
     pub(super) meter: &'s mut Meter,
 }
 
@@ -45,14 +46,11 @@ struct OpenPair {
     at: u32,
 }
 
-impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
+impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
     /// Updates the front at clock `s`, and returns the time until which all its pairs stay apart. Pairs that may have
     /// the least distance are split, and pairs that no longer may are joined. Pairs that stay apart to the end are
     /// skipped.
-    pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
-    where
-        O: DistanceOracle<Cache = C>,
-    {
+    pub(super) fn step(&mut self, s: f64) -> ControlFlow<Outcome, f64> {
         let snapshot = Snapshot::of_pieces(self.problem, self.hulls.hulls([0, 0]), s);
         let mut found = DescentState {
             distance: f64::INFINITY,
@@ -63,7 +61,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             if self.front.node(at).stays_apart() {
                 continue;
             }
-            self.measure(oracle, &snapshot, at, &mut found)?;
+            self.measure(&snapshot, at, &mut found)?;
         }
         while let Some(OpenPair { lower, at }) = found.open.pop() {
             // Written so that a pair with NaN is split.
@@ -73,28 +71,24 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             let Some(first) = self.front.split(self.hulls, at) else {
                 continue;
             };
-            self.measure(oracle, &snapshot, first, &mut found)?;
-            self.measure(oracle, &snapshot, first + 1, &mut found)?;
+            self.measure(&snapshot, first, &mut found)?;
+            self.measure(&snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
             return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
         }
         let next = self.front.clock();
-        self.join(oracle, &snapshot, &mut found, next)?;
+        self.join(&snapshot, &mut found, next)?;
         ControlFlow::Continue(next)
     }
 
     /// Computes the distance of a pair in the front.
-    fn measure<O>(
+    fn measure(
         &mut self,
-        oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
         found: &mut DescentState,
-    ) -> ControlFlow<Outcome>
-    where
-        O: DistanceOracle<Cache = C>,
-    {
+    ) -> ControlFlow<Outcome> {
         if let Err(reason) = self.meter.count_visit(self.problem) {
             return ControlFlow::Break(Outcome::unresolved(
                 self.problem.time(snapshot.clock),
@@ -103,22 +97,14 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
-                self.measure_nodes(oracle, snapshot, at, found);
+                self.measure_nodes(snapshot, at, found);
                 ControlFlow::Continue(())
             }
-            Item::Pieces(_) => self.measure_pieces(oracle, snapshot, at, found),
+            Item::Pieces(_) => self.measure_pieces(snapshot, at, found),
         }
     }
 
-    fn measure_nodes<O>(
-        &mut self,
-        oracle: &mut O,
-        snapshot: &Snapshot<'p>,
-        at: u32,
-        found: &mut DescentState,
-    ) where
-        O: DistanceOracle<Cache = C>,
-    {
+    fn measure_nodes(&mut self, snapshot: &Snapshot<'p>, at: u32, found: &mut DescentState) {
         let (problem, s) = (self.problem, snapshot.clock);
         let node = self.front.node(at);
         let Item::Nodes(cache) = &mut node.item else {
@@ -133,7 +119,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             found.open.push(node.open_unmeasured(at, s));
             return;
         }
-        let Some(checked) = snapshot.query_oracle(oracle, cache, self.meter) else {
+        let Some(checked) = snapshot.query_oracle(self.oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
             found.open.push(node.open_unmeasured(at, s));
             return;
@@ -160,16 +146,12 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         }
     }
 
-    fn measure_pieces<O>(
+    fn measure_pieces(
         &mut self,
-        oracle: &mut O,
         snapshot: &Snapshot<'p>,
         at: u32,
         found: &mut DescentState,
-    ) -> ControlFlow<Outcome>
-    where
-        O: DistanceOracle<Cache = C>,
-    {
+    ) -> ControlFlow<Outcome> {
         let (problem, bound, s) = (self.problem, self.bound, snapshot.clock);
         let node = self.front.node(at);
         let Item::Pieces(pair) = &mut node.item else {
@@ -179,11 +161,16 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
-        let step = pair.advance_with(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
-            node.lower = checked.lower;
-            found.distance = lesser(found.distance, checked.upper);
-            snapshot.free_time_along_axis(checked, kept, bound, reaches)
-        });
+        let step = pair.advance_with(
+            &snapshot,
+            self.oracle,
+            self.meter,
+            |snapshot, checked, kept| {
+                node.lower = checked.lower;
+                found.distance = lesser(found.distance, checked.upper);
+                snapshot.free_time_along_axis(checked, kept, bound, reaches)
+            },
+        );
         if let Step::Contact(contact) = step
             && s > 0.0
         {
@@ -192,22 +179,18 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         }
         node.clock = self
             .proven
-            .on_advance(problem, oracle, self.meter, step, s)?;
+            .on_advance(problem, self.oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 
     /// Joins pairs of the front that have become far away, if that costs nothing. The pair that covers both must be as
     /// far apart as the bodies, and apart until the next clock.
-    fn join<O>(
+    fn join(
         &mut self,
-        oracle: &mut O,
         snapshot: &Snapshot<'p>,
         found: &mut DescentState,
         next: f64,
-    ) -> ControlFlow<Outcome>
-    where
-        O: DistanceOracle<Cache = C>,
-    {
+    ) -> ControlFlow<Outcome> {
         // Pairs that were let go at the start must not be forgotten.
         if self.problem.start == StartPolicy::Leave {
             return ControlFlow::Continue(());
@@ -220,7 +203,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             if !far || self.front.node(at).join_below <= distance {
                 continue;
             }
-            self.measure(oracle, snapshot, at, found)?;
+            self.measure(snapshot, at, found)?;
             let node = self.front.node(at);
             if node.lower >= distance && node.clock >= next {
                 self.front.join_children(at);

@@ -8,7 +8,7 @@ use crate::math::order::lesser;
 /// A tree of pairs of nodes of two hull trees, from the pair of roots down to the pairs at which a descent stopped. The
 /// leaves are the front: together they cover all pairs of pieces. The front is kept between two descents, with the
 /// caches of the oracle.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Front<C> {
     /// All pairs of the tree. The root is the first, and pairs of children are adjacent.
     nodes: Vec<Node<C>>,
@@ -42,17 +42,6 @@ pub(super) enum Item<C> {
     Nodes(C),
     /// A pair of two leaves.
     Pieces(Pair<C>),
-}
-
-impl<C> Default for Front<C> {
-    fn default() -> Self {
-        Front {
-            nodes: Vec::new(),
-            vacant: Vec::new(),
-            leaves: 0,
-            peak: 0,
-        }
-    }
 }
 
 impl<C: Clone + Default> Front<C> {

@@ -144,7 +144,7 @@ fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
             assert!(near >= least - problem.rounding, "{near:e} of {outcome:?}");
         }
     };
-    let apart = problem.margin + problem.tolerance();
+    let apart = problem.margin + problem.tolerance;
     match *outcome {
         Outcome::Contact { time, contact } => {
             assert!(contact.separation.upper <= apart);
@@ -283,7 +283,7 @@ fn false_claims_and_give_ups_never_make_it_late() {
         let mut scene = Scene::new(&mut rng);
         scene.config.budget = 5_000;
         let problem = scene.problem();
-        if distance(&problem, 0.0) <= problem.margin + problem.tolerance() + problem.rounding {
+        if distance(&problem, 0.0) <= problem.margin + problem.tolerance + problem.rounding {
             continue;
         }
         let touch = (0..=256)

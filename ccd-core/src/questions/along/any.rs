@@ -25,7 +25,6 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut any = AnyContactSearch {
             schedule: self,
             proven: ProvenGap::new(query),
-            undecided: f64::INFINITY,
         };
         search_stretches(&mut any, query, oracle)
     }
@@ -34,20 +33,6 @@ impl<O: DistanceOracle> DepthFirst<O> {
 struct AnyContactSearch<'s, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     proven: ProvenGap,
-    /// The first time at which it is undecided whether one body is inside the other.
-    undecided: f64,
-}
-
-impl<O: DistanceOracle> AnyContactSearch<'_, O> {
-    fn unresolved_outcome(
-        &self,
-        stretches: &Stretches<'_, '_>,
-        until: f64,
-        limit: Limit,
-    ) -> Answer {
-        let until = lesser(lesser(until, self.undecided), stretches.earliest_time());
-        self.proven.unresolved(stretches, until, limit)
-    }
 }
 
 impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
@@ -69,12 +54,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
     ) -> Result<ControlFlow<Answer>, InputError> {
         let answer = self.schedule.any_contact_of(problem, oracle);
         let seen = match self.proven.record(stretches, motions, &answer)? {
-            StretchResult::Done => return Ok(ControlFlow::Continue(())),
-            StretchResult::Stopped(until, limit) => {
-                return Ok(ControlFlow::Break(
-                    self.unresolved_outcome(stretches, until, limit),
-                ));
-            }
+            StretchResult::Done(flow) => return Ok(flow),
             StretchResult::Near(s, contact) => (s, contact),
         };
         if stretches.accepts_contact(motions)? {
@@ -83,7 +63,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
                 .contact_answer(stretches, motions, answer.outcome)?;
             // One body is inside the other: they have met before, or overlap at the start.
             if let Outcome::Unresolved(known) = found.outcome {
-                self.undecided = lesser(self.undecided, known.safe_until);
+                self.proven.undecided = lesser(self.proven.undecided, known.safe_until);
                 return Ok(ControlFlow::Continue(()));
             }
             return Ok(ControlFlow::Break(start_contact_as_any(found)));
@@ -93,12 +73,14 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
         if stretches.cut_about(motions.span, motions.time(seen.0), length) {
             return Ok(ControlFlow::Continue(()));
         }
-        let stalled = self.unresolved_outcome(stretches, motions.span.from, Limit::Stalled);
+        let stalled = self
+            .proven
+            .unresolved(stretches, motions.span.from, Limit::Stalled);
         Ok(ControlFlow::Break(stalled))
     }
 
     fn on_limit(&mut self, stretches: &Stretches<'_, '_>, span: Span, limit: Limit) -> Answer {
-        self.unresolved_outcome(stretches, span.from, limit)
+        self.proven.unresolved(stretches, span.from, limit)
     }
 
     fn on_end(
@@ -106,11 +88,6 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
         stretches: &mut Stretches<'_, '_>,
         _: &mut O,
     ) -> Result<Answer, InputError> {
-        Ok(if self.undecided.is_finite() {
-            let limit = Limit::Undecided;
-            self.proven.unresolved(stretches, self.undecided, limit)
-        } else {
-            self.proven.free(stretches)
-        })
+        Ok(self.proven.finish(stretches))
     }
 }

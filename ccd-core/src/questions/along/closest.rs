@@ -17,7 +17,6 @@ use crate::questions::depth_first::DepthFirst;
 use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
 use found::{BestSoFar, StretchResult};
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Bounds the least distance of the bodies along their trajectories, or decides whether they keep a required
@@ -59,15 +58,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
             distance,
             tolerance: query.terms.tolerance,
             budget: query.terms.budget,
+            deadline: query.terms.deadline,
             excess: query.excess(),
         };
-        let begun = query.terms.deadline.map(|_| Instant::now());
-        required.decide(|rung| {
+        required.decide(|rung, deadline| {
             let mut query = query.contact_query(rung);
-            query.terms.deadline = begun.and_then(|begun| {
-                let deadline = query.terms.deadline;
-                deadline.map(|deadline| deadline.saturating_sub(begun.elapsed()))
-            });
+            query.terms.deadline = deadline;
             self.any_contact_along(&query, oracle)
         })
     }
@@ -140,7 +136,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let (found, query) = (&mut self.found, self.query);
         // Distances of the motions beyond this are of no interest: the deviation and twice the tolerance are added to
         // the upper bound.
-        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance();
+        let beyond = found.upper() + motions.stray + 2.0 * problem.tolerance;
         let answer = self.schedule.least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.found {

@@ -6,20 +6,23 @@ use crate::answer::{Answer, Contact, Limit, Outcome};
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
+use std::ops::ControlFlow;
 
 /// The gap and the tolerance that are proven for the stretches searched so far.
 pub(super) struct ProvenGap {
     gap: f64,
     margin: f64,
     tolerance: f64,
+    /// The first time at which it is undecided whether one body is inside the other.
+    pub(super) undecided: f64,
 }
 
 /// What the search of a stretch found out.
+#[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 pub(super) enum StretchResult {
-    /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined.
-    Done,
-    /// A limit was reached, and the bodies are apart until the given time of the query.
-    Stopped(f64, Limit),
+    /// The bodies are apart in the stretch, or the stretch has to wait until the pose at the start is examined; or a
+    /// limit was reached, which is the answer.
+    Done(ControlFlow<Answer>),
     /// The motions are in contact at the given time of the stretch.
     Near(f64, Option<Contact>),
 }
@@ -30,6 +33,7 @@ impl ProvenGap {
             gap: f64::INFINITY,
             margin: query.terms.margin,
             tolerance: query.terms.tolerance,
+            undecided: f64::INFINITY,
         }
     }
 
@@ -50,15 +54,17 @@ impl ProvenGap {
             Outcome::Free { proven_gap } => {
                 self.record_gap(motions, proven_gap);
                 stretches.record_proven(motions);
-                StretchResult::Done
+                StretchResult::Done(ControlFlow::Continue(()))
             }
             Outcome::Unresolved(known) => {
-                StretchResult::Stopped(motions.time(known.safe_until), known.limit)
+                let until = motions.time(known.safe_until);
+                let answer = self.unresolved(stretches, until, known.limit);
+                StretchResult::Done(ControlFlow::Break(answer))
             }
             Outcome::Contact { time, contact } => StretchResult::Near(time, Some(contact)),
             Outcome::Touching { contact } => StretchResult::Near(0.0, Some(contact)),
             Outcome::Overlapping { .. } if stretches.schedule_start_examination(motions)? => {
-                StretchResult::Done
+                StretchResult::Done(ControlFlow::Continue(()))
             }
             Outcome::Overlapping { overlap, .. } => StretchResult::Near(0.0, overlap.contact()),
             Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
@@ -75,18 +81,28 @@ impl ProvenGap {
         }
     }
 
-    pub(super) fn free(&self, stretches: &Stretches<'_, '_>) -> Answer {
+    /// Returns the answer if all stretches are done.
+    pub(super) fn finish(&self, stretches: &Stretches<'_, '_>) -> Answer {
+        if self.undecided.is_finite() {
+            return self.unresolved(stretches, self.undecided, Limit::Undecided);
+        }
         let proven_gap = greater(self.gap, self.margin);
         self.answer(stretches, Outcome::Free { proven_gap })
     }
 
+    /// Returns the answer when a limit is reached. The bodies are apart until `safe_until`, except in the stretches
+    /// that wait and those that are undecided.
     pub(super) fn unresolved(
         &self,
         stretches: &Stretches<'_, '_>,
         safe_until: f64,
         limit: Limit,
     ) -> Answer {
-        self.answer(stretches, Outcome::unresolved(safe_until, limit))
+        let until = lesser(
+            lesser(safe_until, self.undecided),
+            stretches.earliest_time(),
+        );
+        self.answer(stretches, Outcome::unresolved(until, limit))
     }
 
     /// Converts a contact of a stretch's motions to the answer of the query.
@@ -96,14 +112,7 @@ impl ProvenGap {
         motions: &StretchMotions,
         outcome: Outcome,
     ) -> Result<Answer, InputError> {
-        let at = |time: f64, contact: Contact| {
-            let contact = motions.contact(contact);
-            if time > 0.0 {
-                Outcome::Contact { time, contact }
-            } else {
-                Outcome::Touching { contact }
-            }
-        };
+        let at = |time: f64, contact| Outcome::contact_at(time, motions.contact(contact));
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(motions.time(time), contact),
             Outcome::Touching { contact } => at(motions.span.from, contact),

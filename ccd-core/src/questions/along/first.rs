@@ -58,12 +58,7 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
         proven.record_gap(motions, problem.proven_gap());
         let answer = self.schedule.solve(problem, oracle);
         let (s, contact) = match proven.record(stretches, motions, &answer)? {
-            StretchResult::Done => return Ok(ControlFlow::Continue(())),
-            StretchResult::Stopped(until, limit) => {
-                return Ok(ControlFlow::Break(
-                    proven.unresolved(stretches, until, limit),
-                ));
-            }
+            StretchResult::Done(flow) => return Ok(flow),
             StretchResult::Near(s, contact) => (s, contact),
         };
         if stretches.accepts_contact(motions)? {
@@ -97,6 +92,6 @@ impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
         stretches: &mut Stretches<'_, '_>,
         _: &mut O,
     ) -> Result<Answer, InputError> {
-        Ok(self.proven.free(stretches))
+        Ok(self.proven.finish(stretches))
     }
 }

@@ -8,7 +8,7 @@ use crate::math::vector::length;
 use crate::motion::trajectory::Stretch;
 use crate::motion::trajectory::Trajectory;
 use crate::problem::Problem;
-use crate::query::{MovingBody, Query};
+use crate::query::Query;
 use crate::rounding::RETIMED_POSE_F64;
 use crate::settings::{QuerySettings, StartPolicy};
 use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
@@ -56,7 +56,12 @@ impl StretchMotions {
         let bodies = [&query.a, &query.b];
         let [a, b] = bodies.map(|body| body.movement.stretch(span.from, span.to));
         let stretches = [a?, b?];
-        let stray = |k: usize| stretches[k].deviation.at(reach(bodies[k], &stretches[k]));
+        let stray = |k: usize| {
+            let Stretch {
+                motion, deviation, ..
+            } = &stretches[k];
+            deviation.at(bodies[k].body.tree().max_distance_from(motion.centre()))
+        };
         Ok(StretchMotions {
             stray: rounded_up_sum(stray(0), stray(1)),
             stretches,
@@ -189,21 +194,9 @@ impl StretchMotions {
     /// Widens the bounds of a contact of the motions so that they hold for the bodies.
     pub(super) fn contact(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
-        Contact {
-            separation: Separation {
-                lower: self.lower_bound_for_bodies(lower),
-                upper: rounded_up_sum(upper, self.stray),
-                ..contact.separation
-            },
-            ..contact
-        }
+        let upper = rounded_up_sum(upper, self.stray);
+        contact.with_bounds(self.lower_bound_for_bodies(lower), upper)
     }
-}
-
-/// Returns an upper bound of the distances of a body's points from the centre of a stretch's motion.
-fn reach(moving: &MovingBody<'_>, stretch: &Stretch) -> f64 {
-    let (centre, radius) = moving.body.tree().bounding_ball();
-    centre.distance(stretch.motion.centre()) * (1.0 + f64::EPSILON) + radius
 }
 
 /// Returns a sum rounded up; exact if a term is zero.

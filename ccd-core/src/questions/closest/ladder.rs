@@ -61,12 +61,12 @@ impl LowerBoundLadder {
         }
     }
 
-    /// Makes the first rung earlier, for a search that a deadline or another thread may end.
-    pub(crate) fn with_early_start(self) -> Self {
-        LowerBoundLadder {
-            next: self.next.min(FIRST_TIMED_RUNG_WORK),
-            ..self
+    /// Makes the first rung earlier if a deadline or another thread may end the search.
+    pub(crate) fn with_early_start(mut self, is_timed: bool) -> Self {
+        if is_timed {
+            self.next = self.next.min(FIRST_TIMED_RUNG_WORK);
         }
+        self
     }
 
     /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.

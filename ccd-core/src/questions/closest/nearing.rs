@@ -82,11 +82,7 @@ impl LeastDistanceSearch {
             ladder: LowerBoundLadder::new(0.0, 0),
         };
         let mut stack = Stack::default();
-        let mut search = Search {
-            waiting: &mut stack,
-            oracle,
-            meter,
-        };
+        let mut search = Search::new(&mut stack, oracle, meter);
         let common = NodeContext::new(&lower);
         let mut look = TighterBounds::new(&lower);
         let mut found = None;

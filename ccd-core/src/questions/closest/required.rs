@@ -5,6 +5,7 @@ use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};
 use crate::body::excess::Excess;
 use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
+use std::time::{Duration, Instant};
 
 /// A required distance, and the tolerance and budget of the decision.
 #[derive(Clone, Copy, Debug)]
@@ -12,24 +13,26 @@ pub(crate) struct RequiredClearance {
     pub(crate) distance: f64,
     pub(crate) tolerance: f64,
     pub(crate) budget: u64,
+    pub(crate) deadline: Option<Duration>,
     /// The excess of the bodies over their shapes. The shapes certainly violate the distance only if the bodies are
     /// nearer than it by the excess.
     pub(crate) excess: Excess,
 }
 
 impl RequiredClearance {
-    /// Decides whether the bodies keep the distance. The first query asks whether they come near it. If they do, the
+    /// Decides whether the bodies keep the distance, by queries that get what is left of the deadline. The first query asks whether they come near it. If they do, the
     /// second asks whether they come nearer by the excess. In between, neither answer is certain for the shapes.
     ///
     /// # Errors
     /// The errors of the query for any contact.
     pub(crate) fn decide<E>(
         &self,
-        any_contact: impl FnMut(MarginQuery) -> Result<Answer, E>,
+        any_contact: impl FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>,
     ) -> Result<Answer, E> {
         let mut decision = Decision {
             required: *self,
             any_contact,
+            ends_at: self.deadline.map(|deadline| (Instant::now(), deadline)),
             stats: Stats::default(),
             query_tolerance: 0.5 * self.tolerance,
         };
@@ -88,18 +91,23 @@ impl RequiredClearance {
 struct Decision<F> {
     required: RequiredClearance,
     any_contact: F,
+    /// The time at which the decision started, and its deadline.
+    ends_at: Option<(Instant, Duration)>,
     stats: Stats,
     /// The tolerance of each query: half the tolerance of the answer.
     query_tolerance: f64,
 }
 
-impl<E, F: FnMut(MarginQuery) -> Result<Answer, E>> Decision<F> {
+impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> Decision<F> {
     fn run_query(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
-        let answer = (self.any_contact)(MarginQuery {
+        let rung = MarginQuery {
             margin,
             tolerance: greater(LEAST_TOLERANCE, tolerance),
             budget,
-        })?;
+        };
+        let left =
+            |(begun, deadline): (Instant, Duration)| deadline.saturating_sub(begun.elapsed());
+        let answer = (self.any_contact)(rung, self.ends_at.map(left))?;
         self.stats.add(&answer.stats);
         Ok(answer)
     }

@@ -1,8 +1,8 @@
 //! A sample of a node's points, to compare the boxes of many frames quickly.
 
 use super::NodePoints;
-use crate::body::hierarchy::bounding_box;
 use crate::math::order::{greater, lesser};
+use crate::math::vector::bounding_box;
 use crate::tuning::SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
 

@@ -185,7 +185,7 @@ fn samples_fill_a_unit_and_forget_earlier_ones() {
     for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
         let points = sheet(&mut rng, count, size);
         sample.fill_from(&triangles(&points));
-        let (low, high) = crate::body::hierarchy::bounding_box(sample.points().iter().copied());
+        let (low, high) = crate::math::vector::bounding_box(sample.points().iter().copied());
         assert!((low + high).length() < 1e-9, "{low} {high}");
         assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
         let mut fresh = Sample::EMPTY;

@@ -44,6 +44,7 @@ impl Query<'_> {
 }
 
 /// The bounds of the distance of a stretch's motions, and where they are nearest.
+#[derive(Default)]
 pub(super) struct StretchResult {
     pub(super) lower: f64,
     pub(super) upper: f64,
@@ -63,9 +64,7 @@ impl StretchResult {
         StretchResult {
             lower,
             upper: lower,
-            total_deviation: 0.0,
-            time: 0.0,
-            approach: 0.0,
+            ..StretchResult::default()
         }
     }
 
@@ -106,16 +105,11 @@ pub(super) struct BestSoFar {
 
 impl BestSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
-        let ladder = LowerBoundLadder::new(0.0, query.terms.budget);
         let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
         BestSoFar {
             lower: f64::INFINITY,
             best: None,
-            ladder: if is_timed {
-                ladder.with_early_start()
-            } else {
-                ladder
-            },
+            ladder: LowerBoundLadder::new(0.0, query.terms.budget).with_early_start(is_timed),
         }
     }
 
@@ -134,11 +128,8 @@ impl BestSoFar {
         outcome: &Outcome,
     ) -> Result<StretchResult, Limit> {
         let mut seen = StretchResult {
-            lower: 0.0,
-            upper: 0.0,
             total_deviation: motions.stray,
-            time: 0.0,
-            approach: 0.0,
+            ..StretchResult::default()
         };
         match *outcome {
             Outcome::LeastDistance {
