@@ -3,9 +3,9 @@
     python3 ccd-bench/scripts/pieces.py target/release/ccd [--meshes FOLDER --pairs N --seed S]
 
 Measures icospheres of 320 to 81,920 triangles against a torus of 4,096 and against each other; with
---meshes, also random pairs of the folder's meshes. It needs Python with trimesh. Every pair makes three motions. A row has, per kind, the
+--meshes, also random pairs of the folder's meshes. Every pair makes three motions. A row has, per kind, the
 mean over the motions of the median time of a query, in microseconds; then the ratio of auto's time to the
-least of them.
+least of them. It needs Python with trimesh.
 """
 
 import argparse
