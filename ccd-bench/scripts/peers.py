@@ -4,10 +4,10 @@
     peers.py answer --method fcl-ca --a A.obj --b B.obj --tolerance 1e-3
 
 It is for `--peers` of `ccd-bench chart`, `stability` and `judge`, which stop it at a time limit. It writes `ready`,
-or `refused: ` and a reason; then it reads a line of 33 numbers for each query, and writes a line of
-time,status,steps,micros and two empty cells. Methods:
+or `refused: ` and a reason; then it reads a line for each query, and writes one for each reply, both in
+JSON as in `src/method/wire.rs`. Methods:
 
-  coal-distance  one static distance at the start, the least cost of any method; the status is `static`
+  coal-distance  one static distance at the start, the least cost of any method, which claims nothing
   coal-steps     static collision tests at equal steps, such that no point moves farther than the tolerance
                  in a step. It reports the first test that collides, so contacts are late by up to a step,
                  and grazing contacts are missed. There are at most CAP tests: longer motions have
@@ -30,16 +30,16 @@ does not change this. Apart from their steps, coal-steps and fcl-naive have no k
 tests, or stretches for fcl-ca. `time` is in the motion's unit of time.
 """
 import argparse
+import json
 import math
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
-# The count of numbers for a motion on a line of standard input.
-COLUMNS = "px py pz qx qy qz qw vx vy vz wx wy wz cx cy cz"
 # The largest number of tests of a query.
 CAP = 100_000
 # The largest rotation of a segment, because FCL rotates the shorter way.
@@ -60,11 +60,10 @@ def main():
         return
     bodies, ask = opened(options.method, options.a, options.b)
     print("ready", flush=True)
-    columns = [f"{letter}_{name}" for letter in "ab" for name in COLUMNS.split()] + ["duration"]
     for line in sys.stdin:
-        row = dict(zip(columns, line.split()))
-        micros, steps, status, when = ask(bodies, row, options.tolerance)
-        print(f"{when or 0},{status},{steps},{micros},,", flush=True)
+        micros, steps, claim = ask(bodies, json.loads(line), options.tolerance)
+        reply = {"claim": claim, "steps": steps, "tolerance": None, "reason": None}
+        print(json.dumps({"reply": reply, "micros": micros}), flush=True)
 
 
 def opened(method, a, b):
@@ -82,25 +81,22 @@ def opened(method, a, b):
 class Motion:
     """A motion: the centre has a constant velocity, and the body rotates about it at a constant rate."""
 
-    def __init__(self, row, letter):
-        part = lambda names: np.array([float(row[f"{letter}_{name}"]) for name in names.split()])
-        self.centre = part("cx cy cz")
-        self.rotation = unit(part("qw qx qy qz"))
-        self.start = part("px py pz") + matrix(self.rotation) @ self.centre
-        self.velocity = part("vx vy vz")
-        self.spin = part("wx wy wz")
+    def __init__(self, numbers):
+        position, quaternion, self.velocity, self.spin, self.centre = np.split(np.array(numbers), [3, 7, 10, 13])
+        self.rotation = Rotation.from_quat(quaternion)
+        self.start = position + self.rotation.apply(self.centre)
 
     def at(self, when):
         """Returns the rotation and the position of the centre."""
-        return product(exponential(self.spin * when), self.rotation), self.start + when * self.velocity
+        return Rotation.from_rotvec(self.spin * when) * self.rotation, self.start + when * self.velocity
 
 
 class Query:
     """The motions of a row, and a bound on the displacement of any point towards the other body."""
 
     def __init__(self, row, reach):
-        self.duration = float(row["duration"])
-        self.a, self.b = (Motion(row, letter) for letter in "ab")
+        *motions, self.duration = row
+        self.a, self.b = map(Motion, motions)
         turning = sum(
             np.linalg.norm(motion.spin) * radius(motion.centre)
             for motion, radius in zip((self.a, self.b), reach)
@@ -134,7 +130,7 @@ class Coal:
 
     def pose(self, motion, when):
         rotation, centre = motion.at(when)
-        turn = matrix(rotation)
+        turn = rotation.as_matrix()
         return self.coal.Transform3s(turn, centre - turn @ motion.centre)
 
     def distance(self, row, _tolerance):
@@ -143,7 +139,7 @@ class Coal:
         request, result = self.coal.DistanceRequest(), self.coal.DistanceResult()
         begin = time.perf_counter()
         self.coal.distance(self.a, a, self.b, b, request, result)
-        return (time.perf_counter() - begin) * 1e6, 1, "static", ""
+        return (time.perf_counter() - begin) * 1e6, 1, "no-claim"
 
     def steps(self, row, tolerance):
         query = Query(row, self.reach)
@@ -157,8 +153,8 @@ class Coal:
             hit = self.coal.collide(self.a, a, self.b, b, request, result)
             spent += time.perf_counter() - begin
             if hit:
-                return spent * 1e6, k + 1, "contact", when
-        return spent * 1e6, count + 1, "free", ""
+                return spent * 1e6, k + 1, {"contact": {"time": when}}
+        return spent * 1e6, count + 1, "free"
 
 
 class Fcl:
@@ -182,6 +178,10 @@ class Fcl:
             self.models[key] = model
         return self.models[key]
 
+    def transform(self, motion, when):
+        rotation, centre = motion.at(when)
+        return self.fcl.Transform(rotation.as_quat(scalar_first=True), centre)
+
     def advance(self, row, tolerance):
         return self.collide(row, tolerance, self.fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT)
 
@@ -204,7 +204,7 @@ class Fcl:
         spent = 0.0
         for k in range(stretches):
             ends = [query.duration * (k + j) / stretches for j in (0, 1)]
-            first, last = ([self.fcl.Transform(*m.at(when)) for m in motions] for when in ends)
+            first, last = ([self.transform(m, when) for m in motions] for when in ends)
             a, b = (
                 self.fcl.CollisionObject(self.model(j, motions[j].centre), first[j]) for j in (0, 1)
             )
@@ -215,54 +215,21 @@ class Fcl:
             if result.is_collide:
                 when = ends[0] + result.time_of_contact * (ends[1] - ends[0])
                 steps = k + 1 if advances else round((k + result.time_of_contact) * tests) + 1
-                return spent * 1e6, steps, "contact", when
-        return spent * 1e6, stretches if advances else stretches * tests + 1, "free", ""
+                return spent * 1e6, steps, {"contact": {"time": when}}
+        return spent * 1e6, stretches if advances else stretches * tests + 1, "free"
 
 
 def read_obj(path):
-    vertices, faces = [], []
-    for line in path.open():
-        words = line.split()
-        if words[:1] == ["v"]:
-            vertices.append([float(word) for word in words[1:4]])
-        elif words[:1] == ["f"]:
-            corners = [int(word.split("/")[0]) for word in words[1:]]
-            corners = [k - 1 if k > 0 else len(vertices) + k for k in corners]
-            faces += [[corners[0], p, q] for p, q in zip(corners[1:], corners[2:])]
-    return np.array(vertices), np.array(faces)
+    """Reads a mesh as `ccd-bench` writes it: triangles, by the numbers of their vertices."""
+    rows = [line.split() for line in path.open()]
+    vertices = np.array([row[1:] for row in rows if row[0] == "v"], float)
+    return vertices, np.array([row[1:] for row in rows if row[0] == "f"], int) - 1
 
 
 def reach_of(vertices):
     """Returns a bound of the distance of the body's points from a centre."""
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     return lambda centre: np.linalg.norm(np.maximum(abs(low - centre), abs(high - centre)))
-
-
-def unit(q):
-    return q / np.linalg.norm(q)
-
-
-def product(p, q):
-    return np.concatenate(
-        [[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])]
-    )
-
-
-def exponential(turn):
-    angle = np.linalg.norm(turn)
-    axis = turn / angle if angle > 0 else turn
-    return np.concatenate([[math.cos(angle / 2)], math.sin(angle / 2) * axis])
-
-
-def matrix(q):
-    w, x, y, z = q
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
 Measures icospheres of 320 to 81,920 triangles against a torus of 4,096 and against each other; with
 --meshes, also random pairs of the folder's meshes. Every pair makes three motions. A row has, per kind, the
 mean over the motions of the median time of a query, in microseconds; then the ratio of auto's time to the
-least of them.
+least of them. It needs Python with trimesh.
 """
 
 import argparse
@@ -16,56 +16,9 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from trimesh.creation import icosphere, torus
+
 KINDS = ["auto", "triangles", "patches", "hull"]
-
-
-def icosphere(splits):
-    t = (1 + 5**0.5) / 2
-    corners = [(-1, t, 0), (1, t, 0), (-1, -t, 0), (1, -t, 0), (0, -1, t), (0, 1, t)]
-    corners += [(0, -1, -t), (0, 1, -t), (t, 0, -1), (t, 0, 1), (-t, 0, -1), (-t, 0, 1)]
-    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4)]
-    faces += [(11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8)]
-    faces += [(3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
-    unit = lambda p: tuple(x / math.hypot(*p) for x in p)
-    points = [unit(p) for p in corners]
-    for _ in range(splits):
-        middles, finer = {}, []
-
-        def middle(v, w):
-            key = (min(v, w), max(v, w))
-            if key not in middles:
-                points.append(unit([x + y for x, y in zip(points[v], points[w])]))
-                middles[key] = len(points) - 1
-            return middles[key]
-
-        for a, b, c in faces:
-            x, y, z = middle(a, b), middle(b, c), middle(c, a)
-            finer += [(a, x, z), (b, y, x), (c, z, y), (x, y, z)]
-        faces = finer
-    return points, faces
-
-
-def torus(around, across, ring=1.0, tube=0.4):
-    def point(i, j):
-        u, v = 2 * math.pi * i / around, 2 * math.pi * j / across
-        r = ring + tube * math.cos(v)
-        return (r * math.cos(u), r * math.sin(u), tube * math.sin(v))
-
-    at = lambda i, j: i % around * across + j % across
-    points = [point(i, j) for i in range(around) for j in range(across)]
-    faces = []
-    for i in range(around):
-        for j in range(across):
-            a, b, c, d = at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)
-            faces += [(a, b, c), (a, c, d)]
-    return points, faces
-
-
-def write(path, mesh):
-    points, faces = mesh
-    lines = ["v %r %r %r" % p for p in points] + ["f %d %d %d" % tuple(v + 1 for v in f) for f in faces]
-    path.write_text("\n".join(lines) + "\n")
-    return path
 
 
 def extent(ccd, mesh, folder):
@@ -155,8 +108,11 @@ def main():
     ratios = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        ring = write(folder / "torus4096.obj", torus(64, 32))
-        balls = [write(folder / f"ball{20 * 4**k}.obj", icosphere(k)) for k in range(2, 7)]
+        ring = folder / "torus4096.obj"
+        torus(1.0, 0.4, major_sections=64, minor_sections=32).export(ring, digits=17)
+        balls = [folder / f"ball{20 * 4**k}.obj" for k in range(2, 7)]
+        for k, ball in enumerate(balls, 2):
+            icosphere(k).export(ball, digits=17)
         passing = [[-4, 0, 0, 0, 0, 0, v, 0, 0, *w] for v, w in [(5, (0, 0, 1)), (4, (0.5, 1, 0)), (3, (1, 0, 2))]]
         table = motions(folder / "passing.csv", passing)
         for ball in balls:

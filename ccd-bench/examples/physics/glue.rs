@@ -22,12 +22,8 @@ pub(crate) fn step(
     let starts: Vec<Pose> = starts.collect::<Result<_>>()?;
     world.step();
     for (&(index, body), start) in moving.iter().zip(starts) {
-        let body = &world.bodies[body];
-        let centre = body.mass_properties().local_mprops.local_com.to_array();
-        scene.set_movement(
-            index,
-            Motion::between(start, body_pose(body)?, centre, duration)?,
-        )?;
+        let motion = motion_since(start, &world.bodies[body], duration)?;
+        scene.set_movement(index, motion)?;
     }
     let stops = scene.stops(duration)?;
     for &(index, body) in moving {
@@ -37,6 +33,12 @@ pub(crate) fn step(
         }
     }
     Ok(stops)
+}
+
+/// Returns the motion that a body has had since it was at its start.
+pub(crate) fn motion_since(start: Pose, body: &RigidBody, duration: f64) -> Result<Motion> {
+    let centre = body.mass_properties().local_mprops.local_com.to_array();
+    Ok(Motion::between(start, body_pose(body)?, centre, duration)?)
 }
 
 /// Converts the pose of a rapier body to this engine's type.

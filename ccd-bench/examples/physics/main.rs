@@ -10,7 +10,7 @@ mod judge;
 mod worlds;
 
 use anyhow::Result;
-use glue::body_pose;
+use glue::{body_pose, motion_since};
 use judge::{StoppedMotion, Tally};
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Motion, Pose, Scene};
@@ -100,22 +100,16 @@ fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Du
                     (motion.expect("a step is a motion"), stop.time)
                 })
                 .collect(),
-            None => unstopped_motions(&world, &starts, duration)?,
+            None => {
+                let bodies = world.bodies.iter().zip(starts);
+                let moved = bodies.map(|(body, start)| {
+                    let body = &world.physics.bodies[body.handle];
+                    Ok((motion_since(start, body, duration)?, duration))
+                });
+                moved.collect::<Result<_>>()?
+            }
         };
         tally.step(&world, &moved, duration)?;
     }
     Ok((tally, moving.len() * steps as usize, time))
-}
-
-/// Returns the motion that each body has had since it was at its start.
-fn unstopped_motions(world: &World, starts: &[Pose], duration: f64) -> Result<Vec<StoppedMotion>> {
-    let bodies = world.bodies.iter().zip(starts);
-    bodies
-        .map(|(body, &start)| {
-            let rigid = &world.physics.bodies[body.handle];
-            let centre = rigid.mass_properties().local_mprops.local_com.to_array();
-            let motion = Motion::between(start, body_pose(rigid)?, centre, duration)?;
-            Ok((motion, duration))
-        })
-        .collect()
 }

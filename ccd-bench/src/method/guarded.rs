@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::solver::{Claim, TimedReply};
-use super::wire::{READY, REFUSED, format_query, parse_reply};
+use super::wire::{READY, REFUSED, format_query};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
 use clap::Args;
@@ -87,7 +87,7 @@ impl Programs {
         match GuardedMethod::start(self, setting, [&mesh, &mesh]) {
             Ok(_) => Ok(()),
             Err(error) => Err(io::Error::other(format!(
-                "{method}: {error}; its script needs Python with coal, python-fcl and numpy"
+                "{method}: {error}; its script needs Python with coal, python-fcl and scipy"
             ))),
         }
     }
@@ -280,7 +280,9 @@ impl Process {
             return QueryOutcome::Died;
         }
         match self.lines.recv_timeout(patience) {
-            Ok(line) => parse_reply(&line).map_or(QueryOutcome::Died, QueryOutcome::Answered),
+            Ok(line) => {
+                serde_json::from_str(&line).map_or(QueryOutcome::Died, QueryOutcome::Answered)
+            }
             Err(RecvTimeoutError::Timeout) => QueryOutcome::CutOff,
             Err(RecvTimeoutError::Disconnected) => QueryOutcome::Died,
         }

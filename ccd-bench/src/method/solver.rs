@@ -3,6 +3,7 @@
 use ccd_core::order::greater;
 use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Motions;
+use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// A solver that answers queries about two bodies, one after another.
@@ -12,7 +13,7 @@ pub trait Solver {
 }
 
 /// A solver's reply to a query, with the time that it took.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TimedReply {
     /// The solver's reply to the query.
     pub reply: Reply,
@@ -43,7 +44,7 @@ pub fn answer_timed(solver: &mut dyn Solver, query: &Motions, tolerance: f64) ->
 }
 
 /// The reply of a solver to one query.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reply {
     /// What the solver claims about the first contact.
     pub claim: Claim,
@@ -73,7 +74,8 @@ impl Reply {
 }
 
 /// What a solver claims about the first contact of a query.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Claim {
     /// The bodies come within the tolerance at a time, and not before.
     Contact {

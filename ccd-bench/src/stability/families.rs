@@ -9,9 +9,11 @@ mod times;
 mod turning;
 
 use super::family::{BodyMotion, Family, FamilyStep, contact_at};
-use super::shapes::slab;
+use super::shapes::{cuboid, slab};
+use crate::truth::Truth;
 use anyhow::Result;
-use ccd_decomp::TriangleMesh;
+use ccd_core::glam::DVec3;
+use ccd_decomp::{MeshError, TriangleMesh};
 
 /// Returns all families of scenes.
 pub fn families() -> Vec<Family> {
@@ -54,6 +56,27 @@ fn onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<Famil
     let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
+}
+
+/// The half length and the half width of a rod.
+const ROD_HALF_SIDES: (f64, f64) = (2.0, 0.05);
+
+/// Returns a rod that stands upright.
+fn rod() -> Result<TriangleMesh, MeshError> {
+    cuboid(ROD_HALF_SIDES.1, 0.3, ROD_HALF_SIDES.0)
+}
+
+/// Returns the angle by which a rod at the origin turns about y until its corner is at x = `wall`.
+fn rod_angle_at_wall(wall: f64) -> f64 {
+    let (long, thin) = ROD_HALF_SIDES;
+    (wall / long.hypot(thin)).asin() - thin.atan2(long)
+}
+
+/// Returns the step of a rod that turns at the origin beside a wall, whose side is at x = `wall`.
+fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyStep> {
+    let step = FamilyStep::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
+    let beside = BodyMotion::resting_at((wall + 1.0) * DVec3::X);
+    step.with_rotated_queries(turning, beside, expected)
 }
 
 #[cfg(test)]

@@ -1,26 +1,16 @@
 //! Proves that two triangles share a point at an instant.
 
-use super::enclosure::{IntervalMatrix, IntervalVector};
+use super::enclosure::IntervalVector;
 use super::interval::Interval;
 use super::snapshot::IntervalMaps;
 use super::surface::Triangle;
-use super::track::EnclosedMotion;
+use std::cmp::Ordering;
 
-/// The positions of both bodies at an instant, in B's frame.
-pub(super) struct RelativePlacement {
-    rotation: IntervalMatrix,
-    offset: IntervalVector,
-}
-
-impl RelativePlacement {
-    pub(super) fn new(a: &EnclosedMotion, b: &EnclosedMotion, time: f64) -> Self {
-        let (rotation, offset) = IntervalMaps::new(a, b, time).placement;
-        RelativePlacement { rotation, offset }
-    }
-
+impl IntervalMaps {
     /// Returns true if an edge of one triangle certainly passes through the interior of the other.
     pub(super) fn certainly_meet(&self, a: &Triangle, b: &Triangle) -> bool {
-        let a = a.map(|p| &self.rotation * &IntervalVector::from(p) + self.offset);
+        let (rotation, offset) = &self.placement;
+        let a = a.map(|p| rotation * &IntervalVector::from(p) + *offset);
         let b = b.map(IntervalVector::from);
         (0..3).any(|i| {
             let next = (i + 1) % 3;
@@ -33,8 +23,8 @@ impl RelativePlacement {
 /// the ends lie on both sides of the triangle's plane, and the line passes all its edges on the same side.
 fn pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
-    let before = sign(normal.dot(&(*from - *a)));
-    if before == Sign::Unknown || sign(normal.dot(&(*to - *a))) != before.opposite() {
+    let [before, after] = [from, to].map(|end| sign(normal.dot(&(*end - *a))));
+    if before.is_none() || after != before.map(Ordering::reverse) {
         return false;
     }
     let along = *to - *from;
@@ -42,32 +32,14 @@ fn pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) ->
         sign(along.dot(&(*p - *from).cross(&(*q - *from))))
     };
     let side = passes(a, b);
-    side != Sign::Unknown && passes(b, c) == side && passes(c, a) == side
+    side.is_some() && passes(b, c) == side && passes(c, a) == side
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sign {
-    Negative,
-    Positive,
-    Unknown,
-}
-
-impl Sign {
-    fn opposite(self) -> Self {
-        match self {
-            Sign::Negative => Sign::Positive,
-            Sign::Positive => Sign::Negative,
-            Sign::Unknown => Sign::Unknown,
-        }
-    }
-}
-
-fn sign(x: Interval) -> Sign {
+/// Returns how all numbers of an interval compare with 0; `None` if that is uncertain.
+fn sign(x: Interval) -> Option<Ordering> {
     if x.inf() > 0.0 {
-        Sign::Positive
-    } else if x.sup() < 0.0 {
-        Sign::Negative
+        Some(Ordering::Greater)
     } else {
-        Sign::Unknown
+        (x.sup() < 0.0).then_some(Ordering::Less)
     }
 }

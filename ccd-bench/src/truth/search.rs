@@ -1,8 +1,7 @@
 //! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
 //! from the pairs of nodes that could not be excluded over the whole.
 
-use super::pierce::RelativePlacement;
-use super::snapshot::{Boxes, Snapshot, Span};
+use super::snapshot::{Boxes, IntervalMaps, Snapshot, Span};
 use super::surface::{Content, Node, Surface, Triangle};
 use super::track::EnclosedMotion;
 use super::triangle::{gap, nearest, normals};
@@ -220,7 +219,7 @@ impl<'a> Search<'a> {
 
     fn certainly_meet_at(&mut self, pairs: &[Pair], time: f64) -> bool {
         let [a, b] = &self.tracks;
-        let instant = RelativePlacement::new(a, b, time);
+        let instant = IntervalMaps::new(a, b, time);
         self.budget = self.budget.saturating_sub(pairs.len() as u64);
         let mut triangles = pairs.iter().filter_map(|&pair| self.triangles(pair));
         triangles.any(|[a, b]| instant.certainly_meet(a, b))
@@ -234,7 +233,7 @@ impl<'a> Search<'a> {
         };
         let snapshot = self.snapshot(span);
         let [a, b] = &self.tracks;
-        let instant = RelativePlacement::new(a, b, time);
+        let instant = IntervalMaps::new(a, b, time);
         let mut stack = vec![roots];
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {

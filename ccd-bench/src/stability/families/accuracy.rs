@@ -2,7 +2,7 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
-use super::{family, negative_powers_of_ten, onto_slab};
+use super::{ROD_HALF_SIDES, family, negative_powers_of_ten, onto_slab, rod_beside_wall};
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -105,18 +105,13 @@ fn barely_overlapping(overlap: f64) -> Result<FamilyStep> {
 
 /// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
 fn barely_reaching_wall(share: f64) -> Result<FamilyStep> {
-    let (long, thin) = (2.0f64, 0.05);
+    let (long, thin) = ROD_HALF_SIDES;
     let wall = long.hypot(thin) * (1.0 - share);
     let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = contact_at(time, 1e-15 / share.sqrt());
-    let step = FamilyStep::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
-    step.with_rotated_queries(
-        turning,
-        BodyMotion::resting_at((wall + 1.0) * DVec3::X),
-        expected,
-    )
+    rod_beside_wall(turning, wall, expected)
 }
 
 /// Makes case T17: two linked rings, a small distance apart.

@@ -2,7 +2,7 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep};
 use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
-use super::{family, negative_powers_of_ten};
+use super::{ROD_HALF_SIDES, family, negative_powers_of_ten, rod_beside_wall};
 use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DVec3, dvec3};
@@ -79,12 +79,9 @@ fn spinning_top(gap: f64) -> Result<FamilyStep> {
 /// Makes a rod of half length 2 that rotates by half a turn about its middle, past a wall that its corners just do not
 /// reach.
 fn rod_past_a_wall(gap: f64) -> Result<FamilyStep> {
-    let (long, thin) = (2.0, 0.05);
-    let reach = f64::hypot(long, thin);
+    let reach = f64::hypot(ROD_HALF_SIDES.0, ROD_HALF_SIDES.1);
     let turning = BodyMotion::STILL.spinning(std::f64::consts::PI * DVec3::Y);
-    let wall = BodyMotion::resting_at((reach + gap + 1.0) * DVec3::X);
     // The reach is rounded, and the gap with it.
-    let step = FamilyStep::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?)
-        .with_tolerance(greater(tolerance(gap), 1e-11));
-    step.with_rotated_queries(turning, wall, Truth::Free)
+    let step = rod_beside_wall(turning, reach + gap, Truth::Free)?;
+    Ok(step.with_tolerance(greater(tolerance(gap), 1e-11)))
 }

@@ -2,7 +2,7 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cuboid, extrude, helicoid, sheet, slit_plate, stacked_squares, torus};
-use super::{family, negative_powers_of_ten};
+use super::{family, negative_powers_of_ten, rod, rod_angle_at_wall};
 use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
@@ -108,13 +108,12 @@ fn free_step(step: FamilyStep, gap: f64, moving: BodyMotion) -> Result<FamilySte
 
 /// Makes case T3: a rod rotates into a wall, and its mesh is rotated in its frame, about the same axis or across it.
 fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
-    let (long, thin, wall) = (2.0f64, 0.05, 1.2);
-    let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);
+    let wall = 1.2;
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
-    let rod = cuboid(thin, 0.3, long)?.transformed(DAffine3::from_quat(frame.inverse()))?;
+    let rod = rod()?.transformed(DAffine3::from_quat(frame.inverse()))?;
     let turning = BodyMotion::STILL.oriented(frame).spinning(PI * DVec3::Y);
     let step = FamilyStep::new(rod, cuboid(1.0, 3.0, 3.0)?);
-    let expected = contact_at(angle / PI, 1e-14);
+    let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
     step.with_rotated_queries(
         turning,
         BodyMotion::resting_at((wall + 1.0) * DVec3::X),

@@ -2,7 +2,9 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid};
-use super::{family, onto_slab, powers_of_ten};
+use super::{
+    ROD_HALF_SIDES, family, onto_slab, powers_of_ten, rod, rod_angle_at_wall, rod_beside_wall,
+};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -24,38 +26,23 @@ fn falling_while_spinning(turns: f64) -> Result<FamilyStep> {
     onto_slab(cube()?, falling, 0.625)
 }
 
-/// The half length of a rod.
-const ROD_HALF_LENGTH: f64 = 2.0;
-/// The half width of a rod.
-const ROD_HALF_WIDTH: f64 = 0.05;
-
 /// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
 fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let spin = TAU * turns;
-    let angle = (wall / ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)).asin()
-        - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH);
     let turning = BodyMotion::STILL.spinning(spin * DVec3::Y);
-    let step = FamilyStep::new(
-        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
-        cuboid(1.0, 3.0, 3.0)?,
-    );
-    let expected = contact_at(angle / spin, 1e-15);
-    step.with_rotated_queries(
-        turning,
-        BodyMotion::resting_at((wall + 1.0) * DVec3::X),
-        expected,
-    )
+    let expected = contact_at(rod_angle_at_wall(wall) / spin, 1e-15);
+    rod_beside_wall(turning, wall, expected)
 }
 
 /// Makes case T9: an arm hangs from its centre of rotation, and swings round to a wall above. At the start its tip
 /// moves along the wall, so that a bound on the speeds of that moment finds no approach.
 fn swinging_arm(spin: f64) -> Result<FamilyStep> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
-    let hanging = cuboid(ROD_HALF_WIDTH, 0.5 * arm, ROD_HALF_WIDTH)?;
+    let hanging = cuboid(ROD_HALF_SIDES.1, 0.5 * arm, ROD_HALF_SIDES.1)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
     let swinging = BodyMotion::STILL.spinning(spin * DVec3::Z);
-    let angle = arm.atan2(ROD_HALF_WIDTH) + (wall / arm.hypot(ROD_HALF_WIDTH)).asin();
+    let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
     let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(
@@ -70,13 +57,9 @@ fn rods(turns: f64) -> Result<FamilyStep> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning =
         |spin: f64, x: f64| BodyMotion::resting_at(x * DVec3::X).spinning(spin * DVec3::Y);
-    let angle = (0.5 * apart / ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH)).asin()
-        - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH);
+    let angle = rod_angle_at_wall(0.5 * apart);
     debug_assert!(angle < PI);
-    let step = FamilyStep::new(
-        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
-        cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH)?,
-    );
+    let step = FamilyStep::new(rod()?, rod()?);
     let expected = contact_at(angle / spin, 1e-15);
     step.with_rotated_queries(turning(spin, 0.0), turning(-spin, apart), expected)
 }

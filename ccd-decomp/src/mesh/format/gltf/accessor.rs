@@ -58,7 +58,7 @@ impl<'a> Accessors<'a> {
         self.read_named(accessor, |accessors, about| {
             check_kind(about, "SCALAR")?;
             let component = Component::index_from_code(about.component_type)?;
-            let whole = |row: &[u8]| component.to_u32(row);
+            let whole = |row: &[u8]| component.to_f64(row) as u32;
             accessors.elements(about, component.size(), cost(0, about.count), 0, whole)
         })
     }
@@ -140,7 +140,7 @@ impl<'a> Accessors<'a> {
         let layout = (sparse.count, component.size());
         let rows = self.rows(about.buffer_view, about.byte_offset, layout, None)?;
         self.allowance.spend(cost(0, sparse.count))?;
-        let checked = |row| match component.to_u32(row) as usize {
+        let checked = |row| match component.to_f64(row) as usize {
             number if number < length => Ok(number),
             number => Err(MeshFault::malformed(format!(
                 "replaces element {number} of {length}"
@@ -211,17 +211,11 @@ impl Component {
     fn to_f64(self, bytes: &[u8]) -> f64 {
         match self {
             Component::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
-            Component::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
-            Component::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
-            Component::U8 | Component::U16 | Component::U32 => self.to_u32(bytes).into(),
-        }
-    }
-
-    fn to_u32(self, bytes: &[u8]) -> u32 {
-        match self {
             Component::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
+            Component::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
             Component::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),
-            _ => u32::from_le_bytes(first_bytes(bytes)),
+            Component::U32 => u32::from_le_bytes(first_bytes(bytes)).into(),
+            Component::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
         }
     }
 }
