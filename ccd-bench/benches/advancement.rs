@@ -13,19 +13,19 @@ use ccd_bench::method::guarded::Programs;
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
 use ccd_bench::run::contest::{MeasurementLimits, PreparedScene, Session};
-use ccd_bench::scene::{Models, PieceKind, listings};
+use ccd_bench::scene::{ModelCache, PieceKind, listings};
 use ccd_core::Settings;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
 use rigid_ccd::batch::ScheduleKind;
-use settings::settings;
+use settings::criterion_settings;
 use std::time::Duration;
 
 /// The number of rows of each scene that are measured, evenly spread over its table.
-const ROWS: usize = 32;
+const ROWS_PER_SCENE: usize = 32;
 /// The names of the measured scenes, in which each mesh occurs once.
-const SCENES: [&str; 7] = [
+const SCENE_NAMES: [&str; 7] = [
     "santa",
     "bunny turning",
     "knot2880 turning",
@@ -38,20 +38,23 @@ const SCENES: [&str; 7] = [
 const SMALL_SCENE: &str = "knot216";
 
 fn benchmark_queries(criterion: &mut Criterion) {
-    let mut models = Models::default();
+    let mut models = ModelCache::default();
     let listings = listings().expect("the scenes' data");
     for listing in listings
         .iter()
-        .filter(|l| SCENES.contains(&l.name.as_str()))
+        .filter(|l| SCENE_NAMES.contains(&l.name.as_str()))
     {
-        let scene = listing.make(&mut models).expect("scenes made by code");
+        let scene = listing
+            .make_scene(&mut models)
+            .expect("scenes made by code");
         let contest = PreparedScene::new(&scene).expect("motions with screws");
-        let rows = contest.order(ROWS);
+        let rows = contest.row_order(ROWS_PER_SCENE);
         let mut group = criterion.benchmark_group(format!("advancement/{}", scene.name));
         group.throughput(Throughput::Elements(rows.len() as u64));
         group.sampling_mode(SamplingMode::Flat);
-        for method in Method::all() {
-            let Method::Ours(kind, pieces @ (PieceKind::Least | PieceKind::Patches)) = method
+        for method in Method::built_in_methods() {
+            let Method::ThisProject(kind, pieces @ (PieceKind::FewestPieces | PieceKind::Patches)) =
+                method
             else {
                 continue;
             };
@@ -64,7 +67,7 @@ fn benchmark_queries(criterion: &mut Criterion) {
                 continue;
             }
             let bodies = scene
-                .bodies_of(pieces)
+                .bodies_with_pieces(pieces)
                 .expect("it has just opened a session");
             let mut solver = Ours::new(kind, bodies, Settings::DEFAULT.margin);
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
@@ -84,8 +87,8 @@ fn all_answers_are_right(contest: &PreparedScene<'_>, method: Method) -> bool {
     let allowance = MeasurementLimits {
         cell: Duration::MAX,
         patience: Duration::MAX,
-        rows: ROWS,
-        least_rows: ROWS,
+        max_rows: ROWS_PER_SCENE,
+        min_rows: ROWS_PER_SCENE,
         preparation: Duration::MAX,
     };
     let session = Session::open(method, contest.scene(), &Programs::default());
@@ -101,5 +104,5 @@ fn all_answers_are_right(contest: &PreparedScene<'_>, method: Method) -> bool {
     })
 }
 
-criterion_group!(name = benches; config = settings(10, 300, 1000); targets = benchmark_queries);
+criterion_group!(name = benches; config = criterion_settings(10, 300, 1000); targets = benchmark_queries);
 criterion_main!(benches);

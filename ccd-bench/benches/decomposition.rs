@@ -11,13 +11,13 @@ use ccd_decomp::{Detail, PatchOrder, TriangleMesh, body_from_mesh, decompose};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use settings::settings;
+use settings::criterion_settings;
 use std::hint::black_box;
 
 /// The torus knots to decompose, which differ in size only.
 const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
 
-fn meshes() -> Vec<(String, TriangleMesh)> {
+fn knot_meshes() -> Vec<(String, TriangleMesh)> {
     KNOTS
         .iter()
         .map(|knot| {
@@ -33,14 +33,14 @@ fn meshes() -> Vec<(String, TriangleMesh)> {
 fn benchmark_decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for (name, mesh) in &meshes() {
+    for (name, mesh) in &knot_meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (order, id) in [
             (PatchOrder::Cresting, "cresting"),
             (PatchOrder::BreadthFirst, "breadth-first"),
             (PatchOrder::DepthFirst, "depth-first"),
         ] {
-            assert_covered(mesh, order);
+            assert_patches_partition_mesh(mesh, order);
             group.bench_with_input(BenchmarkId::new(id, name), mesh, |bencher, mesh| {
                 bencher.iter(|| decompose(black_box(mesh), order).expect("a knot bounds a solid"));
             });
@@ -50,7 +50,7 @@ fn benchmark_decompositions(criterion: &mut Criterion) {
 }
 
 /// Asserts that every triangle is in exactly one patch before anything is timed.
-fn assert_covered(mesh: &TriangleMesh, order: PatchOrder) {
+fn assert_patches_partition_mesh(mesh: &TriangleMesh, order: PatchOrder) {
     let patches = decompose(mesh, order)
         .expect("a knot bounds a solid")
         .patches;
@@ -67,7 +67,7 @@ fn assert_covered(mesh: &TriangleMesh, order: PatchOrder) {
 fn benchmark_body_creation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for (name, mesh) in &meshes() {
+    for (name, mesh) in &knot_meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (detail, id) in [
             (Detail::Triangles, "triangles"),
@@ -82,5 +82,5 @@ fn benchmark_body_creation(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(name = benches; config = settings(100, 500, 2000); targets = benchmark_decompositions, benchmark_body_creation);
+criterion_group!(name = benches; config = criterion_settings(100, 500, 2000); targets = benchmark_decompositions, benchmark_body_creation);
 criterion_main!(benches);

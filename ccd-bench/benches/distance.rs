@@ -17,11 +17,11 @@ use ccd_distance_vmarch::Vmarch;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-use settings::settings;
+use settings::criterion_settings;
 use std::hint::black_box;
 
 /// The number of poses in a sequence.
-const POSES: usize = 256;
+const POSE_COUNT: usize = 256;
 
 /// Two pieces of one shape, and the sequence of poses at which their distance is computed.
 struct PoseSequence {
@@ -53,7 +53,7 @@ const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 
 
 fn benchmark_distances(criterion: &mut Criterion) {
     let mut rng = Pcg64::seed_from_u64(7);
-    for (shape, a, b) in shapes(&mut rng) {
+    for (shape, a, b) in pieces_in_unit_ball(&mut rng) {
         for (separation, clearance) in SEPARATIONS {
             for (coherence, turn, start) in SEQUENCE_KINDS {
                 let course = PoseSequence {
@@ -63,7 +63,7 @@ fn benchmark_distances(criterion: &mut Criterion) {
                     cache_state: start,
                 };
                 let mut group = criterion.benchmark_group(format!("distance/{shape}/{separation}"));
-                group.throughput(Throughput::Elements(POSES as u64));
+                group.throughput(Throughput::Elements(POSE_COUNT as u64));
                 let distances = course.distances::<Gjk>();
                 let id = |oracle| BenchmarkId::new(oracle, coherence);
                 // The backends must agree before they are timed.
@@ -83,7 +83,7 @@ fn benchmark_distances(criterion: &mut Criterion) {
 }
 
 /// Returns pieces that lie within the unit ball and touch its surface.
-fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
+fn pieces_in_unit_ball(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
     let side = DVec3::splat(3f64.sqrt().recip());
     let cube = Body::cuboid(side).expect("a box").pieces().clone();
     let slab = DVec3::new(0.7, 0.7, 1e-3);
@@ -166,8 +166,8 @@ fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
         let pose = Pose::new((2.0 + clearance) * way, rotation);
         pose.expect("a rotation").into()
     };
-    (0..POSES).map(pose).collect()
+    (0..POSE_COUNT).map(pose).collect()
 }
 
-criterion_group!(name = benches; config = settings(10, 100, 300); targets = benchmark_distances);
+criterion_group!(name = benches; config = criterion_settings(10, 100, 300); targets = benchmark_distances);
 criterion_main!(benches);

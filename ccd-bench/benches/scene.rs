@@ -14,16 +14,16 @@ use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::{Body, Motion, Pose, Scene};
-use settings::settings;
+use settings::criterion_settings;
 use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
 
 /// The duration of a step, in seconds.
-const STEP: f64 = 1.0 / 60.0;
+const STEP_DURATION: f64 = 1.0 / 60.0;
 /// The number of steps, and of bodies.
-const STEPS_AND_BODIES: (u32, usize) = (20, 200);
+const STEP_AND_BODY_COUNTS: (u32, usize) = (20, 200);
 /// The number of squares along each side of the hills, with two triangles each, and half the length of a side.
-const HILLS: (u32, f64) = (119, 30.0);
+const HILL_GRID_SIZE: (u32, f64) = (119, 30.0);
 
 /// Returns the place and the velocity of a body, from random vectors for both and the ground below the place.
 type Start = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
@@ -33,12 +33,15 @@ type Start = fn(DVec3, DVec3, DVec3) -> (DVec3, DVec3);
 const FLIGHTS: [(&str, Start); 5] = [
     ("hail", |place, way, _| {
         let high = DVec3::Z * (4.0 + 2.0 * place.z);
-        (wide(place) + high, way * 5.0 - 20.0 * DVec3::Z)
+        (
+            spread_horizontally(place) + high,
+            way * 5.0 - 20.0 * DVec3::Z,
+        )
     }),
     ("skimming", |place, way, ground| {
         let low = DVec3::Z * (1.2 + 0.5 * place.z);
         let velocity = way * DVec3::new(20.0, 20.0, 1.0);
-        (wide(place) + ground + low, velocity)
+        (spread_horizontally(place) + ground + low, velocity)
     }),
     ("implosion", |place, way, _| {
         let aside = place.normalize();
@@ -49,27 +52,30 @@ const FLIGHTS: [(&str, Start); 5] = [
     }),
     ("bullets", |place, way, _| {
         let high = DVec3::Z * (24.0 + 20.0 * place.z);
-        (wide(place) + high, way * 30.0 - 200.0 * DVec3::Z)
+        (
+            spread_horizontally(place) + high,
+            way * 30.0 - 200.0 * DVec3::Z,
+        )
     }),
 ];
 
-fn wide(place: DVec3) -> DVec3 {
+fn spread_horizontally(place: DVec3) -> DVec3 {
     place * DVec3::new(20.0, 20.0, 0.0)
 }
 
-fn height(x: f64, y: f64) -> f64 {
+fn terrain_height(x: f64, y: f64) -> f64 {
     1.5 * (0.31 * x).sin() * (0.27 * y).cos() + 0.3 * (1.7 * x + 0.9 * y).sin()
 }
 
 /// Returns the hills, followed by one body of each kind.
-fn bodies() -> anyhow::Result<[Body; 5]> {
+fn hills_and_bodies() -> anyhow::Result<[Body; 5]> {
     let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, Detail::Auto)?.body);
-    let (cells, half) = HILLS;
+    let (cells, half) = HILL_GRID_SIZE;
     let row = cells + 1;
     let vertices = (0..row * row).map(|k| {
         let [x, y] =
             [k % row, k / row].map(|n| half * (2.0 * f64::from(n) / f64::from(cells) - 1.0));
-        DVec3::new(x, y, height(x, y))
+        DVec3::new(x, y, terrain_height(x, y))
     });
     let faces = (0..cells * cells).flat_map(|k| {
         let a = k / cells * row + k % cells;
@@ -88,15 +94,15 @@ fn bodies() -> anyhow::Result<[Body; 5]> {
 }
 
 /// Returns the motions of all bodies in each step of a flight.
-fn flight(start: Start) -> anyhow::Result<Vec<Vec<Motion>>> {
+fn flight_motions(start: Start) -> anyhow::Result<Vec<Vec<Motion>>> {
     let mut rng = Pcg64::seed_from_u64(7);
     let mut any =
         |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));
-    let (steps, count) = STEPS_AND_BODIES;
+    let (steps, count) = STEP_AND_BODY_COUNTS;
     let starts = (0..count).map(|_| {
         let (place, way) = (any(1.0), any(1.0));
-        let ground = wide(place);
-        let ground = height(ground.x, ground.y) * DVec3::Z;
+        let ground = spread_horizontally(place);
+        let ground = terrain_height(ground.x, ground.y) * DVec3::Z;
         let (place, velocity) = start(place, way, ground);
         let spin = any(10.0);
         (place, DQuat::from_scaled_axis(any(3.0)), velocity, spin)
@@ -110,11 +116,13 @@ fn flight(start: Start) -> anyhow::Result<Vec<Vec<Motion>>> {
         };
         starts.iter().map(motion).collect()
     };
-    (0..steps).map(|step| at(STEP * f64::from(step))).collect()
+    (0..steps)
+        .map(|step| at(STEP_DURATION * f64::from(step)))
+        .collect()
 }
 
 /// Moves all bodies of a scene of hills and bodies by a step.
-fn set(scene: &mut Scene<'_>, motions: &[Motion]) {
+fn set_motions(scene: &mut Scene<'_>, motions: &[Motion]) {
     for (k, &motion) in motions.iter().enumerate() {
         scene
             .set_movement(k + 1, motion)
@@ -122,10 +130,10 @@ fn set(scene: &mut Scene<'_>, motions: &[Motion]) {
     }
 }
 
-fn scenes(criterion: &mut Criterion) {
-    let [hills, others @ ..] = &bodies().expect("valid sizes");
+fn benchmark_scenes(criterion: &mut Criterion) {
+    let [hills, others @ ..] = &hills_and_bodies().expect("valid sizes");
     for (name, start) in FLIGHTS {
-        let steps = flight(start).expect("valid motions");
+        let steps = flight_motions(start).expect("valid motions");
         let mut scene = Scene::with_threads(NonZeroUsize::MIN);
         scene.add_fixed(hills, Pose::IDENTITY);
         for (&motion, body) in steps[0].iter().zip(others.iter().cycle()) {
@@ -133,8 +141,8 @@ fn scenes(criterion: &mut Criterion) {
         }
         let mut contacts = 0;
         for motions in &steps {
-            set(&mut scene, motions);
-            contacts += scene.contacts(STEP).iter().flatten().count();
+            set_motions(&mut scene, motions);
+            contacts += scene.contacts(STEP_DURATION).iter().flatten().count();
         }
         assert!(contacts > 0, "{name}: nothing to find");
         let _ = writeln!(
@@ -149,20 +157,22 @@ fn scenes(criterion: &mut Criterion) {
             group.bench_function(question, |bencher| {
                 bencher.iter(|| {
                     for motions in &steps {
-                        set(&mut scene, motions);
+                        set_motions(&mut scene, motions);
                         ask(&mut scene);
                     }
                 });
             });
         };
-        ask("first of all", |scene| drop(scene.first_contact(STEP)));
-        ask("first of each", |scene| {
-            drop(scene.first_contact_of_each(STEP));
+        ask("first of all", |scene| {
+            drop(scene.first_contact(STEP_DURATION))
         });
-        ask("all", |scene| drop(scene.contacts(STEP)));
+        ask("first of each", |scene| {
+            drop(scene.first_contact_of_each(STEP_DURATION));
+        });
+        ask("all", |scene| drop(scene.contacts(STEP_DURATION)));
         group.finish();
     }
 }
 
-criterion_group!(name = benches; config = settings(10, 300, 1000); targets = scenes);
+criterion_group!(name = benches; config = criterion_settings(10, 300, 1000); targets = benchmark_scenes);
 criterion_main!(benches);

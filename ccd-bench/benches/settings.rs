@@ -4,12 +4,12 @@ use criterion::Criterion;
 use std::time::Duration;
 
 /// The number of bootstrap resamples, enough for a median. The default takes longer than the calls.
-const RESAMPLES: usize = 2_000;
+const RESAMPLE_COUNT: usize = 2_000;
 
 /// Returns settings with this number of samples, and with these times for warm-up and measurement in milliseconds.
-pub(crate) fn settings(samples: usize, warm_up: u64, measurement: u64) -> Criterion {
+pub(crate) fn criterion_settings(samples: usize, warm_up: u64, measurement: u64) -> Criterion {
     Criterion::default()
-        .nresamples(RESAMPLES)
+        .nresamples(RESAMPLE_COUNT)
         .sample_size(samples)
         .warm_up_time(Duration::from_millis(warm_up))
         .measurement_time(Duration::from_millis(measurement))

@@ -12,7 +12,7 @@ use ccd_core::{SupportScan, SupportTable};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-use settings::settings;
+use settings::criterion_settings;
 use std::hint::black_box;
 
 /// The number of directions in which the extremal corner is searched for.
@@ -71,5 +71,5 @@ fn rotating_directions(rng: &mut Pcg64) -> Vec<DVec3> {
         .collect()
 }
 
-criterion_group!(name = benches; config = settings(20, 200, 500); targets = benchmark_support_search);
+criterion_group!(name = benches; config = criterion_settings(20, 200, 500); targets = benchmark_support_search);
 criterion_main!(benches);

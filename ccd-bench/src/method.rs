@@ -8,7 +8,7 @@ pub mod solver;
 pub mod wire;
 
 use crate::method::peer::PeerKind;
-use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, screw};
+use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, to_screw_motions};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{Claim, Reply, Solver};
 use crate::names::name_of;
@@ -25,7 +25,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
     /// A solver of this project, on bodies made of the given kind of pieces.
-    Ours(SolverKind, PieceKind),
+    ThisProject(SolverKind, PieceKind),
     /// A published method that is built here for comparison.
     Rival(RivalKind),
     /// A peer library that is called in this program.
@@ -48,14 +48,14 @@ pub enum RivalKind {
     C2a,
     /// Static intersection tests at equal steps in time.
     #[value(name = "discrete stepping")]
-    Stepping,
+    FixedTimeSteps,
 }
 
 /// The kind of motion along which a method moves the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
     /// The motion of the query: the centre moves straight, and the body rotates about it.
-    Given,
+    ConstantVelocity,
     /// The screw motion between the same start and end poses.
     Screw,
 }
@@ -66,7 +66,7 @@ pub const PAPER_TOLERANCE: f64 = 1e-3;
 
 impl Method {
     /// Returns all methods that this program runs, this project's default first.
-    pub fn all() -> Vec<Method> {
+    pub fn built_in_methods() -> Vec<Method> {
         let kind = |schedule, oracle| SolverKind {
             schedule,
             oracle,
@@ -74,19 +74,19 @@ impl Method {
         };
         let (best, fast) = (ScheduleKind::BestFirst, ScheduleKind::Fast);
         let ours = [
-            (kind(best, OracleKind::Direct), PieceKind::Least),
-            (kind(best, OracleKind::Gjk), PieceKind::Least),
+            (kind(best, OracleKind::Direct), PieceKind::FewestPieces),
+            (kind(best, OracleKind::Gjk), PieceKind::FewestPieces),
             (kind(fast, OracleKind::Vmarch), PieceKind::Patches),
             (kind(fast, OracleKind::Gjk), PieceKind::Patches),
             (
                 kind(ScheduleKind::Naive, OracleKind::Direct),
-                PieceKind::Least,
+                PieceKind::FewestPieces,
             ),
             (kind(best, OracleKind::Direct), PieceKind::Triangles),
             (kind(best, OracleKind::Direct), PieceKind::Patches),
             (kind(best, OracleKind::Direct), PieceKind::ApproximateHulls),
         ];
-        let ours = ours.map(|(kind, pieces)| Method::Ours(kind, pieces));
+        let ours = ours.map(|(kind, pieces)| Method::ThisProject(kind, pieces));
         let rivals = RivalKind::value_variants()
             .iter()
             .copied()
@@ -97,17 +97,17 @@ impl Method {
 
     /// Returns all methods with a name: those that this program runs, FAST as published, whose bound does not hold over a
     /// step, so that its answers may be late, and those that a script runs.
-    pub fn known() -> Vec<Method> {
+    pub fn known_methods() -> Vec<Method> {
         let published = SolverKind {
             schedule: ScheduleKind::Fast,
             oracle: OracleKind::Vmarch,
             bound: BoundKind::Published,
         };
-        let mut methods = Method::all();
+        let mut methods = Method::built_in_methods();
         // After its variants with a sound bound.
-        let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
+        let is_fast = |method: &Method| matches!(method, Method::ThisProject(kind, _) if kind.schedule == ScheduleKind::Fast);
         let last = methods.iter().rposition(is_fast).map_or(0, |last| last + 1);
-        methods.insert(last, Method::Ours(published, PieceKind::Patches));
+        methods.insert(last, Method::ThisProject(published, PieceKind::Patches));
         methods.extend(Method::script_methods());
         methods
     }
@@ -122,7 +122,7 @@ impl Method {
 
     /// Returns the method with the given name; `None` if there is none.
     pub fn from_name(name: &str) -> Option<Method> {
-        let mut known = Method::known().into_iter();
+        let mut known = Method::known_methods().into_iter();
         known.find(|method| method.to_string() == name)
     }
 
@@ -130,7 +130,7 @@ impl Method {
     /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn takes_tolerances(self) -> bool {
         match self {
-            Method::Ours(..) => !self.is_piece_variant(),
+            Method::ThisProject(..) => !self.is_piece_variant(),
             Method::Rival(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
             Method::Script(kind) => kind != ScriptKind::CoalDistance,
@@ -139,15 +139,15 @@ impl Method {
 
     /// Returns true for the default method on pieces other than its own choice.
     pub fn is_piece_variant(self) -> bool {
-        matches!(self, Method::Ours(kind, pieces)
-            if pieces != PieceKind::Least && !kind.schedule.uses_hull_trees())
+        matches!(self, Method::ThisProject(kind, pieces)
+            if pieces != PieceKind::FewestPieces && !kind.schedule.uses_hull_trees())
     }
 
     /// Returns the motion along which the method moves the bodies.
     pub fn motion_kind(self) -> MotionKind {
         match self {
             Method::Rival(RivalKind::Contact) => MotionKind::Screw,
-            _ => MotionKind::Given,
+            _ => MotionKind::ConstantVelocity,
         }
     }
 }
@@ -159,8 +159,8 @@ impl MotionKind {
     /// If a screw's parameters overflow.
     pub fn apply(self, query: Motions) -> Result<Motions, InputError> {
         match self {
-            MotionKind::Given => Ok(query),
-            MotionKind::Screw => screw(&query),
+            MotionKind::ConstantVelocity => Ok(query),
+            MotionKind::Screw => to_screw_motions(&query),
         }
     }
 }
@@ -172,7 +172,7 @@ impl RivalKind {
             RivalKind::Contact => Box::new(Contact::new(a, b)),
             RivalKind::DynamicChecker => Box::new(DynamicChecker::new(a, b)),
             RivalKind::C2a => Box::new(C2a::new(a, b)),
-            RivalKind::Stepping => Box::new(Stepping::new(a, b)),
+            RivalKind::FixedTimeSteps => Box::new(Stepping::new(a, b)),
         }
     }
 }
@@ -234,7 +234,7 @@ impl Solver for Ours<'_> {
         let claim = match answer.outcome {
             Outcome::Contact { time, .. } => Claim::Contact { time },
             Outcome::Touching { .. } | Outcome::Overlapping { .. } => Claim::Contact { time: 0.0 },
-            Outcome::Free { .. } => Claim::Free,
+            Outcome::Free { .. } => Claim::NoContact,
             Outcome::Unresolved(known) => Claim::Unresolved {
                 safe_until: known.safe_until,
             },
@@ -260,13 +260,13 @@ impl Solver for Ours<'_> {
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Method::Ours(kind, pieces) => {
+            Method::ThisProject(kind, pieces) => {
                 write!(f, "{} {}", kind.schedule, kind.oracle)?;
                 if kind.bound == BoundKind::Published {
                     f.write_str(" published")?;
                 }
                 match (pieces, kind.schedule.uses_hull_trees()) {
-                    (PieceKind::Least, _) | (PieceKind::Patches, true) => Ok(()),
+                    (PieceKind::FewestPieces, _) | (PieceKind::Patches, true) => Ok(()),
                     (PieceKind::Triangles, _) => f.write_str(" over triangles"),
                     (PieceKind::Patches, false) => f.write_str(" over patches"),
                     (PieceKind::ApproximateHulls, _) => f.write_str(" over hulls"),

@@ -45,7 +45,7 @@ pub struct SceneBody {
 pub enum PieceKind {
     /// The fewest pieces that represent the mesh exactly.
     #[default]
-    Least,
+    FewestPieces,
     /// One piece per triangle of the mesh.
     Triangles,
     /// Patches of the surface under a hull tree, as in the paper.
@@ -64,8 +64,8 @@ impl SceneBody {
     }
 
     /// Returns the same body made of the given kind of pieces; `None` if the mesh does not allow them.
-    pub fn body_of(&self, pieces: PieceKind) -> Option<&Body> {
-        if pieces == PieceKind::Least {
+    pub fn body_with_pieces(&self, pieces: PieceKind) -> Option<&Body> {
+        if pieces == PieceKind::FewestPieces {
             return Some(&self.body);
         }
         let made = &self.bodies_by_pieces[pieces as usize];
@@ -81,7 +81,7 @@ impl PieceKind {
     /// If the mesh does not allow such pieces.
     pub fn body_of(self, mesh: &TriangleMesh) -> Result<Body, PrepareError> {
         let detail = match self {
-            PieceKind::Least => Detail::Auto,
+            PieceKind::FewestPieces => Detail::Auto,
             PieceKind::Triangles => Detail::Triangles,
             PieceKind::Patches => Detail::Patches(PatchOrder::Cresting),
             PieceKind::ApproximateHulls => Detail::Vhacd { hulls: MAX_HULLS },
@@ -89,14 +89,16 @@ impl PieceKind {
         let model = prepare(mesh, detail)?;
         match self {
             PieceKind::Patches => model.with_hull_tree()?.body(),
-            PieceKind::Least | PieceKind::Triangles | PieceKind::ApproximateHulls => model.body(),
+            PieceKind::FewestPieces | PieceKind::Triangles | PieceKind::ApproximateHulls => {
+                model.body()
+            }
         }
     }
 }
 
 /// The bodies of the models, each of which is made once.
 #[derive(Debug, Default)]
-pub struct Models {
+pub struct ModelCache {
     directory: Option<PathBuf>,
     bodies: HashMap<Model, SceneBody>,
 }
@@ -111,10 +113,10 @@ impl Scene {
     }
 
     /// Returns both bodies made of the given kind of pieces; `None` if a mesh does not allow them.
-    pub fn bodies_of(&self, pieces: PieceKind) -> Option<Bodies<'_>> {
+    pub fn bodies_with_pieces(&self, pieces: PieceKind) -> Option<Bodies<'_>> {
         Some(Bodies {
-            a: self.a.body_of(pieces)?,
-            b: self.b.body_of(pieces)?,
+            a: self.a.body_with_pieces(pieces)?,
+            b: self.b.body_with_pieces(pieces)?,
         })
     }
 
@@ -124,10 +126,10 @@ impl Scene {
     }
 }
 
-impl Models {
+impl ModelCache {
     /// Creates models that are made by code, except those that have a file in the directory.
     pub fn new(directory: Option<PathBuf>) -> Self {
-        Models {
+        ModelCache {
             directory,
             bodies: HashMap::new(),
         }

@@ -45,7 +45,7 @@ pub enum Truth {
     /// The surfaces share no point at any time.
     Free,
     /// The surfaces share a point at the start, or cannot be separated there in floating point.
-    Start,
+    ContactAtStart,
     /// The surfaces share no point before `lo`, cannot be separated at `lo`, and no proof of contact was found then or
     /// later: they touch without intersecting, or nearly touch.
     Graze {

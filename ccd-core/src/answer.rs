@@ -149,7 +149,7 @@ impl Answer {
 
     /// Converts an answer about enclosing bodies to one about the shapes in them. It is called once for each query
     /// about a distance.
-    pub(crate) fn to_shapes(self, excess: Excess) -> Self {
+    pub(crate) fn widened_by_excess(self, excess: Excess) -> Self {
         let outcome = self.outcome.to_shapes(excess);
         Answer {
             outcome,

@@ -38,7 +38,7 @@ use shell::{Shell, shells};
 use std::any::Any;
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
-use threads::{for_each, join};
+use threads::{join, parallel_for_each};
 use tree::point_query::pieces_at;
 use tree::{Layout, Tree};
 
@@ -112,12 +112,12 @@ impl Body {
         let (shells, tree) = join(
             pieces.len(),
             || shells(&pieces),
-            || layout.fit_nodes(&pieces),
+            || layout.fit_tree(&pieces),
         );
         if !pieces.all_triangles() {
             // The searches are prepared now, so that no query waits for them.
             for piece in pieces.iter() {
-                piece.with_support(support_of);
+                piece.with_support_map(support_of);
                 prepare(&piece);
             }
         }
@@ -178,7 +178,7 @@ impl Body {
     /// Returns a piece by its index. A piece of many points has a search structure for extremal points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
-        self.pieces.get(index as usize).with_support(support_of)
+        self.pieces.get(index as usize).with_support_map(support_of)
     }
 
     /// Computes in advance, on all cores, the values that [`Piece::cached`] would compute when first requested.
@@ -206,9 +206,9 @@ impl Body {
         if let Some(tree) = &self.hull_tree {
             pieces.extend(tree.hulls().iter());
         }
-        for_each(&mut pieces, &(), |(), _, piece| {
+        parallel_for_each(&mut pieces, &(), |(), _, piece| {
             // Pieces in queries have this search, too.
-            let _ = piece.with_support(support_of).cached(&make);
+            let _ = piece.with_support_map(support_of).cached(&make);
         });
     }
 
@@ -249,7 +249,7 @@ impl Body {
     /// Returns the approximate memory use in bytes.
     pub fn memory_usage(&self) -> usize {
         #[cfg(feature = "hull-tree")]
-        let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
+        let hulls = self.hull_tree.as_ref().map_or(0, HullTree::memory_usage);
         #[cfg(not(feature = "hull-tree"))]
         let hulls = 0;
         let surface = self.surface.as_ref();

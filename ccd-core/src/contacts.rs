@@ -16,8 +16,8 @@ use crate::error::InputError;
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 pub use feature_pair::FeaturePair;
-use manifold::Manifold;
-use near::near_faces;
+use manifold::ContactManifold;
+use near::near_face_pairs;
 use skin::NearSurface;
 use std::fmt;
 
@@ -56,12 +56,12 @@ impl Problem<'_> {
         let too_many = || ContactsError::TooManyPairs { budget };
         // Two measured distances may be off in either direction: that of the boxes, and that of the features.
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
-        let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
+        let near = near_face_pairs(self, &mut skins, &b_to_a, reach).ok_or_else(too_many)?;
         for skin in &mut skins {
             skin.find_cut_edges(self.rounding);
         }
         let [a, b] = &skins;
-        let mut manifold = Manifold::new(self, [a, b]);
+        let mut manifold = ContactManifold::new(self, [a, b]);
         for faces in near {
             manifold.add_face_contacts(faces);
             if manifold.len() as u64 > budget {

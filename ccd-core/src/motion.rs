@@ -152,7 +152,7 @@ impl Motion {
         let rotation = DQuat::from_scaled_axis(t * self.spin) * self.start.rotation();
         // The displacement of the centre, minus that of the origin by the turn about the centre.
         let turned = rotation * self.centre - self.start.rotation() * self.centre;
-        Pose::from_unit(
+        Pose::from_unit_quaternion(
             self.start.translation() + (t * self.velocity - turned),
             rotation,
         )

@@ -110,7 +110,7 @@ impl<'a> Problem<'a> {
             BodyWithPath {
                 body,
                 given: (!std::ptr::eq(body, given)).then_some(given),
-                path: path.accelerated(acceleration * duration * duration),
+                path: path.with_acceleration(acceleration * duration * duration),
             }
         };
         for (_, motion) in [&a, &b] {
@@ -164,7 +164,7 @@ impl<'a> Problem<'a> {
 
     /// Returns whether a body turns at least twice.
     #[inline]
-    pub(crate) fn turns_many_times(&self) -> bool {
+    pub(crate) fn turns_at_least_twice(&self) -> bool {
         let turns = |side: &BodyWithPath<'_>| side.path.rate >= 2.0 * TAU;
         turns(&self.a) || turns(&self.b)
     }
@@ -289,7 +289,7 @@ impl<'a> Problem<'a> {
             b: of(&self.b),
             start_time: self.time(from),
             // The duration is rounded down, so that no time is late.
-            duration: self.duration * (to - from) * (1.0 - rounding::RATE_F64),
+            duration: self.duration * (to - from) * (1.0 - rounding::RATE_ERROR_F64),
             margin: (self.margin + raised).next_up(),
             tolerance: greater(tolerance, rounding::least_tolerance(rounding)),
             rounding,
@@ -319,7 +319,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Converts a point from the world's coordinates to the problem's.
-    pub(crate) fn local(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn to_local_point(&self, point: DVec3) -> DVec3 {
         point - self.origin
     }
 

@@ -48,7 +48,7 @@ pub const EXTREME_VECTOR_SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// - a support value `n·x` with a rounded unit axis adds 4 of `|x|`, and so does a distance;
 ///   heights along a fixed axis, of which only differences are used, add 16; a support point found
 ///   by climbing edges may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which
-///   is 14 ([`HEIGHT_F64`]).
+///   is 14 ([`HEIGHT_ERROR_F64`]).
 ///
 /// Pairs of nodes see one body from the other at once (`motion/relative.rs`). If at most one of the
 /// two turns:
@@ -81,7 +81,7 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
 /// Returns the contribution of one body to [`distance_rounding`], whatever the other body does. The sum of the shares
 /// of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
 /// distance.
-pub fn share_of_rounding(span: f64, turn: f64, way: f64) -> f64 {
+pub fn body_distance_rounding(span: f64, turn: f64, way: f64) -> f64 {
     UNIT_ROUNDOFF_F64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
 }
 
@@ -97,7 +97,7 @@ pub fn margin_rounding(margin: f64) -> f64 {
 /// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the centre
 /// takes 18 of it, twice, and the sums 3 of all lengths: 39. As much again is left for the rounding of the
 /// pose that it is computed from: 80 are taken.
-pub const RETIMED_POSE_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
+pub const RETIMED_POSE_ERROR_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns a bound of the error of positions on a part of a path, in addition to [`distance_rounding`]. It also bounds
 /// the error of bounds that are taken over from one period to others.
@@ -106,7 +106,7 @@ pub const RETIMED_POSE_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
 /// - sine and cosine of the angle at which the part begins add 3, their products and sums 6, that angle `ω`, and the
 ///   product of rate and time `2ω`;
 /// - the number of turns in a period is off by `4ω` over all periods, and by `4ω` more since the rate is;
-/// - the time of a contact is rounded down by up to 17 of the part's, see [`RATE_F64`]: `17ω`.
+/// - the time of a contact is rounded down by up to 17 of the part's, see [`RATE_ERROR_F64`]: `17ω`.
 ///
 /// That is `9 + 28ω`. The centre begins with an error of 4 of its place and of its travel; the time takes 17 of the
 /// latter, products 2, and the difference of two velocities 4: 27 of this `way`. 32 are taken of each.
@@ -131,7 +131,7 @@ pub fn least_tolerance(rounding: f64) -> f64 {
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
 /// projected by three operations (3), the reaches subtracted (2), and the gap divided by the axis's
 /// length: a root and a quotient (3), and a product (1). That is 11u; 12u are taken.
-pub const GAP_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
+pub const GAP_ERROR_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of a support gap computed in f32, relative to the radii of the split group and the other node.
 ///
@@ -140,17 +140,17 @@ pub const GAP_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
 /// (3 + 3)u`. The other node's axes are rotated by a matrix rounded once, with five operations,
 /// which adds `√3 · 7u`. Together with the vector to a child (6u) that is 20u of the split side,
 /// 28u of the other one; 32u are taken. Triangles need less.
-pub const GAP_PER_RADIUS_F32: f32 = 32.0 * UNIT_ROUNDOFF_F32;
+pub const GAP_ERROR_PER_RADIUS_F32: f32 = 32.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of a rate of approach computed in f32, relative to the largest speed in it.
 ///
 /// Velocities, arms and angular velocities are rounded once (1u each), crossed (3u), rotated with the box (9u)
 /// and projected (4u). A rate is therefore off by at most 32u = 1.9e-6 of the largest speed.
-pub const RATE_F32: f32 = 2e-6;
+pub const RATE_ERROR_F32: f32 = 2e-6;
 
 /// The share of a distance from the split group's origin that is added to an arm when the largest speed is computed.
 /// The arm is the difference of two positions, a node's and that of its body's centre of rotation, each rounded by 1u.
-/// The share is 4u of the 33u of [`RATE_F32`].
+/// The share is 4u of the 33u of [`RATE_ERROR_F32`].
 pub const ARM_DISTANCE_SHARE: f64 = 1.0 / 8.0;
 
 /// The factor that lowers a free time computed in f32, from a gap and a rate that are conservative already.
@@ -164,7 +164,7 @@ pub const SECOND_DERIVATIVE_FACTOR_F32: f32 = 1.0 + 64.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of `|n × ω|` in f32, in units of `|ω|`: both vectors are rounded (1u each) and crossed (3u). For parallel
 /// vectors the computed product is nothing but this error.
-pub const CROSS_PRODUCT_F32: f32 = 8.0 * UNIT_ROUNDOFF_F32;
+pub const CROSS_PRODUCT_ERROR_F32: f32 = 8.0 * UNIT_ROUNDOFF_F32;
 
 /// The least length of a vector that is used as an axis in f32. Above it, squares that underflow, each by at most
 /// 7e-46, are less than `u` of their sum; below 1e-22 they would leave a vector that is off by a fifth. Half sizes'
@@ -182,7 +182,7 @@ pub const LEAST_SECOND_DERIVATIVE_F32: f32 = 1e-30;
 
 /// The error of speeds and free times computed in f64, relative to them: the axis is off by 2u, the arm by 5u, products
 /// and sums add 7u. The quotient and the root of a free time need less.
-pub const RATE_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
+pub const RATE_ERROR_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns the error of heights and rates along an axis that turns with one body, computed in f64 for points of the
 /// other body. It comes in addition to the error of their positions. It is relative to the farthest distance from the
@@ -219,18 +219,18 @@ pub fn is_direction_uncertain(distance: f64, rounding: f64) -> bool {
 
 /// The least length of a component perpendicular to other vectors for which its direction is used, for a unit vector.
 /// Rounding turns it by the inverse of the length, in units of [`UNIT_ROUNDOFF_F64`].
-pub const LEAST_SHARE: f64 = 1e-6;
+pub const LEAST_COMPONENT_LENGTH: f64 = 1e-6;
 
 /// The error of the determinant of three vectors, relative to the product of their 1-norms, if at least two of them are
 /// differences of points. It also bounds that of a product of two vectors, relative to theirs.
 ///
 /// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
 /// summed in 3: at most 8u; 16u are taken.
-pub const DETERMINANT_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
+pub const DETERMINANT_ERROR_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
 /// The deviation of a computed orthonormal frame from unit lengths and right angles, in f64: twelve rotations of
 /// [`UNIT_ROUNDOFF_F64`] each come to less, and f32, to which a box's axes are rounded, is far above.
-pub const FRAME_F64: f64 = 1e-13;
+pub const FRAME_ERROR_F64: f64 = 1e-13;
 
 /// The widening of a node's box for tests against rays, relative to its radius: the box's axes are rounded to f32, and
 /// rays are not counted by the bit.
@@ -244,19 +244,19 @@ pub const NODE_GAP: f64 = 7.0 / 8.0;
 
 /// The accepted range of weights of a convex combination before they are divided by their sum. No product of a weight
 /// with a coordinate, and no sum of four weights, overflows or underflows.
-pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+pub const WEIGHT_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// The least distance from a surface at which a point is known to be inside or outside, in units of the rounding of
 /// distances: the positions of both are rounded.
-pub const INSIDE: f64 = 4.0;
+pub const INSIDE_DISTANCE: f64 = 4.0;
 
 /// The distance from an edge on a flat piece at which points of the piece are tested, in units of the edge's part on
 /// it: far above rounding, below the distance to other features.
-pub const BESIDE_EDGE: f64 = 1e-3;
+pub const BESIDE_EDGE_DISTANCE: f64 = 1e-3;
 
 /// The error of a height `n·x`, relative to `|n|₁` and the largest coordinate: three products and two sums, at most 3u;
 /// 4u are taken.
-pub const HEIGHT_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
+pub const HEIGHT_ERROR_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 
 /// The error of the height of a disc around points computed in f32, in units of the piece's size, along a direction
 /// whose largest component is 1.
@@ -265,12 +265,12 @@ pub const HEIGHT_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 /// rounded (3u); the centre is projected by five operations (12u); radius and thickness are
 /// multiplied by lengths of at most √3 (6u and 12u); the normal is not exactly perpendicular to the
 /// part across it (12u); the sums add 14u. That is 59u; 96u are taken.
-pub const DISC_F32: f32 = 96.0 * UNIT_ROUNDOFF_F32;
+pub const DISC_HEIGHT_ERROR_F32: f32 = 96.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the squared component of a direction perpendicular to a disc's normal, relative to the direction's own
 /// square. The square (9u), that of its component along the normal (27u), the normal's length (6u), and the difference
 /// (3u) add up to 45u; 64u are taken.
-pub const DISC_TILT_F32: f32 = 64.0 * UNIT_ROUNDOFF_F32;
+pub const DISC_TILT_ERROR_F32: f32 = 64.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the least height of many points along an axis while their body turns. Its unit is the sum of their
 /// farthest distances from the centre of rotation and from the body's origin.
@@ -278,8 +278,8 @@ pub const DISC_TILT_F32: f32 = 64.0 * UNIT_ROUNDOFF_F32;
 /// The axis in the body's frame is off by the direction of the angular velocity (2u), two products with it
 /// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
 /// 23u. Two points see it with opposite signs: 46u. The search itself adds the rounding of two
-/// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
-pub const TURNED_SUPPORT: f64 = 64.0 * UNIT_ROUNDOFF_F64;
+/// heights, at most 14u ([`HEIGHT_ERROR_F64`]): 60u; 64u are taken.
+pub const TURNED_SUPPORT_ERROR: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns a bound of the error of the height `n·x − n·a` of a point above a plane, with `n = u × v`. All three vectors
 /// are rounded differences of points, and no coordinate of `x` or `a` exceeds `reach`.
@@ -299,15 +299,15 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
 ///
 /// Half sizes are measured along the rounded axes. With `U` the matrix of these, `UᵀU` differs from
 /// 1 by at most `2√3 u`, as each axis is off by `u` in length: 3.5u; 4u are taken.
-pub const BOX_AXES_F32: f64 = 4.0 * UNIT_ROUNDOFF_F32 as f64;
+pub const BOX_EXTENT_ERROR_F32: f64 = 4.0 * UNIT_ROUNDOFF_F32 as f64;
 
 /// The thickness of a box, relative to its radius, up to which a node counts as flat: its axis is rounded to f32
-/// ([`BOX_AXES_F32`]), its size outward.
+/// ([`BOX_EXTENT_ERROR_F32`]), its size outward.
 pub const FLAT_THICKNESS_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the velocity along a screw axis, relative to the whole velocity: the axis is off by 4.5u, twice, and
 /// products, sums and differences by 9u; 32u are taken.
-pub const ADVANCE_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
+pub const ADVANCE_ERROR_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
 
 /// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and relative to them.
 /// It is far above the rounding of a quotient, a few units in the last place.

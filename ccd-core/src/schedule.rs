@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 pub use crate::engine::best_first::BestFirst;
 use crate::error::InputError;
 #[cfg(feature = "hull-tree")]
@@ -51,7 +51,7 @@ pub trait Schedule<O: DistanceOracle> {
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError>;
 }
 
-impl<O: DistanceOracle, S: Solve<O>> Schedule<O> for S {
+impl<O: DistanceOracle, S: EngineSchedule<O>> Schedule<O> for S {
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
         match &query.problem {
             Some(problem) => Ok(self.solve(problem, oracle)),

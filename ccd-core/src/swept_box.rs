@@ -9,7 +9,7 @@ use crate::motion::path::Path;
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::problem::{BodyWithPath, check_coordinates};
 use crate::query::{Movement, MovingBody};
-use crate::rounding::{RETIMED_POSE_F64, least_tolerance, share_of_rounding};
+use crate::rounding::{RETIMED_POSE_ERROR_F64, body_distance_rounding, least_tolerance};
 use crate::settings::{QuerySettings, Settings};
 use glam::DVec3;
 
@@ -58,28 +58,28 @@ impl MovingBody<'_> {
         let terms = settings.terms();
         terms.check(duration)?;
         match self.movement {
-            Movement::Motion(motion) => of_motion(self.body, &motion, duration, &terms),
+            Movement::Motion(motion) => swept_box_of_motion(self.body, &motion, duration, &terms),
             Movement::Trajectory(trajectory) => {
-                of_stretches(self.body, trajectory, duration, &terms)
+                swept_box_of_stretches(self.body, trajectory, duration, &terms)
             }
         }
     }
 }
 
 /// The number of equal parts into which a trajectory is cut, besides the cuts at its corners.
-const PARTS: usize = 16;
+const PART_COUNT: usize = 16;
 
 /// Computes the union of the boxes of all stretches of a trajectory.
-fn of_stretches(
+fn swept_box_of_stretches(
     body: &Body,
     trajectory: &dyn Trajectory,
     duration: f64,
     terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     let (mut whole, mut from): (Option<SweptBox>, f64) = (None, 0.0);
-    for k in 1..=PARTS {
-        let to = if k < PARTS {
-            duration * (k as f64 / PARTS as f64)
+    for k in 1..=PART_COUNT {
+        let to = if k < PART_COUNT {
+            duration * (k as f64 / PART_COUNT as f64)
         } else {
             duration
         };
@@ -88,7 +88,8 @@ fn of_stretches(
             .corner(from, to)
             .filter(|&at| at > from && at < to);
         for end in corner.into_iter().chain([to]) {
-            let part = of_stretch(body, &trajectory.stretch(from, end)?, end - from, terms)?;
+            let part =
+                swept_box_of_stretch(body, &trajectory.stretch(from, end)?, end - from, terms)?;
             whole = Some(whole.map_or(part, |whole| SweptBox {
                 min: componentwise_min(whole.min, part.min),
                 max: componentwise_max(whole.max, part.max),
@@ -96,21 +97,24 @@ fn of_stretches(
             from = end;
         }
     }
-    // `PARTS` is not 0.
-    whole.map_or_else(|| of_motion(body, &Motion::STILL, duration, terms), Ok)
+    // `PART_COUNT` is not 0.
+    whole.map_or_else(
+        || swept_box_of_motion(body, &Motion::STILL, duration, terms),
+        Ok,
+    )
 }
 
 /// Computes a box around a body in one stretch of a trajectory.
-fn of_stretch(
+fn swept_box_of_stretch(
     body: &Body,
     stretch: &Stretch,
     time: f64,
     terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
-    let swept = of_motion(body, &stretch.motion, time, terms)?;
+    let swept = swept_box_of_motion(body, &stretch.motion, time, terms)?;
     let reach = body.tree().max_distance_from(stretch.motion.centre());
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
-    let room = (moved + stretch.deviation.at(reach)) * (1.0 + RETIMED_POSE_F64);
+    let room = (moved + stretch.deviation.at(reach)) * (1.0 + RETIMED_POSE_ERROR_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
     let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
     let rounding =
@@ -121,7 +125,7 @@ fn of_stretch(
     })
 }
 
-fn of_motion(
+fn swept_box_of_motion(
     body: &Body,
     motion: &Motion,
     duration: f64,
@@ -173,7 +177,7 @@ fn at_start(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
 fn half_contact_distance(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed() + terms.margin;
-    let rounding = share_of_rounding(side.span(), path.rate, way);
+    let rounding = body_distance_rounding(side.span(), path.rate, way);
     // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }

@@ -7,7 +7,7 @@ pub const EVALUATIONS_PER_VISIT: u64 = 128;
 
 /// The assumed number of steps of an oracle that does not count them. Each step evaluates every point of two pieces.
 /// Searches take 3 to 10 steps.
-pub const ASSUMED_STEPS: u64 = 8;
+pub const ASSUMED_ORACLE_STEPS: u64 = 8;
 
 /// The amount of [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A reading takes
 /// about 25 ns.
@@ -30,7 +30,7 @@ pub const ROTATION_GAP_SHARE: f64 = 0.5;
 /// The number of alternating projections between the boxes of two bodies when their nearest points are sought. Any axis
 /// is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections prove 19, 20, 22, 24 and 24 of them
 /// apart.
-pub const BOX_PROJECTIONS: usize = 3;
+pub const BOX_PROJECTION_COUNT: usize = 3;
 
 /// The largest number of Newton steps for the time at which a gap closes along one axis, before the oracle is called
 /// again. A step cannot overshoot, so a few suffice.
@@ -60,7 +60,7 @@ pub const CUT_DEVIATION_RATIO: f64 = 16.0;
 /// The share of the duration above which stretches of time are halved, without a measurement of the distance. Measured:
 /// over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves alone. With measurements
 /// in long stretches as well it takes 1.02 of them, and in the worst scene 51 times as many.
-pub const MEASURED_SHARE: f64 = 0.125;
+pub const MIN_UNMEASURED_SHARE: f64 = 0.125;
 
 /// The share of a stretch of time below which an estimated length is worth a cut, before the stretch is searched.
 pub const MAX_CUT_SHARE: f64 = 0.75;
@@ -89,7 +89,7 @@ pub const MIN_NEWTON_GROWTH: f64 = 1.0 / 64.0;
 /// The slack that a pair in contact at the start must have to be advanced further, in units of the distance's rounding.
 /// It is a part of [`RESTING_DECREASE`](crate::rounding::RESTING_DECREASE). Below it is the rounding of heights: each visit would find
 /// some of it again, and a slowly approaching pair would be visited a million times before it is in contact.
-pub const RESTED_SLACK: f64 = 1.0 / 16.0;
+pub const MIN_RESTING_SLACK: f64 = 1.0 / 16.0;
 
 /// The distance of two nodes, in units of their radii, beyond which a second visit is worth more than a split.
 /// Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A smaller value makes large nodes creep
@@ -129,7 +129,7 @@ pub const MAX_INNER_POLYTOPE_CORNERS: usize = 256;
 /// The depths below a flat piece at which a point inside its solid is sought, in this order, in units of the piece's
 /// size. The first is far above the distance at which a point counts as off the surface; the others reach inside
 /// thinner walls.
-pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
+pub const INTERIOR_PROBE_DEPTHS: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 
 /// The ratio to the bodies' distance that the distances of two pairs of a front must exceed before a descent tries to
 /// join them. It tries again once the bodies' distance has shrunk by the same factor. Joining saves measuring both
@@ -163,7 +163,7 @@ pub const MAX_PLATEAU_POINTS: usize = 32;
 /// The distance from a facet up to which a nearest point counts as on it, in units of the piece's size. It only decides
 /// which feature a contact names. Nearest points are combinations of corners, off by a few
 /// [`UNIT_ROUNDOFF_F64`](crate::rounding::UNIT_ROUNDOFF_F64) of that size, which a flat piece magnifies.
-pub const FACET_DISTANCE: f64 = 1e-9;
+pub const FACET_TOLERANCE: f64 = 1e-9;
 
 /// The angle below which a Jacobi rotation is skipped when principal axes are computed, in radians.
 ///
@@ -200,4 +200,4 @@ pub const SPLITS_BEFORE_SCREW: u64 = 512;
 ///
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
 /// to build, boxes hardly shrink.
-pub const SAMPLED_TRIANGLES: usize = 64;
+pub const MAX_SAMPLED_TRIANGLES: usize = 64;

@@ -67,7 +67,11 @@ impl BoundsTree {
 
     /// Calls `holds` for the index of every box that meets a box, until it returns false. Returns whether all results
     /// were true.
-    pub(crate) fn all_meeting(&self, bounds: &Bounds, mut holds: impl FnMut(u32) -> bool) -> bool {
+    pub(crate) fn all_boxes_meeting(
+        &self,
+        bounds: &Bounds,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
         let aabb = aabb(bounds);
         let mut near = self.bvh.intersect_aabb(&aabb);
         near.all(|index| !self.get(index).meets(bounds) || holds(index))

@@ -17,7 +17,7 @@ use std::path::Path;
 pub const STORED_EXTENSION: &str = "ccd";
 
 /// Returns whether a path has the file extension of a stored body.
-pub(crate) fn is_stored(path: &Path) -> bool {
+pub(crate) fn has_stored_body_extension(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     extension.eq_ignore_ascii_case(STORED_EXTENSION)
 }
@@ -99,28 +99,30 @@ impl Model {
 
     fn unpack(reader: impl Read) -> Result<Self, StoreFault> {
         let payload = frame::read(reader)?;
-        let (stored, rest): (Stored, &[u8]) =
-            postcard::take_from_bytes(&payload).map_err(|error| StoreFault::invalid(&error))?;
+        let (stored, rest): (Stored, &[u8]) = postcard::take_from_bytes(&payload)
+            .map_err(|error| StoreFault::invalid_content(&error))?;
         let (pieces, hierarchy, volume, nodes, surface, mut report) = stored;
         if !rest.is_empty() {
-            let (remarks, rest): (Remarks, _) =
-                postcard::take_from_bytes(rest).map_err(|error| StoreFault::invalid(&error))?;
+            let (remarks, rest): (Remarks, _) = postcard::take_from_bytes(rest)
+                .map_err(|error| StoreFault::invalid_content(&error))?;
             if remarks.is_empty() || !rest.is_empty() {
-                return Err(StoreFault::invalid(&"there is more than a body"));
+                return Err(StoreFault::invalid_content(&"there is more than a body"));
             }
             report.repairs.remarks = remarks;
         }
         let tree = |nodes: Vec<HullNode>| HullTree::new(&pieces, &nodes);
         let hull_tree = nodes.map(tree).transpose();
         let model = Model {
-            hull_tree: hull_tree.map_err(|error| StoreFault::invalid(&error))?,
+            hull_tree: hull_tree.map_err(|error| StoreFault::invalid_content(&error))?,
             pieces,
             hierarchy,
             volume,
             surface,
             report,
         };
-        model.check().map_err(|error| StoreFault::invalid(&error))?;
+        model
+            .check()
+            .map_err(|error| StoreFault::invalid_content(&error))?;
         Ok(model)
     }
 

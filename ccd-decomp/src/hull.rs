@@ -9,7 +9,7 @@ pub(crate) mod exact_hull;
 mod flat;
 pub(crate) mod polygons;
 
-use crate::exact::predicates::{first_out_of_range, lexicographic, too_fine};
+use crate::exact::predicates::{compare_lexicographically, first_out_of_range, too_fine};
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
 use ccd_core::glam::DVec3;
@@ -68,7 +68,7 @@ fn hull_from_facets(points: &[DVec3], mut facets: PolygonList) -> Hull {
 fn distinct_points(points: &[DVec3]) -> Vec<DVec3> {
     let at = |k: u32| points[k as usize];
     let mut first: Vec<u32> = (0..points.len() as u32).collect();
-    first.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));
+    first.sort_unstable_by(|&v, &w| compare_lexicographically(at(v), at(w)).then(v.cmp(&w)));
     first.dedup_by(|w, v| at(*v) == at(*w));
     first.sort_unstable();
     first.into_iter().map(at).collect()

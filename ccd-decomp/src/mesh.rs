@@ -17,7 +17,7 @@ pub(crate) mod remark;
 pub(crate) mod repair;
 pub(crate) mod unit;
 
-use crate::exact::predicates::is_without_area;
+use crate::exact::predicates::has_zero_area;
 use ccd_core::glam::DVec3;
 use error::{MeshError, MeshFault};
 use format::Format;
@@ -84,7 +84,7 @@ impl TriangleMesh {
     ///
     /// # Errors
     /// [`MeshFault::NotFinite`], [`MeshFault::CoordinateTooLarge`], [`MeshFault::NoSuchVertex`],
-    /// [`MeshFault::NoVertices`], [`MeshFault::NoFaces`], [`MeshFault::TooMany`].
+    /// [`MeshFault::NoVertices`], [`MeshFault::NoFaces`], [`MeshFault::TooManyElements`].
     pub fn new(vertices: Vec<impl Into<[f64; 3]>>, faces: &[[u32; 3]]) -> Result<Self, MeshError> {
         let vertices = vertices.into_iter().map(|point| DVec3::from(point.into()));
         Ok(TriangleMesh::from_polygons(Polygons {
@@ -102,7 +102,7 @@ impl TriangleMesh {
             ..Repairs::default()
         };
         let triangles = polygons.triangulate(&mut repairs);
-        repairs.note_unreferenced(polygons.vertices.len(), &polygons.corners);
+        repairs.note_unreferenced_vertices(polygons.vertices.len(), &polygons.corners);
         let face_count = polygons.ends.len() as u32;
         let vertices = std::mem::take(&mut polygons.vertices);
         // Freed early: it may be larger than the mesh.
@@ -119,7 +119,7 @@ impl TriangleMesh {
         face_count: u32,
         mut repairs: Repairs,
     ) -> Self {
-        let positions = weld(&vertices);
+        let positions = weld_vertices(&vertices);
         let drop_duplicate = duplicate_faces(&all_faces, &positions);
         let drop_collapsed = collapsed_faces(&all_faces, &positions);
         let (mut faces, mut face_ids) = (Vec::new(), Vec::new());
@@ -132,8 +132,8 @@ impl TriangleMesh {
                 repairs.collapsed_faces.add(id);
             } else {
                 let [a, b, c] = face.map(|v| vertices[v as usize]);
-                if is_without_area([a, b, c]) {
-                    repairs.zero_area.add(id);
+                if has_zero_area([a, b, c]) {
+                    repairs.zero_area_faces.add(id);
                 }
                 faces.push(face);
                 face_ids.push(id);
@@ -196,7 +196,7 @@ impl TriangleMesh {
 }
 
 /// Maps every vertex to the first one at exactly the same point; 0 and −0 are equal.
-fn weld(vertices: &[DVec3]) -> Vec<u32> {
+fn weld_vertices(vertices: &[DVec3]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(vertices.len());
     let number = |(vertex, point): (usize, &DVec3)| {
         let key = point.to_array().map(|x| (x + 0.0).to_bits());

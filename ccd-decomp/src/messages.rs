@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// A fault of a file, with the path of the file.
 #[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", prefix(.file.as_ref()))]
+#[error("{}{fault}", path_prefix(.file.as_ref()))]
 pub struct FileError<F: fmt::Display> {
     /// The path of the file; `None` for content from a reader or from memory.
     pub file: Option<PathBuf>,
@@ -26,12 +26,12 @@ impl<F: fmt::Display> From<F> for FileError<F> {
     }
 }
 
-fn prefix(file: Option<&PathBuf>) -> String {
+fn path_prefix(file: Option<&PathBuf>) -> String {
     file.map_or_else(String::new, |file| format!("{}: ", file.display()))
 }
 
 /// The first bytes of a Git LFS pointer.
-const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
+const LFS_POINTER_PREFIX: &[u8] = b"version https://git-lfs";
 
 /// The error message for a Git LFS pointer.
 pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stand for the file; run `git \
@@ -39,5 +39,5 @@ pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stan
 
 /// Returns whether bytes begin like a Git LFS pointer.
 pub(crate) fn is_lfs_pointer(bytes: &[u8]) -> bool {
-    bytes.starts_with(LFS_BEGINNING)
+    bytes.starts_with(LFS_POINTER_PREFIX)
 }

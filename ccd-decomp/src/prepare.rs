@@ -12,7 +12,7 @@ use crate::pieces::patches::{PatchOrder, decompose};
 use crate::pieces::vhacd::approximate;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
-use crate::tolerance::AUTO_WORK;
+use crate::tolerance::AUTO_WORK_BUDGET;
 use crate::work::Work;
 use ccd_core::Volume;
 use error::PrepareError;
@@ -43,7 +43,7 @@ pub enum Detail {
     },
 }
 
-/// Creates a body from a mesh: calls [`prepare`], then [`Model::into_prepared`].
+/// Creates a body from a mesh: calls [`prepare`], then [`Model::into_prepared_body`].
 ///
 /// ```
 /// use ccd_core::glam::dvec3;
@@ -77,7 +77,7 @@ pub enum Detail {
 /// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
 /// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
 pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBody, PrepareError> {
-    prepare(mesh, detail)?.into_prepared()
+    prepare(mesh, detail)?.into_prepared_body()
 }
 
 /// Makes the pieces of a mesh and a hierarchy over them. The result is a model, which can be stored.
@@ -106,7 +106,7 @@ impl Choice {
         let (topology, turned) = Topology::with_reoriented_mesh(mesh);
         let mesh = turned.as_ref().unwrap_or(mesh);
         let (parts, why) = match detail {
-            Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK)),
+            Detail::Auto => choose::choose(mesh, &topology, &Work::with_steps(AUTO_WORK_BUDGET)),
             Detail::Triangles | Detail::Surface => (Parts::Triangles, PieceReason::Requested),
             Detail::Patches(order) => (
                 Parts::Patches(decompose(mesh, order)?),
@@ -129,7 +129,7 @@ impl Choice {
         Ok(Choice {
             volume,
             parts,
-            why,
+            reason: why,
             topology,
             turned,
         })

@@ -55,7 +55,7 @@ impl TriangleBoxes {
         if !self.single.all_meeting(region, work, &mut holds) {
             return false;
         }
-        self.bounds.all_meeting(&region.bounds, |fan| {
+        self.bounds.all_boxes_meeting(&region.bounds, |fan| {
             let fan = &self.fans[fan as usize];
             work.spend(1) && fan.all_meeting(&region.shape, work, &mut holds)
         })

@@ -3,7 +3,7 @@
 pub(crate) mod error;
 pub(crate) mod mesh_source;
 
-use crate::file::is_stored;
+use crate::file::has_stored_body_extension;
 use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::source_paths;
 use crate::mesh::unit::Unit;
@@ -114,18 +114,18 @@ impl BodySource {
     ) -> Result<PreparedBody, BodyError> {
         let prepared = match *self {
             BodySource::Box { half_extents } => {
-                PreparedBody::primitive(Body::cuboid(half_extents)?)
+                PreparedBody::from_primitive(Body::cuboid(half_extents)?)
             }
-            BodySource::Sphere { radius } => PreparedBody::primitive(Body::sphere(radius)?),
+            BodySource::Sphere { radius } => PreparedBody::from_primitive(Body::sphere(radius)?),
             BodySource::Capsule {
                 radius,
                 half_height,
-            } => PreparedBody::primitive(Body::capsule(radius, half_height)?),
+            } => PreparedBody::from_primitive(Body::capsule(radius, half_height)?),
             BodySource::Cylinder {
                 radius,
                 half_height,
                 excess,
-            } => PreparedBody::from_round(
+            } => PreparedBody::from_solid_of_revolution(
                 &SolidOfRevolution::cylinder(radius, half_height)?,
                 excess,
             )?,
@@ -133,11 +133,16 @@ impl BodySource {
                 radius,
                 half_height,
                 excess,
-            } => PreparedBody::from_round(&SolidOfRevolution::cone(radius, half_height)?, excess)?,
+            } => PreparedBody::from_solid_of_revolution(
+                &SolidOfRevolution::cone(radius, half_height)?,
+                excess,
+            )?,
             BodySource::Stored(ref path) if adjustments.apply_to_meshes_only() => {
                 return Err(SourceError::Prepared { file: path.clone() }.into());
             }
-            BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
+            BodySource::Stored(ref path) => {
+                with_file_path(path, Model::load(path)?.into_prepared_body())?
+            }
             BodySource::Mesh(ref source) => {
                 let source = MeshSource {
                     adjustments: source.adjustments.combined_with(adjustments)?,
@@ -145,7 +150,7 @@ impl BodySource {
                 };
                 let (mesh, unit) = source.read()?;
                 let made = body_from_mesh(&mesh, source.detail(detail));
-                let prepared = in_file(source.to_string().as_ref(), made)?;
+                let prepared = with_file_path(source.to_string().as_ref(), made)?;
                 return Ok(PreparedBody { unit, ..prepared });
             }
         };
@@ -155,7 +160,7 @@ impl BodySource {
 
     /// Describes the body in a file. The extension decides whether it is a stored body or a mesh.
     pub fn from_file(path: PathBuf) -> Self {
-        if is_stored(&path) {
+        if has_stored_body_extension(&path) {
             BodySource::Stored(path)
         } else {
             BodySource::Mesh(path.into())
@@ -175,7 +180,7 @@ impl BodySource {
     }
 }
 
-fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
+fn with_file_path<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
     made.map_err(|error| BodyError::InFile {
         file: path.into(),
         error,
@@ -206,7 +211,7 @@ impl FromStr for BodySource {
             }
             _ => {
                 let source: MeshSource = text.parse()?;
-                if !is_stored(&source.file) || source.part.is_some() {
+                if !has_stored_body_extension(&source.file) || source.part.is_some() {
                     Ok(BodySource::Mesh(source))
                 } else if source.adjustments == Adjustments::NONE {
                     Ok(BodySource::Stored(source.file))
@@ -236,7 +241,7 @@ fn parse_shape(
     let given = words.len();
     let is_round = ["cylinder", "cone"].contains(&shape);
     if given != expected && !(is_round && given == expected + 1) {
-        return Err(SourceError::WrongCount {
+        return Err(SourceError::WrongLengthCount {
             shape,
             expected,
             given,

@@ -11,7 +11,7 @@ pub struct Tally<T> {
 }
 
 /// The maximum number of stored elements, to keep reports short.
-const NAMED: usize = 8;
+const MAX_STORED_ELEMENTS: usize = 8;
 
 impl<T> Tally<T> {
     /// Returns the number of elements that were counted.
@@ -31,7 +31,7 @@ impl<T> Tally<T> {
 
     pub(crate) fn add(&mut self, element: T) {
         self.count += 1;
-        if self.first.len() < NAMED {
+        if self.first.len() < MAX_STORED_ELEMENTS {
             self.first.push(element);
         }
     }
@@ -40,7 +40,7 @@ impl<T> Tally<T> {
 impl Tally<u32> {
     /// Adds the elements of another tally, each increased by `first`.
     pub(crate) fn append(&mut self, other: &Self, first: u32) {
-        let room = NAMED - self.first.len();
+        let room = MAX_STORED_ELEMENTS - self.first.len();
         let numbers = other.first.iter().map(|number| first + number);
         self.first.extend(numbers.take(room));
         self.count += other.count;

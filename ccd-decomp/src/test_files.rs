@@ -3,7 +3,7 @@
 #[cfg(feature = "gltf")]
 pub(crate) use gltf::Gltf;
 #[cfg(feature = "3mf")]
-pub(crate) use threemf::{Entry, model, object, package, zip};
+pub(crate) use threemf::{Entry, model, object, package, zip_archive};
 
 /// A folder of temporary files for one test, removed at the test's end.
 pub(crate) struct Folder(pub(crate) std::path::PathBuf);
@@ -131,7 +131,7 @@ mod gltf {
         }
 
         /// Returns the file in the text form, with the buffer at a URI.
-        pub(crate) fn text_at(&self, uri: &str) -> Vec<u8> {
+        pub(crate) fn text_with_buffer_uri(&self, uri: &str) -> Vec<u8> {
             let mut json = self.json.clone();
             json["buffers"] = json!([{"byteLength": self.binary.len(), "uri": uri}]);
             json.to_string().into_bytes()
@@ -140,7 +140,7 @@ mod gltf {
         /// Returns the file in the text form, with an embedded buffer.
         pub(crate) fn text(&self) -> Vec<u8> {
             let data = STANDARD.encode(&self.binary);
-            self.text_at(&format!("data:application/octet-stream;base64,{data}"))
+            self.text_with_buffer_uri(&format!("data:application/octet-stream;base64,{data}"))
         }
     }
 }
@@ -157,7 +157,7 @@ mod threemf {
         pub(crate) method: CompressionMethod,
     }
 
-    pub(crate) fn zip(entries: &[Entry<'_>]) -> Vec<u8> {
+    pub(crate) fn zip_archive(entries: &[Entry<'_>]) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut archive = ZipArchiveWriter::new(&mut bytes);
         for entry in entries {
@@ -202,7 +202,7 @@ mod threemf {
             content: content.as_bytes(),
             method: CompressionMethod::DEFLATE,
         }));
-        zip(&entries)
+        zip_archive(&entries)
     }
 
     /// Returns a 3MF model of some objects and build items, with XML attributes.

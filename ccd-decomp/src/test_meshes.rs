@@ -82,7 +82,7 @@ pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> Triangle
 }
 
 /// Reverses every face of a mesh.
-pub(crate) fn reversed_faces(part: &TriangleMesh) -> TriangleMesh {
+pub(crate) fn mesh_with_reversed_faces(part: &TriangleMesh) -> TriangleMesh {
     let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     mesh(part.vertices().to_vec(), &faces)
 }
@@ -94,7 +94,7 @@ pub(crate) fn mesh(vertices: Vec<DVec3>, faces: &[[u32; 3]]) -> TriangleMesh {
 
 /// Returns two cones over a star, with apices above and below. The corners of the star are alternately at radius 1
 /// and at radius `inner`.
-pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
+pub(crate) fn star_bipyramid(corners: u32, inner: f64) -> TriangleMesh {
     let corner = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);
         let radius = if k.is_multiple_of(2) { 1.0 } else { inner };
@@ -112,11 +112,11 @@ pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
 /// Returns a prism along z over a polygon. Each cap is the fan about its first corner.
 pub(crate) fn prism(outline: &[DVec3]) -> TriangleMesh {
     let fan = (1..outline.len() as u32 - 1).map(|k| [0, k, k + 1]);
-    capped(outline, &fan.collect::<Vec<_>>())
+    prism_with_caps(outline, &fan.collect::<Vec<_>>())
 }
 
 /// Returns a prism along z over a polygon, whose caps consist of given triangles.
-fn capped(outline: &[DVec3], caps: &[[u32; 3]]) -> TriangleMesh {
+fn prism_with_caps(outline: &[DVec3], caps: &[[u32; 3]]) -> TriangleMesh {
     let n = outline.len() as u32;
     let mut vertices = outline.to_vec();
     vertices.extend(outline.iter().map(|&p| p + DVec3::Z));
@@ -145,7 +145,7 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| base + k);
         caps.extend([[0, base - 1, a], [0, a, d], [a, b, c], [a, c, d]]);
     }
-    capped(&outline, &caps)
+    prism_with_caps(&outline, &caps)
 }
 
 /// Returns the outline of a quarter disc with a toothed rim. The first corner is its centre. All corners are visible

@@ -19,7 +19,7 @@ pub(crate) const ADJACENT_ONLY_PASSES: usize = 2;
 /// The search distance along the curve for the best neighbour in later passes of agglomeration.
 ///
 /// Unit: places. Larger: better trees by less than a percent, but slower to build.
-pub(crate) const SEARCH_DISTANCE: usize = 6;
+pub(crate) const NEIGHBOUR_SEARCH_DISTANCE: usize = 6;
 
 /// The fraction of the nodes, largest first, that are candidates for reinsertion.
 ///
@@ -64,7 +64,7 @@ pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
 }
 
 /// The smallest useful number of voxels along the longest side.
-pub(crate) const MIN_RESOLUTION: u32 = 8;
+pub(crate) const MIN_VOXEL_RESOLUTION: u32 = 8;
 
 /// The maximum number of pairs of a triangle and a voxel to examine: a third of a second of work.
 pub(crate) const MAX_VOXEL_TESTS: usize = 1 << 21;
@@ -74,18 +74,18 @@ pub(crate) const MIN_VOXEL_SIZE: f64 = 1024.0;
 
 /// V-HACD's concavity: the fraction of excess volume above which a part is split. It is so small that nearly convex
 /// meshes also use all requested hulls.
-pub(crate) const CONCAVITY: f64 = 1e-6;
+pub(crate) const VHACD_CONCAVITY: f64 = 1e-6;
 
 /// V-HACD's weight of balanced cuts. Measured on a bunny with 128 hulls, the excess is a quarter less than at the
 /// library's own 0.05; there is no difference for a knot and a ring.
-pub(crate) const BALANCE: f64 = 0.5;
+pub(crate) const VHACD_BALANCE_WEIGHT: f64 = 0.5;
 
 /// The number of parts to request from the library for each hull; the best pairs are then merged. Measured on a knot
 /// with 32 hulls, one part for each hull increases the excess by two thirds, and four hardly reduce it.
 pub(crate) const PARTS_PER_HULL: u32 = 2;
 
 /// The maximum number of parts to request from V-HACD. The time of merging grows with their cube.
-pub(crate) const MAX_PARTS: u32 = 512;
+pub(crate) const MAX_VHACD_PARTS: u32 = 512;
 
 /// The number of points of a part from which the cost of merging is estimated.
 ///
@@ -98,7 +98,7 @@ pub(crate) const MAX_RELATIVE_EXCESS: f64 = 0.5;
 /// The work budget of the search for a bound on the excess of hulls.
 ///
 /// Unit: boxes and triangles examined in searches, of 10 to 50 ns: half a second's work.
-pub(crate) const EXCESS_WORK: u64 = 3 << 23;
+pub(crate) const EXCESS_WORK_BUDGET: u64 = 3 << 23;
 
 /// The maximum number of waiting boxes in the search for a bound on the excess of hulls.
 ///
@@ -175,7 +175,7 @@ pub(crate) const MIN_FAN_TRIANGLES: u32 = 32;
 /// How many boxes of a tree have to meet a shape's axis-aligned box before the oriented boxes are tested too.
 ///
 /// Unit: boxes. A smaller value is slower for triangles that are not slivers.
-pub(crate) const BOXES_BEFORE_ORIENTED: usize = 32;
+pub(crate) const BOXES_BEFORE_ORIENTED_TESTS: usize = 32;
 
 /// The maximum number of pairs of intersecting faces in a report.
 ///
@@ -185,7 +185,7 @@ pub(crate) const MAX_CROSSINGS: usize = 1000;
 /// The work budget of `Detail::Auto` for testing and making patches.
 ///
 /// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
-pub(crate) const AUTO_WORK: u64 = 1 << 24;
+pub(crate) const AUTO_WORK_BUDGET: u64 = 1 << 24;
 
 /// The cost of an expanded vertex, in units of a face corner, which takes about 25 bytes.
 pub(crate) const VERTEX_COST: u64 = 4;
@@ -208,12 +208,12 @@ pub(crate) const MAX_EXPANSION: u64 = 1 << 25;
 ///
 /// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
 #[cfg(feature = "3mf")]
-pub(crate) const UNPACKED_BASE: u64 = 1 << 24;
+pub(crate) const UNPACKED_SIZE_BASE: u64 = 1 << 24;
 
 /// The part of the limit on the unpacked size that is proportional to the file's size. Models of slicers and CAD
 /// programs unpack to five to thirty times the size.
 #[cfg(feature = "3mf")]
-pub(crate) const UNPACKED_PER_BYTE: u64 = 128;
+pub(crate) const UNPACKED_SIZE_PER_BYTE: u64 = 128;
 
 #[cfg(test)]
 mod tests;

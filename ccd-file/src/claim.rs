@@ -1,6 +1,6 @@
 //! Files that only one process writes at a time.
 
-use crate::temp_file::{TempFile, error_with_path, is_at, sibling, write_buffered};
+use crate::temp_file::{TempFile, error_with_path, leads_to_file, sibling, write_buffered};
 use std::fs::{File, TryLockError};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub const PARTIAL_EXTENSION: &str = ".partial";
 #[derive(Debug)]
 pub struct Claim {
     /// The open file, which is locked as long as it is open.
-    temporary: TempFile,
+    temp_file: TempFile,
     /// The length in bytes of what an earlier process left in the file.
     left: u64,
 }
@@ -50,7 +50,7 @@ impl Claim {
                 Err(TryLockError::Error(error)) => return Err(error_with_path(&partial, &error)),
             }
             // Another process may have renamed the file before it was locked.
-            if is_at(&file, &partial)? {
+            if leads_to_file(&file, &partial)? {
                 let about = file.metadata()?;
                 if !about.is_file() {
                     let problem = format!("{} is no file", partial.display());
@@ -63,7 +63,10 @@ impl Claim {
                     target,
                     is_kept: left > 0,
                 };
-                return Ok(Claim { temporary, left });
+                return Ok(Claim {
+                    temp_file: temporary,
+                    left,
+                });
             }
         }
         Err(busy_error())
@@ -76,22 +79,22 @@ impl Claim {
 
     /// Returns the temporary path under which the file is written.
     pub fn partial(&self) -> &Path {
-        &self.temporary.path
+        &self.temp_file.path
     }
 
     /// Returns the final path of the file.
     pub fn target(&self) -> &Path {
-        &self.temporary.target
+        &self.temp_file.target
     }
 
     /// Returns the target path with an ending appended to the file name.
     pub fn sibling(&self, ending: &str) -> PathBuf {
-        sibling(&self.temporary.target, ending)
+        sibling(&self.temp_file.target, ending)
     }
 
     /// Returns the file: empty, or with the content that an earlier process left.
     pub fn file(&mut self) -> &mut File {
-        &mut self.temporary.file
+        &mut self.temp_file.file
     }
 
     /// Writes the whole file, and renames it to its target.
@@ -100,7 +103,7 @@ impl Claim {
     /// Errors of `fill` and of [`Claim::place`].
     pub fn write(mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         self.cut(0)?;
-        write_buffered(&mut self.temporary.file, fill)?;
+        write_buffered(&mut self.temp_file.file, fill)?;
         self.place()
     }
 
@@ -109,7 +112,7 @@ impl Claim {
     /// # Errors
     /// Errors of the operating system.
     pub fn cut(&mut self, bytes: u64) -> io::Result<()> {
-        let TempFile { file, is_kept, .. } = &mut self.temporary;
+        let TempFile { file, is_kept, .. } = &mut self.temp_file;
         file.set_len(bytes)?;
         file.seek(SeekFrom::Start(bytes))?;
         *is_kept &= bytes > 0;
@@ -118,7 +121,7 @@ impl Claim {
 
     /// Keeps the file under its temporary name if the claim is dropped.
     pub fn keep(&mut self) {
-        self.temporary.is_kept = true;
+        self.temp_file.is_kept = true;
     }
 
     /// Renames the complete file to its target.
@@ -126,7 +129,7 @@ impl Claim {
     /// # Errors
     /// The file was removed or replaced, or the operating system fails.
     pub fn place(self) -> io::Result<()> {
-        self.temporary.place()
+        self.temp_file.place()
     }
 }
 

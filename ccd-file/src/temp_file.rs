@@ -42,7 +42,7 @@ impl TempFile {
 
     /// Renames the complete file to its target, after it is synced to disk.
     pub(crate) fn place(mut self) -> io::Result<()> {
-        if !is_at(&self.file, &self.path)? {
+        if !leads_to_file(&self.file, &self.path)? {
             let path = self.path.display();
             let problem = format!("{path} was removed or replaced while it was written");
             return Err(io::Error::new(io::ErrorKind::NotFound, problem));
@@ -61,7 +61,7 @@ impl TempFile {
 
 impl Drop for TempFile {
     fn drop(&mut self) {
-        if !self.is_kept && is_at(&self.file, &self.path).unwrap_or(false) {
+        if !self.is_kept && leads_to_file(&self.file, &self.path).unwrap_or(false) {
             // A file that stays behind does no harm.
             let _ = fs::remove_file(&self.path);
         }
@@ -69,7 +69,7 @@ impl Drop for TempFile {
 }
 
 /// Returns whether a path still leads to an open file.
-pub(crate) fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+pub(crate) fn leads_to_file(file: &File, path: &Path) -> io::Result<bool> {
     match Handle::from_path(path) {
         Ok(there) => Ok(there == Handle::from_file(file.try_clone()?)?),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),

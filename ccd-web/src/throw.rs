@@ -45,7 +45,7 @@ impl Throw {
     /// Creates a throw from nine numbers: position, velocity and angular velocity.
     ///
     /// # Errors
-    /// [`WebError::Numbers`].
+    /// [`WebError::WrongNumberCount`].
     pub fn of_numbers(numbers: &[f64]) -> Result<Self, WebError> {
         let &[px, py, pz, vx, vy, vz, wx, wy, wz] = numbers else {
             return Err(WebError::WrongNumberCount(numbers.len()));

@@ -105,7 +105,7 @@ pub enum ShapeError {
         /// The least possible excess for this shape, in the same unit.
         least: f64,
     },
-    /// The shape is a cylinder or a cone, which the [options](crate::Excess::Refuse) refuse.
+    /// The shape is a cylinder or a cone, which the [options](crate::Excess::NotAllowed) refuse.
     #[error("it is a cylinder or a cone, for which the options allow no polytope about it")]
     Round,
     /// An oriented mesh that should be a solid is not closed.

@@ -87,14 +87,14 @@ const STEPS: u32 = 8;
 const WINDOW_DEGREES: u32 = 1;
 
 /// Bounds on the least clearance over one interval of the rotation.
-struct Window {
+struct WindowClearance {
     angle: u32,
     lower: f64,
     upper: f64,
 }
 
 /// Returns the least clearance in each interval of a full turn of the first gear.
-fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Error>> {
+fn clearances(gears: [&Gear; 2]) -> Result<Vec<WindowClearance>, Box<dyn std::error::Error>> {
     let [a, b] = gears;
     let bodies = [a.body()?, b.body()?];
     // The axes are a little farther apart than the pitch circles require.
@@ -122,7 +122,7 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Erro
             ),
             1.0,
         )?;
-        windows.push(Window {
+        windows.push(WindowClearance {
             angle,
             lower: closest.outcome.lower(),
             upper: closest.outcome.upper(),
@@ -140,7 +140,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let windows = clearances([&gear(20), &gear(30)])?;
     let mut print = std::io::stdout().lock();
     writeln!(print, "degrees  least clearance, mm")?;
-    for Window {
+    for WindowClearance {
         angle,
         lower,
         upper,

@@ -6,14 +6,14 @@
 use rigid_ccd::{Motion, Pose, Settings, Solver, load};
 use std::error::Error;
 
-const BRACKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bracket.obj");
-const WEDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/wedge.obj");
+const BRACKET_PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bracket.obj");
+const WEDGE_PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/wedge.obj");
 
 #[allow(clippy::print_stdout, reason = "an example shows what comes out")]
 fn main() -> Result<(), Box<dyn Error>> {
     let mut files = std::env::args().skip(1);
-    let moving = load(files.next().unwrap_or(WEDGE.into()))?;
-    let standing = load(files.next().unwrap_or(BRACKET.into()))?;
+    let moving = load(files.next().unwrap_or(WEDGE_PATH.into()))?;
+    let standing = load(files.next().unwrap_or(BRACKET_PATH.into()))?;
 
     let start = Pose::at([0.7, 0.2, 2.0])?;
     let drops = Motion::new(start, [0.0, 0.0, -2.0], [0.0, 1.5, 0.0])?;

@@ -15,7 +15,7 @@ pub use question::Question;
 #[cfg(feature = "command")]
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 #[cfg(feature = "command")]
-pub(crate) use timed::{Timing, time};
+pub(crate) use timed::{TimedQuestion, time};
 
 use crate::ParallelSolver;
 use crate::table::courses::Movements;

@@ -33,7 +33,7 @@ pub use size::Size;
 pub use table::Table;
 
 use crate::Remark;
-use crate::text::Printable;
+use crate::text::PrintableText;
 use audit::AuditArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
@@ -92,7 +92,7 @@ pub enum Exit {
     /// Some rows are bad; the others have an answer.
     SomeRowsBad,
     /// Every row has an answer, and an audit or a check found rows that are not free or kept.
-    SomeNotFree,
+    SomeRowsNotFree,
 }
 
 /// Runs the command line of this process.
@@ -117,12 +117,12 @@ pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
         Ok(Exit::SomeRowsBad) => ExitCode::from(2),
-        Ok(Exit::SomeNotFree) => ExitCode::from(3),
+        Ok(Exit::SomeRowsNotFree) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<CannotWrite>() {
             // The reader closed the pipe, which is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
-                print_error(&causes::message(&error));
+                print_error(&causes::message_with_causes(&error));
                 // Another run holds the output, so this run must not start.
                 let busy = |f: &CannotWrite| f.source.kind() == io::ErrorKind::ResourceBusy;
                 ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
@@ -140,7 +140,7 @@ pub fn print_error(message: &str) {
 /// changes colours or ends the line.
 pub(crate) fn print_line(line: &str) {
     // A message that cannot be written is not a failure.
-    let _ = writeln!(io::stderr(), "{}", Printable(line));
+    let _ = writeln!(io::stderr(), "{}", PrintableText(line));
 }
 
 /// Prints the remarks about a question, one line for each.

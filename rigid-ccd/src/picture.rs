@@ -31,7 +31,7 @@ use ccd_view::{Meshes, ShownBody, ShownContact, View};
 use drawn::feature_corners;
 
 /// The colours of body A and body B, in CSS.
-pub const COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
+pub const BODY_COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];
 
 /// Draws answers about two bodies as views.
 pub struct Painter<'a> {
@@ -50,14 +50,14 @@ pub enum ViewError {
     Input(#[from] InputError),
     /// The bodies are farther apart than the row says, so that the row must be about others.
     #[error(
-        "at {time} the bodies are at least {measured} apart, but the row says at most {reported}: it is the answer about \
+        "at {time} the bodies are at least {measured_distance} apart, but the row says at most {reported}: it is the answer about \
          other bodies, or other motions"
     )]
-    OtherBodies {
+    BodiesMismatch {
         /// The time at which the distances are compared.
         time: f64,
         /// The distance of the given bodies at that time.
-        measured: f64,
+        measured_distance: f64,
         /// The upper bound of the distance according to the row.
         reported: f64,
     },
@@ -96,7 +96,7 @@ impl<'a> Painter<'a> {
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
-        if self.asked.claim == Claim::FromTable {
+        if self.asked.claim == Claim::TableTime {
             self.check_distance(row, [a, b])?;
         }
         let contact = time.and_then(|time| self.contact(row, time, [a, b]));
@@ -128,7 +128,7 @@ impl<'a> Painter<'a> {
         view.verdict = verdict::verdict(row, self.asked, start + duration, proven);
         let motions = course(query)?;
         let names = ["A", "B"];
-        view.bodies = (names.iter().zip(self.numbers).zip(COLORS).zip(motions))
+        view.bodies = (names.iter().zip(self.numbers).zip(BODY_COLORS).zip(motions))
             .map(|(((name, mesh), color), motion)| ShownBody::new(name, mesh, color, motion))
             .collect();
         Ok(View {
@@ -154,9 +154,9 @@ impl<'a> Painter<'a> {
         let measured = found.outcome.lower();
         // The table rounds the poses.
         if measured > told + found.tolerance {
-            return Err(ViewError::OtherBodies {
+            return Err(ViewError::BodiesMismatch {
                 time,
-                measured,
+                measured_distance: measured,
                 reported: told,
             });
         }

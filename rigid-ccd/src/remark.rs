@@ -55,7 +55,7 @@ pub enum Remark {
 
 /// The tolerance above which a remark is made, as a share of the smaller body's size. With the default tolerance, a
 /// part of a centimetre in metres is not remarked upon, and one of a millimetre is.
-const COARSE_TOLERANCE: f64 = 0.1;
+const COARSE_TOLERANCE_SHARE: f64 = 0.1;
 
 /// The rotation in radians above which an angle may be meant in degrees. Four turns in radians are 25; as degrees, that
 /// is a small angle. Robots' joints and parts that are thrown or assembled turn less.
@@ -73,7 +73,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The deviation of a quaternion's length from 1 above which a remark is made. One that is printed with two digits is
 /// nearer.
-const UNIT_DEVIATION: f64 = 0.1;
+const MAX_UNIT_LENGTH_DEVIATION: f64 = 0.1;
 
 impl Remark {
     /// Returns the largest side of the box about a body, in its frame.
@@ -91,7 +91,7 @@ impl Remark {
     /// [sizes](Remark::size). A point has none.
     pub fn of_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
         let size = lesser(sizes[0], sizes[1]);
-        let is_coarse = size > 0.0 && tolerance > COARSE_TOLERANCE * size;
+        let is_coarse = size > 0.0 && tolerance > COARSE_TOLERANCE_SHARE * size;
         is_coarse.then_some(Remark::CoarseTolerance { tolerance, size })
     }
 
@@ -117,7 +117,7 @@ impl Remark {
     pub fn of_quaternion(parts: [f64; 4]) -> Option<Self> {
         let [w, x, y, z] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
-        let is_unit = (length - 1.0).abs() <= UNIT_DEVIATION;
+        let is_unit = (length - 1.0).abs() <= MAX_UNIT_LENGTH_DEVIATION;
         (!is_unit).then_some(Remark::LongQuaternion { parts, length })
     }
 
@@ -142,7 +142,7 @@ impl Remark {
 
     /// Returns whether a body rotates so often that its angular velocity may be meant in degrees, round or not.
     #[cfg(feature = "tables")]
-    pub(crate) fn is_fast(spin: DVec3, duration: f64) -> bool {
+    pub(crate) fn is_fast_rotation(spin: DVec3, duration: f64) -> bool {
         length(spin) * duration > MIN_SUSPICIOUS_ROTATION
     }
 }

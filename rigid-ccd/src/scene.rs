@@ -13,7 +13,7 @@ mod stops;
 use crate::ParallelSolver;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, InputError, Motion, Movement, MovingBody, Pose, Query, Settings, SweptBox};
-use clock::Clock;
+use clock::TimeLimits;
 use event::Event;
 pub use event::{Impact, PairError};
 use goal::Goal;
@@ -50,14 +50,14 @@ pub use stops::Stop;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Scene<'a> {
-    members: Vec<Member<'a>>,
+    members: Vec<SceneBody<'a>>,
     settings: Settings,
     asked: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
     workers: ParallelSolver<WorkerMemory>,
 }
 
 #[derive(Clone, Copy)]
-struct Member<'a> {
+struct SceneBody<'a> {
     body: &'a Body,
     movement: Movement<'a>,
     mobility: Mobility,
@@ -141,7 +141,7 @@ impl<'a> Scene<'a> {
     }
 
     fn push(&mut self, body: &'a Body, movement: Movement<'a>, mobility: Mobility) -> usize {
-        self.members.push(Member {
+        self.members.push(SceneBody {
             body,
             movement,
             mobility,
@@ -227,7 +227,7 @@ impl<'a> Scene<'a> {
         &mut self,
         duration: f64,
     ) -> Vec<Result<Option<Impact>, PairError>> {
-        let mut events = self.events(duration, &Goal::first_of_each(self.len()));
+        let mut events = self.events(duration, &Goal::first_of_each_body(self.len()));
         events.sort_unstable_by(Event::order);
         let mut firsts: Vec<Option<&Event>> = vec![None; self.len()];
         for event in &events {
@@ -252,12 +252,17 @@ impl<'a> Scene<'a> {
 
     /// Returns the contacts and errors of the pairs in any order, as far as `goal` needs them.
     fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
-        let clock = Clock::new(duration, &self.settings);
+        let clock = TimeLimits::new(duration, &self.settings);
         let pairs = self.pairs(duration);
         self.run_pair_queue(&pairs, &clock, goal)
     }
 
-    fn run_pair_queue(&mut self, pairs: &[[usize; 2]], clock: &Clock, goal: &Goal) -> Vec<Event> {
+    fn run_pair_queue(
+        &mut self,
+        pairs: &[[usize; 2]],
+        clock: &TimeLimits,
+        goal: &Goal,
+    ) -> Vec<Event> {
         let (members, settings) = (&self.members, &self.settings);
         let query = |pair: [usize; 2]| -> Result<Query<'_>, InputError> {
             let [a, b] = pair.map(|index| members[index].moving());
@@ -276,7 +281,7 @@ impl<'a> Scene<'a> {
 
     /// Returns the pairs that the filters accept and whose swept boxes meet.
     fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
-        let swept = |member: &Member<'_>| {
+        let swept = |member: &SceneBody<'_>| {
             let swept = member.moving().swept_box(duration, &self.settings);
             // Each pair of such a body reports its error.
             swept.unwrap_or(EVERYWHERE_BOX)
@@ -298,7 +303,7 @@ impl Default for Scene<'_> {
     }
 }
 
-impl<'a> Member<'a> {
+impl<'a> SceneBody<'a> {
     fn moving(&self) -> MovingBody<'a> {
         (self.body, self.movement).into()
     }

@@ -20,10 +20,10 @@ impl fmt::Display for Number {
 
 /// Displays a text on one line of a terminal, with control characters escaped.
 #[cfg(feature = "command")]
-pub(crate) struct Printable<'a>(pub(crate) &'a str);
+pub(crate) struct PrintableText<'a>(pub(crate) &'a str);
 
 #[cfg(feature = "command")]
-impl fmt::Display for Printable<'_> {
+impl fmt::Display for PrintableText<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         use fmt::Write;
         // Marks of direction would reverse the text after them.

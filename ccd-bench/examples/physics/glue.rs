@@ -10,7 +10,7 @@ use rigid_ccd::{Motion, Pose, Scene};
 
 /// Steps a world, and stops each body at its first contact. `moving` are the bodies of the scene that move, by their
 /// indices in it. Returns until when each body of the scene moved.
-pub(crate) fn step(
+pub(crate) fn step_to_first_contacts(
     world: &mut PhysicsWorld,
     scene: &mut Scene<'_>,
     moving: &[(usize, RigidBodyHandle)],

@@ -12,11 +12,11 @@ use rigid_ccd::{Motion, Settings};
 #[derive(Default)]
 pub(crate) struct Tally {
     /// The number of pairs that were apart before and after a step, and overlapped between.
-    pub(crate) passed: usize,
+    pub(crate) tunneling_count: usize,
     /// The deepest penetration after a step, in metres.
-    pub(crate) deepest: f64,
+    pub(crate) max_penetration_depth: f64,
     /// The number of steps of single bodies in which the body was stopped.
-    pub(crate) stops: usize,
+    pub(crate) stop_count: usize,
 }
 
 /// The motion of a body in a step, and the time at which the body stops.
@@ -30,7 +30,7 @@ impl Tally {
         moved: &[StoppedMotion],
         duration: f64,
     ) -> Result<()> {
-        self.stops += moved.iter().filter(|(_, stop)| *stop < duration).count();
+        self.stop_count += moved.iter().filter(|(_, stop)| *stop < duration).count();
         let swept = |(body, &(motion, _)): (&SimulatedBody, &StoppedMotion)| {
             let moving = MovingBody::from((&body.body, motion));
             moving.swept_box(duration, &Settings::DEFAULT)
@@ -40,12 +40,13 @@ impl Tally {
         let pairs = (0..boxes.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
         let asked = pairs.filter(|&[a, b]| {
             let is_fixed = world.bodies[a].is_fixed && world.bodies[b].is_fixed;
-            !is_fixed && boxes[a].meets(&boxes[b]) && !world.joined.contains(&[a, b])
+            !is_fixed && boxes[a].meets(&boxes[b]) && !world.joined_pairs.contains(&[a, b])
         });
         for pair in asked {
             let pair = MovedPair { world, moved, pair };
-            self.deepest = greater(self.deepest, pair.depth(duration));
-            self.passed += usize::from(pair.passes(duration));
+            self.max_penetration_depth =
+                greater(self.max_penetration_depth, pair.penetration_depth(duration));
+            self.tunneling_count += usize::from(pair.tunnels(duration));
         }
         Ok(())
     }
@@ -59,7 +60,7 @@ struct MovedPair<'w> {
 }
 
 impl MovedPair<'_> {
-    fn depth(&self, time: f64) -> f64 {
+    fn penetration_depth(&self, time: f64) -> f64 {
         let ([p, q], [a, b]) = (self.poses(time), self.shapes());
         let found = contact(&p, a, &q, b, 0.0).ok().flatten();
         found.map_or(0.0, |contact| greater(0.0, -contact.dist))
@@ -72,7 +73,7 @@ impl MovedPair<'_> {
 
     /// Returns whether bodies that are apart at both ends overlap between them, at samples dense enough for the thinnest
     /// part.
-    fn passes(&self, duration: f64) -> bool {
+    fn tunnels(&self, duration: f64) -> bool {
         if self.overlaps(0.0) || self.overlaps(duration) {
             return false;
         }

@@ -27,13 +27,13 @@ enum Method {
     /// Steps with rapier's continuous collision detection, for all bodies and also between moving ones.
     Rapier,
     /// Steps in which each body stops at its certified first contact.
-    Certified,
+    CertifiedCcd,
 }
 
 const METHODS: [(&str, Method); 3] = [
     ("rapier without CCD", Method::WithoutCcd),
     ("rapier's CCD", Method::Rapier),
-    ("certified times", Method::Certified),
+    ("certified times", Method::CertifiedCcd),
 ];
 
 fn main() -> Result<()> {
@@ -44,11 +44,11 @@ fn main() -> Result<()> {
     writeln!(out, "{columns}")?;
     for (world, make) in WORLDS {
         for (method, kind) in METHODS {
-            let (tally, moves, time) = run(make(kind == Method::Rapier)?, kind, steps)?;
+            let (tally, moves, time) = simulate_world(make(kind == Method::Rapier)?, kind, steps)?;
             let Tally {
-                passed,
-                deepest,
-                stops,
+                tunneling_count: passed,
+                max_penetration_depth: deepest,
+                stop_count: stops,
             } = tally;
             let stopped = stops as f64 / moves as f64;
             let millis = 1e3 * time.as_secs_f64() / f64::from(steps);
@@ -63,10 +63,14 @@ fn main() -> Result<()> {
 
 /// Steps a world many times; returns the measurements, the number of steps of single moving bodies, and the duration of
 /// the steps.
-fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Duration)> {
+fn simulate_world(
+    mut world: World,
+    method: Method,
+    steps: u32,
+) -> Result<(Tally, usize, Duration)> {
     let duration = world.physics.integration_parameters.dt;
     let bodies: Vec<_> = world.bodies.iter().map(|body| body.body.clone()).collect();
-    let joined = world.joined.clone();
+    let joined = world.joined_pairs.clone();
     let mut scene =
         Scene::with_threads(NonZeroUsize::MIN).with_filter(|a, b| !joined.contains(&[a, b]));
     let mut moving = Vec::new();
@@ -85,8 +89,12 @@ fn run(mut world: World, method: Method, steps: u32) -> Result<(Tally, usize, Du
         let starts = bodies.map(|body| body_pose(&world.physics.bodies[body.handle]));
         let starts: Vec<Pose> = starts.collect::<Result<_>>()?;
         let begun = Instant::now();
-        let stops = if method == Method::Certified {
-            Some(glue::step(&mut world.physics, &mut scene, &moving)?)
+        let stops = if method == Method::CertifiedCcd {
+            Some(glue::step_to_first_contacts(
+                &mut world.physics,
+                &mut scene,
+                &moving,
+            )?)
         } else {
             world.physics.step();
             None

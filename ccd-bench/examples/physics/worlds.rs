@@ -18,14 +18,14 @@ pub(crate) struct World {
     pub(crate) physics: PhysicsWorld,
     pub(crate) bodies: Vec<SimulatedBody>,
     /// The pairs of bodies joined to each other, which may overlap.
-    pub(crate) joined: Vec<[usize; 2]>,
+    pub(crate) joined_pairs: Vec<[usize; 2]>,
     /// The length of the thinnest part of any body, in metres.
     pub(crate) min_thickness: f64,
     /// Applies forces to the bodies, or throws them again, before a step.
     pub(crate) step_action: fn(&mut World, u32),
     rng: Pcg64,
     /// Whether bodies move with rapier's continuous collision detection, also between moving ones.
-    ccd: bool,
+    uses_rapier_ccd: bool,
 }
 
 pub(crate) struct SimulatedBody {
@@ -62,15 +62,15 @@ impl World {
         World {
             physics,
             bodies: Vec::new(),
-            joined: Vec::new(),
+            joined_pairs: Vec::new(),
             min_thickness: thinnest,
             step_action: act,
             rng: Pcg64::seed_from_u64(3),
-            ccd,
+            uses_rapier_ccd: ccd,
         }
     }
 
-    fn add(&mut self, builder: RigidBodyBuilder, shape: SharedShape, body: Body) -> usize {
+    fn add_body(&mut self, builder: RigidBodyBuilder, shape: SharedShape, body: Body) -> usize {
         let collider = ColliderBuilder::new(shape.clone()).contact_skin(CONTACT_SKIN);
         let (handle, _) = self.physics.insert(builder, collider);
         self.bodies.push(SimulatedBody {
@@ -82,17 +82,17 @@ impl World {
         self.bodies.len() - 1
     }
 
-    fn slab(&mut self, place: Vector, [x, y, z]: [f64; 3]) -> Result<()> {
+    fn add_fixed_slab(&mut self, place: Vector, [x, y, z]: [f64; 3]) -> Result<()> {
         let fixed = RigidBodyBuilder::fixed().translation(place);
         let (shape, body) = (SharedShape::cuboid(x, y, z), Body::cuboid([x, y, z])?);
-        self.add(fixed, shape, body);
+        self.add_body(fixed, shape, body);
         Ok(())
     }
 
-    fn dynamic_body_builder(&mut self, place: Vector, shape: SharedShape, body: Body) -> usize {
+    fn add_dynamic_body(&mut self, place: Vector, shape: SharedShape, body: Body) -> usize {
         let builder = RigidBodyBuilder::dynamic().translation(place);
-        let builder = builder.ccd_enabled(self.ccd).can_sleep(false);
-        self.add(builder, shape, body)
+        let builder = builder.ccd_enabled(self.uses_rapier_ccd).can_sleep(false);
+        self.add_body(builder, shape, body)
     }
 
     fn random_vector(&mut self) -> Vector {
@@ -107,7 +107,7 @@ impl World {
     }
 
     /// Throws a body from a place, with a random orientation and spin.
-    fn throw(&mut self, index: usize, place: Vector, velocity: Vector) {
+    fn throw_body(&mut self, index: usize, place: Vector, velocity: Vector) {
         let (turn, spin) = (3.0 * self.random_vector(), 5.0 * self.random_vector());
         let place = Pose::from_parts(place, Rotation::from_scaled_axis(turn));
         self.set(index, place, velocity, spin);
@@ -115,34 +115,34 @@ impl World {
 }
 
 /// The number of sheets of paper, which are 1 mm thick.
-const SHEETS: usize = 5;
+const SHEET_COUNT: usize = 5;
 
 /// Creates twelve bullets at 100 to 390 metres a second, aimed at five sheets of paper.
 fn bullets(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.001, |world, step| {
-        for index in SHEETS..world.bodies.len() {
+        for index in SHEET_COUNT..world.bodies.len() {
             // One after the other.
-            if step % STEPS_PER_ROUND == 3 * (index - SHEETS) as u32 {
+            if step % STEPS_PER_ROUND == 3 * (index - SHEET_COUNT) as u32 {
                 let aside = 0.4 * world.random_vector();
                 let speed = world.rng.random_range(100.0..390.0);
                 let place = Vector::new(-2.0, aside.y, aside.z);
                 let velocity = Vector::new(speed, 0.02 * speed * aside.x, 0.0);
-                world.throw(index, place, velocity);
+                world.throw_body(index, place, velocity);
             }
         }
     });
-    for k in 0..SHEETS {
-        world.slab(0.3 * k as f64 * Vector::X, [0.0005, 0.5, 0.5])?;
+    for k in 0..SHEET_COUNT {
+        world.add_fixed_slab(0.3 * k as f64 * Vector::X, [0.0005, 0.5, 0.5])?;
     }
     for k in 0..12 {
         let aside = Vector::new(-4.0 - 0.1 * f64::from(k), 3.0, 0.0);
-        world.dynamic_body_builder(aside, SharedShape::ball(0.01), Body::sphere(0.01)?);
+        world.add_dynamic_body(aside, SharedShape::ball(0.01), Body::sphere(0.01)?);
     }
     Ok(world)
 }
 
 /// The number of the box's sides, after which the bunnies come.
-const SIDES: usize = 5;
+const BOX_SIDE_COUNT: usize = 5;
 
 /// Creates bunnies that are thrown at each other and at thin walls, at 40 metres a second.
 fn bunnies(ccd: bool) -> Result<World> {
@@ -150,18 +150,18 @@ fn bunnies(ccd: bool) -> Result<World> {
         if step % STEPS_PER_ROUND != 0 {
             return;
         }
-        for index in SIDES..world.bodies.len() {
-            let place = place_of_bunny(index - SIDES) + 0.05 * world.random_vector();
+        for index in BOX_SIDE_COUNT..world.bodies.len() {
+            let place = place_of_bunny(index - BOX_SIDE_COUNT) + 0.05 * world.random_vector();
             let towards = (place - Vector::new(0.0, 0.0, 0.4)).normalize();
             let velocity = -40.0 * towards + 5.0 * world.random_vector();
-            world.throw(index, place, velocity);
+            world.throw_body(index, place, velocity);
         }
     });
-    world.slab(Vector::new(0.0, 0.0, -0.005), [2.0, 2.0, 0.005])?;
+    world.add_fixed_slab(Vector::new(0.0, 0.0, -0.005), [2.0, 2.0, 0.005])?;
     for side in [Vector::X, -Vector::X, Vector::Y, -Vector::Y] {
         let half = |along: f64| if along == 0.0 { 2.0 } else { 0.005 };
         let place = 2.0 * side + 1.01 * Vector::Z;
-        world.slab(place, [half(side.x), half(side.y), 1.0])?;
+        world.add_fixed_slab(place, [half(side.x), half(side.y), 1.0])?;
     }
     let mesh = Blob::BUNNY.mesh(400)?;
     let vertices = mesh.vertices().iter();
@@ -171,7 +171,7 @@ fn bunnies(ccd: bool) -> Result<World> {
     let shape = SharedShape::convex_decomposition(&vertices, mesh.faces());
     let body = body(&*shape, &Options::default())?.body().clone();
     for number in 0..12 {
-        world.dynamic_body_builder(place_of_bunny(number), shape.clone(), body.clone());
+        world.add_dynamic_body(place_of_bunny(number), shape.clone(), body.clone());
     }
     Ok(world)
 }
@@ -182,15 +182,15 @@ fn place_of_bunny(number: usize) -> Vector {
 }
 
 /// The number of links of the chain.
-const LINKS: usize = 14;
+const LINK_COUNT: usize = 14;
 /// Half the length of a link, in metres.
-const HALF: f64 = 0.06;
+const LINK_HALF_LENGTH: f64 = 0.06;
 
 /// Creates a chain of fourteen links that is drawn through a slot between two plates, and back, and then placed anew.
 fn chain(ccd: bool) -> Result<World> {
     let mut world = World::empty(ccd, 0.004, |world, step| {
         if step.is_multiple_of(4 * STEPS_PER_ROUND) {
-            (0..LINKS).for_each(|link| world.lay_out(link));
+            (0..LINK_COUNT).for_each(|link| world.reset_link(link));
         }
         let is_back = !(step / STEPS_PER_ROUND).is_multiple_of(2);
         let towards = if is_back { -1.0 } else { 1.0 };
@@ -201,20 +201,21 @@ fn chain(ccd: bool) -> Result<World> {
         first.set_linvel(Vector::new(towards * speed, aside.y, aside.z), true);
     });
     for side in [-1.0, 1.0] {
-        world.slab(side * 1.04 * Vector::Y, [0.002, 1.0, 2.0])?;
+        world.add_fixed_slab(side * 1.04 * Vector::Y, [0.002, 1.0, 2.0])?;
     }
-    for link in 0..LINKS {
-        let shape = SharedShape::capsule_z(HALF, 0.02);
-        let index = world.dynamic_body_builder(Vector::ZERO, shape, Body::capsule(0.02, HALF)?);
-        world.lay_out(link);
+    for link in 0..LINK_COUNT {
+        let shape = SharedShape::capsule_z(LINK_HALF_LENGTH, 0.02);
+        let index =
+            world.add_dynamic_body(Vector::ZERO, shape, Body::capsule(0.02, LINK_HALF_LENGTH)?);
+        world.reset_link(link);
         if link > 0 {
             let joint = SphericalJointBuilder::new()
-                .local_anchor1(-1.25 * HALF * Vector::Z)
-                .local_anchor2(1.25 * HALF * Vector::Z)
+                .local_anchor1(-1.25 * LINK_HALF_LENGTH * Vector::Z)
+                .local_anchor2(1.25 * LINK_HALF_LENGTH * Vector::Z)
                 .contacts_enabled(false);
             let [before, this] = [index - 1, index].map(|index| world.bodies[index].handle);
             world.physics.insert_impulse_joint(before, this, joint);
-            world.joined.push([index - 1, index]);
+            world.joined_pairs.push([index - 1, index]);
         }
     }
     Ok(world)
@@ -222,8 +223,8 @@ fn chain(ccd: bool) -> Result<World> {
 
 impl World {
     /// Returns a link of the chain to its start, at rest.
-    fn lay_out(&mut self, link: usize) {
-        let place = Vector::new(-0.2 - 2.5 * HALF * link as f64, 0.0, 0.0);
+    fn reset_link(&mut self, link: usize) {
+        let place = Vector::new(-0.2 - 2.5 * LINK_HALF_LENGTH * link as f64, 0.0, 0.0);
         let place = Pose::from_parts(place, Rotation::from_scaled_axis(FRAC_PI_2 * Vector::Y));
         self.set(2 + link, place, Vector::ZERO, Vector::ZERO);
     }

@@ -2,9 +2,9 @@
 //! from outside.
 
 use crate::method::solver::Solver;
-use crate::method::wire::{REFUSED, serve};
+use crate::method::wire::{REFUSAL_PREFIX, serve_queries};
 use crate::method::{Method, Ours};
-use crate::run::contest::MOST_PAIRS_FOR_NAIVE;
+use crate::run::contest::MAX_PAIRS_FOR_NAIVE;
 use anyhow::{Context, Result, anyhow};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
@@ -44,7 +44,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
     let meshes = [read(&args.a)?, read(&args.b)?];
     if let Err(refusal) = answer_queries(method, &meshes, args)? {
-        writeln!(io::stdout(), "{REFUSED}{refusal}").map_err(write_error)?;
+        writeln!(io::stdout(), "{REFUSAL_PREFIX}{refusal}").map_err(cannot_write_replies)?;
     }
     Ok(Exit::AllAnswered)
 }
@@ -56,26 +56,26 @@ fn answer_queries(
     args: &AnswerArgs,
 ) -> Result<Result<(), String>> {
     let tolerance = args.tolerance;
-    if args.margin != 0.0 && !matches!(method, Method::Ours(..)) {
+    if args.margin != 0.0 && !matches!(method, Method::ThisProject(..)) {
         return Ok(Err("the method keeps no margin".to_owned()));
     }
     match method {
-        Method::Ours(kind, pieces) => {
+        Method::ThisProject(kind, pieces) => {
             let bodies = [a, b].map(|mesh| pieces.body_of(mesh));
             let [a, b] = match bodies {
                 [Ok(a), Ok(b)] => [a, b],
                 [Err(error), _] | [_, Err(error)] => return Ok(Err(error.to_string())),
             };
             let pairs = a.pieces().len() as u64 * b.pieces().len() as u64;
-            if kind.schedule == ScheduleKind::Naive && pairs > MOST_PAIRS_FOR_NAIVE {
+            if kind.schedule == ScheduleKind::Naive && pairs > MAX_PAIRS_FOR_NAIVE {
                 return Ok(Err(format!("{pairs} pairs are too many")));
             }
             let bodies = Bodies { a: &a, b: &b };
-            serve_all(&mut Ours::new(kind, bodies, args.margin), tolerance)?;
+            serve_standard_streams(&mut Ours::new(kind, bodies, args.margin), tolerance)?;
         }
-        Method::Rival(kind) => serve_all(kind.solver(a, b).as_mut(), tolerance)?,
+        Method::Rival(kind) => serve_standard_streams(kind.solver(a, b).as_mut(), tolerance)?,
         Method::Peer(kind) => match kind.solver(a, b) {
-            Ok(mut solver) => serve_all(solver.as_mut(), tolerance)?,
+            Ok(mut solver) => serve_standard_streams(solver.as_mut(), tolerance)?,
             Err(error) => return Ok(Err(format!("{error:#}"))),
         },
         Method::Script(_) => return Ok(Err("the method is run by a script".to_owned())),
@@ -83,18 +83,18 @@ fn answer_queries(
     Ok(Ok(()))
 }
 
-fn serve_all(solver: &mut dyn Solver, tolerance: f64) -> Result<()> {
+fn serve_standard_streams(solver: &mut dyn Solver, tolerance: f64) -> Result<()> {
     let (input, output) = (io::stdin().lock(), io::stdout().lock());
-    match serve(solver, tolerance, input, output) {
+    match serve_queries(solver, tolerance, input, output) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             Err(error).context("standard input: no query")
         }
-        Err(source) => Err(write_error(source).into()),
+        Err(source) => Err(cannot_write_replies(source).into()),
     }
 }
 
-fn write_error(source: io::Error) -> CannotWrite {
+fn cannot_write_replies(source: io::Error) -> CannotWrite {
     CannotWrite {
         place: "the replies".to_owned(),
         source,
@@ -103,7 +103,7 @@ fn write_error(source: io::Error) -> CannotWrite {
 
 /// How long this process may outlive its parent.
 #[cfg(unix)]
-const MOST_TIME_WITHOUT_PARENT: Duration = Duration::from_secs(1);
+const MAX_TIME_WITHOUT_PARENT: Duration = Duration::from_secs(1);
 
 /// Watches for the end of the parent process, and then ends this process, whatever it is doing.
 #[cfg(unix)]
@@ -111,7 +111,7 @@ fn end_with_parent() {
     let parent = parent_id();
     thread::spawn(move || {
         while parent_id() == parent {
-            thread::sleep(MOST_TIME_WITHOUT_PARENT);
+            thread::sleep(MAX_TIME_WITHOUT_PARENT);
         }
         std::process::exit(1);
     });

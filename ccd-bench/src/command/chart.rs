@@ -9,7 +9,7 @@ use crate::run::contest::MeasurementLimits;
 use crate::run::evaluation::Plan;
 use crate::run::export::export;
 use crate::scene::listings;
-use crate::show::presentation::present;
+use crate::show::presentation::write_report;
 use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::command::Exit;
@@ -70,22 +70,22 @@ Examples:
 /// The tolerances at which methods are measured, from coarse to fine, for bodies of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// The tolerances at which methods are compared at equal accuracy.
-const FEW_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
+const COMPARISON_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
 
 /// The limits of measurements for a comparison of everything in half an hour.
 const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::from_millis(600),
     patience: Duration::from_secs(4),
-    rows: usize::MAX,
-    least_rows: 10,
+    max_rows: usize::MAX,
+    min_rows: 10,
     preparation: Duration::from_secs(20),
 };
 /// The limits of measurements for a comparison of a few rows of everything in a minute.
 const QUICK_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::from_millis(40),
     patience: Duration::from_millis(200),
-    rows: 40,
-    least_rows: 3,
+    max_rows: 40,
+    min_rows: 3,
     preparation: Duration::from_millis(400),
 };
 
@@ -114,7 +114,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
     } else {
         plan.run()?
     };
-    let (safety, page) = present(&evaluated, &args.out)?;
+    let (safety, page) = write_report(&evaluated, &args.out)?;
     let page = page.display();
     print_summary(&format_args!(
         "{safety}\n\nThe report, with scenes in motion, a chart and tables: {page}"
@@ -134,15 +134,15 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
     let (allowance, tolerances) = if args.full {
         (FULL_LIMITS, &TOLERANCES[..])
     } else {
-        (QUICK_LIMITS, &FEW_TOLERANCES[..])
+        (QUICK_LIMITS, &COMPARISON_TOLERANCES[..])
     };
-    let methods = Method::all().into_iter();
+    let methods = Method::built_in_methods().into_iter();
     let methods = methods.filter(|method| args.full || is_fast_to_run(*method));
     Ok(Plan {
         listings: listings()?,
         methods: methods.collect(),
         tolerances: tolerances.to_vec(),
-        allowance: MeasurementLimits {
+        limits: MeasurementLimits {
             cell: args.cell.unwrap_or(allowance.cell),
             patience: args.patience.unwrap_or(allowance.patience),
             ..allowance
@@ -157,7 +157,7 @@ fn plan(args: &ChartArgs) -> Result<Plan> {
 /// processes, so only one of them is included.
 fn is_fast_to_run(method: Method) -> bool {
     match method {
-        Method::Ours(..) | Method::Rival(_) => true,
+        Method::ThisProject(..) | Method::Rival(_) => true,
         Method::Peer(kind) => kind == PeerKind::ParryF64,
         Method::Script(_) => false,
     }

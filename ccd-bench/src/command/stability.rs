@@ -55,7 +55,7 @@ Examples:
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     // The folder may contain more than the requested answers.
-    let mut drawn = Method::known();
+    let mut drawn = Method::known_methods();
     drawn.retain(|method| *method != Method::Script(ScriptKind::CoalDistance));
     let has_program =
         |method: &Method| args.programs.script.is_some() || !matches!(method, Method::Script(_));

@@ -62,7 +62,7 @@ Examples:
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -";
 
 /// The number of rows that are judged together, on all processors, before they are written.
-const BATCH: usize = 256;
+const BATCH_SIZE: usize = 256;
 
 /// Brackets the first contact of all valid rows; the table gives the reason for the others.
 pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
@@ -86,7 +86,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     let (mut counts, mut widest) = (HashMap::new(), 0.0);
     let start = Instant::now();
     loop {
-        let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(BATCH).collect();
+        let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(BATCH_SIZE).collect();
         let batch = batch.with_context(|| input_name(&args.motions))?;
         if batch.is_empty() {
             break;

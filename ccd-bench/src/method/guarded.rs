@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::solver::{Claim, TimedReply};
-use super::wire::{READY, REFUSED, format_query};
+use super::wire::{READY_LINE, REFUSAL_PREFIX, format_query};
 use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
 use clap::Args;
@@ -37,7 +37,7 @@ pub struct GuardSettings {
     /// The distance to keep between the bodies; a method without margins refuses any other than 0.
     pub margin: f64,
     /// The time limit for preparing the bodies.
-    pub preparation: Duration,
+    pub preparation_limit: Duration,
 }
 
 impl GuardSettings {
@@ -47,7 +47,7 @@ impl GuardSettings {
             method,
             tolerance,
             margin: 0.0,
-            preparation: Duration::from_secs(120),
+            preparation_limit: Duration::from_secs(120),
         }
     }
 }
@@ -60,7 +60,7 @@ pub enum QueryOutcome {
     /// The call exceeded the time limit, and the process was stopped.
     CutOff,
     /// The process ended by itself: a panic, or out of memory.
-    Died,
+    Crashed,
 }
 
 /// The programs that run the methods: this one, and a script for the methods of kind [`Method::Script`].
@@ -76,7 +76,7 @@ impl Programs {
     ///
     /// # Errors
     /// If it does not start.
-    pub fn check(&self, method: Method) -> io::Result<()> {
+    pub fn check_script_starts(&self, method: Method) -> io::Result<()> {
         if !matches!(method, Method::Script(_)) {
             return Ok(());
         }
@@ -109,7 +109,7 @@ impl QueryOutcome {
     pub fn claim(&self) -> Option<Claim> {
         match self {
             QueryOutcome::Answered(timed) => Some(timed.reply.claim),
-            QueryOutcome::CutOff | QueryOutcome::Died => None,
+            QueryOutcome::CutOff | QueryOutcome::Crashed => None,
         }
     }
 
@@ -118,7 +118,7 @@ impl QueryOutcome {
         match self {
             QueryOutcome::Answered(timed) => timed.micros,
             QueryOutcome::CutOff => patience.as_secs_f64() * 1e6,
-            QueryOutcome::Died => f64::NAN,
+            QueryOutcome::Crashed => f64::NAN,
         }
     }
 
@@ -126,7 +126,7 @@ impl QueryOutcome {
     pub fn steps(&self) -> u64 {
         match self {
             QueryOutcome::Answered(timed) => timed.reply.steps,
-            QueryOutcome::CutOff | QueryOutcome::Died => 0,
+            QueryOutcome::CutOff | QueryOutcome::Crashed => 0,
         }
     }
 }
@@ -171,7 +171,7 @@ impl GuardedMethod {
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         let folder = TempDir::with_prefix("ccd-bench-")?;
-        for (mesh, name) in meshes.into_iter().zip(MESHES) {
+        for (mesh, name) in meshes.into_iter().zip(MESH_FILE_NAMES) {
             write_obj(mesh, File::create(folder.path().join(name))?)?;
         }
         Ok(GuardedMethod {
@@ -196,7 +196,7 @@ impl GuardedMethod {
     /// # Errors
     /// Those of [`GuardedMethod::start`].
     pub fn run_query(&mut self, query: &Motions, patience: Duration) -> io::Result<QueryOutcome> {
-        let outcome = self.running_process()?.ask(query, patience);
+        let outcome = self.running_process()?.send_query(query, patience);
         if !matches!(outcome, QueryOutcome::Answered(_)) {
             self.process = None;
         }
@@ -218,15 +218,15 @@ impl GuardedMethod {
             .arg(format!("--tolerance={}", self.setting.tolerance))
             .arg(format!("--margin={}", self.setting.margin))
             .arg("--a")
-            .arg(self.meshes.path().join(MESHES[0]))
+            .arg(self.meshes.path().join(MESH_FILE_NAMES[0]))
             .arg("--b")
-            .arg(self.meshes.path().join(MESHES[1]));
-        Process::start(&mut command, self.setting.preparation)
+            .arg(self.meshes.path().join(MESH_FILE_NAMES[1]));
+        Process::start(&mut command, self.setting.preparation_limit)
     }
 }
 
 /// The names of the files of both meshes.
-const MESHES: [&str; 2] = ["a.obj", "b.obj"];
+const MESH_FILE_NAMES: [&str; 2] = ["a.obj", "b.obj"];
 
 /// A running process that answers each line of input with one line. It ends when this is dropped.
 #[derive(Debug)]
@@ -262,9 +262,9 @@ impl Process {
             }
         });
         match process.lines.recv_timeout(preparation) {
-            Ok(line) if line == READY => Ok(process),
-            Ok(line) if line.starts_with(REFUSED) => {
-                let why = &line[REFUSED.len()..];
+            Ok(line) if line == READY_LINE => Ok(process),
+            Ok(line) if line.starts_with(REFUSAL_PREFIX) => {
+                let why = &line[REFUSAL_PREFIX.len()..];
                 Err(io::Error::new(io::ErrorKind::Unsupported, why))
             }
             Err(RecvTimeoutError::Timeout) => Err(io::ErrorKind::TimedOut.into()),
@@ -272,19 +272,19 @@ impl Process {
         }
     }
 
-    fn ask(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
+    fn send_query(&mut self, query: &Motions, patience: Duration) -> QueryOutcome {
         let Some(input) = &mut self.input else {
-            return QueryOutcome::Died;
+            return QueryOutcome::Crashed;
         };
         if writeln!(input, "{}", format_query(query)).is_err() {
-            return QueryOutcome::Died;
+            return QueryOutcome::Crashed;
         }
         match self.lines.recv_timeout(patience) {
             Ok(line) => {
-                serde_json::from_str(&line).map_or(QueryOutcome::Died, QueryOutcome::Answered)
+                serde_json::from_str(&line).map_or(QueryOutcome::Crashed, QueryOutcome::Answered)
             }
             Err(RecvTimeoutError::Timeout) => QueryOutcome::CutOff,
-            Err(RecvTimeoutError::Disconnected) => QueryOutcome::Died,
+            Err(RecvTimeoutError::Disconnected) => QueryOutcome::Crashed,
         }
     }
 }

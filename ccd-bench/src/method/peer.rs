@@ -9,7 +9,7 @@
 //! |---|---|
 //! | [`parry::double::cast`], [`parry::single::cast`] | parry's nonlinear cast of one mesh against another |
 //! | [`parry::double::sweep`], [`parry::single::sweep`] | parry's swept convex bodies, over pairs of triangles |
-//! | [`rapier::Simulated`] | one step of rapier with its continuous collision detection |
+//! | [`rapier::TwoBodySimulation`] | one step of rapier with its continuous collision detection |
 
 pub mod parry;
 pub mod rapier;
@@ -32,7 +32,7 @@ pub enum PeerKind {
     ParrySweepF64,
     /// Swept triangles of parry in single precision: [`parry::single::sweep`].
     ParrySweepF32,
-    /// One step of a rapier simulation: [`rapier::Simulated`].
+    /// One step of a rapier simulation: [`rapier::TwoBodySimulation`].
     RapierStepF64,
 }
 
@@ -55,15 +55,15 @@ impl PeerKind {
         Ok(match self {
             PeerKind::ParryF64 => Box::new(double::cast::NonlinearCast::new(a, b)?),
             PeerKind::ParryF32 => Box::new(single::cast::NonlinearCast::new(a, b)?),
-            PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptPairs::new(a, b)?),
-            PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptPairs::new(a, b)?),
-            PeerKind::RapierStepF64 => Box::new(rapier::Simulated::new(a, b)?),
+            PeerKind::ParrySweepF64 => Box::new(double::sweep::SweptMeshPair::new(a, b)?),
+            PeerKind::ParrySweepF32 => Box::new(single::sweep::SweptMeshPair::new(a, b)?),
+            PeerKind::RapierStepF64 => Box::new(rapier::TwoBodySimulation::new(a, b)?),
         })
     }
 }
 
 /// Returns the claim of a contact at `time`, clamped to the duration because of rounding. An invalid time is no answer.
-fn contact_at(time: f64, duration: f64) -> Claim {
+fn contact_claim_at(time: f64, duration: f64) -> Claim {
     if time.is_finite() {
         let time = time.clamp(0.0, duration);
         Claim::Contact { time }

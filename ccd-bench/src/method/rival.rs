@@ -34,5 +34,5 @@ pub use c2a::C2a;
 pub use contact::Contact;
 pub use dynamic_checker::DynamicChecker;
 pub use motion::{Placement, RivalMotion};
-pub use screw::{is_screw, screw};
+pub use screw::{are_screw_motions, to_screw_motions};
 pub use stepping::Stepping;

@@ -83,7 +83,7 @@ pub enum Claim {
         time: f64,
     },
     /// The bodies do not come within the tolerance over the whole duration.
-    Free,
+    NoContact,
     /// The solver gave up before the end of the duration.
     Unresolved {
         /// The time before which there is no contact, according to the solver.
@@ -100,7 +100,7 @@ impl Claim {
     pub fn status(self) -> &'static str {
         match self {
             Claim::Contact { .. } => "contact",
-            Claim::Free => "free",
+            Claim::NoContact => "free",
             Claim::Unresolved { .. } => "unresolved",
             Claim::Refused => "refused",
             Claim::NoClaim => "static",
@@ -111,7 +111,7 @@ impl Claim {
     pub fn time(self) -> Option<f64> {
         match self {
             Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),
-            Claim::Free | Claim::Refused | Claim::NoClaim => None,
+            Claim::NoContact | Claim::Refused | Claim::NoClaim => None,
         }
     }
 }

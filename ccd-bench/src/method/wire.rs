@@ -9,22 +9,22 @@ use serde_json::json;
 use std::io::{self, BufRead, Write};
 
 /// The first line that the process writes after it has prepared its bodies.
-pub const READY: &str = "ready";
+pub const READY_LINE: &str = "ready";
 
 /// The prefix of the first line if the process refuses the bodies or the setting; the reason follows.
-pub const REFUSED: &str = "refused: ";
+pub const REFUSAL_PREFIX: &str = "refused: ";
 
 /// Answers queries from the input until it ends.
 ///
 /// # Errors
 /// If a line is no query, or if the reader of the replies is gone.
-pub fn serve(
+pub fn serve_queries(
     solver: &mut dyn Solver,
     tolerance: f64,
     input: impl BufRead,
     mut output: impl Write,
 ) -> io::Result<()> {
-    writeln!(output, "{READY}")?;
+    writeln!(output, "{READY_LINE}")?;
     output.flush()?;
     for line in input.lines() {
         let line = line?;

@@ -13,7 +13,7 @@ pub use verdict::{Judgement, Verdict, is_within_tolerance, judge, judge_contact,
 
 use crate::method::MotionKind;
 use crate::method::guarded::QueryOutcome;
-use crate::method::rival::screw;
+use crate::method::rival::to_screw_motions;
 use crate::method::solver::Claim;
 use crate::run::measured::{Cell, Trial};
 use crate::scene::Scene;
@@ -31,13 +31,13 @@ use std::time::{Duration, Instant};
 pub struct PreparedScene<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
-    given: Rows<'s>,
+    given_rows: QueryRows<'s>,
     /// The queries of the scene with screw motions between the same poses.
-    screws: Rows<'s>,
+    screw_rows: QueryRows<'s>,
 }
 
 /// The queries of a scene, each with its exact answer once that is known.
-struct Rows<'s> {
+struct QueryRows<'s> {
     queries: Cow<'s, [Motions]>,
     truths: Vec<OnceLock<Truth>>,
 }
@@ -50,16 +50,16 @@ pub struct MeasurementLimits {
     /// The time limit of one query of a peer, which is then stopped.
     pub patience: Duration,
     /// The largest number of queries to ask.
-    pub rows: usize,
+    pub max_rows: usize,
     /// The least number of queries, regardless of time.
-    pub least_rows: usize,
+    pub min_rows: usize,
     /// The time limit for preparing the pieces of a method that makes them on first use. Only queries that are prepared
     /// by then are asked.
     pub preparation: Duration,
 }
 
 /// The maximum number of pairs of pieces for a schedule without a tree, which processes all pairs in every step.
-pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
+pub const MAX_PAIRS_FOR_NAIVE: u64 = 100_000;
 
 impl<'s> PreparedScene<'s> {
     /// Prepares a scene for running methods on it.
@@ -73,26 +73,27 @@ impl<'s> PreparedScene<'s> {
         } else {
             Arc::new(Surface::new(scene.b.mesh()))
         };
-        let screws: Result<Vec<Motions>, InputError> = scene.queries.iter().map(screw).collect();
+        let screws: Result<Vec<Motions>, InputError> =
+            scene.queries.iter().map(to_screw_motions).collect();
         Ok(PreparedScene {
             scene,
             surfaces: [a, b],
-            given: Rows::new(Cow::Borrowed(&scene.queries)),
-            screws: Rows::new(Cow::Owned(screws?)),
+            given_rows: QueryRows::new(Cow::Borrowed(&scene.queries)),
+            screw_rows: QueryRows::new(Cow::Owned(screws?)),
         })
     }
 
-    fn rows(&self, motion: MotionKind) -> &Rows<'s> {
+    fn rows(&self, motion: MotionKind) -> &QueryRows<'s> {
         match motion {
-            MotionKind::Given => &self.given,
-            MotionKind::Screw => &self.screws,
+            MotionKind::ConstantVelocity => &self.given_rows,
+            MotionKind::Screw => &self.screw_rows,
         }
     }
 
     /// Judges the outcome of a row's query by the exact answer, which is computed on first use.
     fn judge(
         &self,
-        rows: &Rows<'_>,
+        rows: &QueryRows<'_>,
         row: usize,
         outcome: &QueryOutcome,
         tolerance: f64,
@@ -107,11 +108,11 @@ impl<'s> PreparedScene<'s> {
 
     /// Returns the order in which rows are run, of which at most `most` are run. The rows are spread evenly, and so is
     /// any number of the first ones.
-    pub fn order(&self, most: usize) -> Vec<usize> {
+    pub fn row_order(&self, most: usize) -> Vec<usize> {
         let count = self.scene.queries.len();
         let stride = (1..=count)
             .rev()
-            .find(|&stride| 1618 * stride <= 1000 * count && coprime(stride, count))
+            .find(|&stride| 1618 * stride <= 1000 * count && are_coprime(stride, count))
             .unwrap_or(1);
         // The first row of a scene may be of a special kind, so the middle row comes first.
         let rows = (0..count).map(|k| (count / 2 + k * stride) % count.max(1));
@@ -131,13 +132,13 @@ impl<'s> PreparedScene<'s> {
         let method = session.method();
         let rows = self.rows(method.motion_kind());
         let queries = &rows.queries;
-        let order = self.order(allowance.rows);
+        let order = self.row_order(allowance.max_rows);
         let asked_for = order.iter().map(|&row| &queries[row]);
-        let prepared = session.prepare(asked_for, tolerance, allowance.preparation);
+        let prepared = session.run_warm_up_queries(asked_for, tolerance, allowance.preparation);
         let mut asked: Vec<(usize, QueryOutcome)> = Vec::new();
         let start = Instant::now();
         for &row in &order[..prepared] {
-            let enough = asked.len() >= allowance.least_rows;
+            let enough = asked.len() >= allowance.min_rows;
             if start.elapsed() > allowance.cell && enough {
                 break;
             }
@@ -163,7 +164,7 @@ impl<'s> PreparedScene<'s> {
                 )
             })
             .collect();
-        Ok(Some((summarise(&trials), trials)))
+        Ok(Some((summarise_trials(&trials), trials)))
     }
 
     /// Returns the scene that the methods are run on.
@@ -172,9 +173,9 @@ impl<'s> PreparedScene<'s> {
     }
 }
 
-impl<'s> Rows<'s> {
+impl<'s> QueryRows<'s> {
     fn new(queries: Cow<'s, [Motions]>) -> Self {
-        Rows {
+        QueryRows {
             truths: vec![OnceLock::new(); queries.len()],
             queries,
         }
@@ -182,7 +183,7 @@ impl<'s> Rows<'s> {
 }
 
 /// Summarises the trials of one method on one scene, of which there is at least one.
-pub fn summarise(trials: &[Trial]) -> Cell {
+pub fn summarise_trials(trials: &[Trial]) -> Cell {
     let count = |verdict: Verdict| {
         let name = verdict.to_string();
         trials.iter().filter(|t| t.verdict == name).count()
@@ -204,7 +205,7 @@ pub fn summarise(trials: &[Trial]) -> Cell {
         p95_us: percentile(&micros, 0.95),
         late: count(Verdict::Late),
         missed: count(Verdict::Missed),
-        false_contacts: count(Verdict::False),
+        false_contacts: count(Verdict::FalseContact),
         unresolved: count(Verdict::Unresolved) + cut_off,
         mean_error: (!errors.is_empty()).then(|| mean(&errors)),
         max_error: errors.iter().copied().reduce(greater),
@@ -219,10 +220,10 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-fn coprime(a: usize, b: usize) -> bool {
+fn are_coprime(a: usize, b: usize) -> bool {
     match b {
         0 => a == 1,
-        _ => coprime(b, a % b),
+        _ => are_coprime(b, a % b),
     }
 }
 

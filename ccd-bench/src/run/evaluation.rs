@@ -3,7 +3,7 @@
 use crate::method::guarded::Programs;
 use crate::method::{Method, PAPER_TOLERANCE};
 use crate::run::contest::{Journal, MeasurementLimits, PreparedScene, Session, program_stamp};
-use crate::scene::{Listing, Models, PieceKind, Scene, SceneBody};
+use crate::scene::{Listing, ModelCache, PieceKind, Scene, SceneBody};
 use anyhow::Result;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::{Progress, Total};
@@ -21,7 +21,7 @@ pub struct Plan {
     /// The tolerances to measure at.
     pub tolerances: Vec<f64>,
     /// The limits of each method on each scene; a peer may run a single row, and prepares nothing on first use.
-    pub allowance: MeasurementLimits,
+    pub limits: MeasurementLimits,
     /// The programs that run the methods.
     pub programs: Programs,
     /// The folder of mesh files that replace the models made by code.
@@ -44,8 +44,8 @@ impl Plan {
     /// # Errors
     /// If a scene cannot be made.
     pub fn load_measured(&self) -> Result<Evaluation> {
-        let mut models = Models::new(self.models.clone());
-        let scenes = self.listings.iter().map(|l| l.make(&mut models));
+        let mut models = ModelCache::new(self.models.clone());
+        let scenes = self.listings.iter().map(|l| l.make_scene(&mut models));
         Ok(Evaluation {
             scenes: scenes.collect::<Result<_>>()?,
             journal: Journal::read(&self.folder),
@@ -58,10 +58,10 @@ impl Plan {
     /// If a scene cannot be made, a method cannot be run, or a file cannot be kept; earlier measurements are kept.
     pub fn run(&self) -> Result<Evaluation> {
         for &method in &self.methods {
-            self.programs.check(method)?;
+            self.programs.check_script_starts(method)?;
         }
         let mut journal = Journal::open(&self.folder, &self.stamp())?;
-        let mut models = Models::new(self.models.clone());
+        let mut models = ModelCache::new(self.models.clone());
         let scenes = self.scenes(&mut models)?;
         let cells: usize = self
             .methods
@@ -88,16 +88,16 @@ impl Plan {
             let name = method.to_string();
             let least_rows = match method {
                 Method::Peer(_) | Method::Script(_) => 1,
-                Method::Ours(..) | Method::Rival(_) => self.allowance.least_rows,
+                Method::ThisProject(..) | Method::Rival(_) => self.limits.min_rows,
             };
             let allowance = MeasurementLimits {
-                least_rows,
-                ..self.allowance
+                min_rows: least_rows,
+                ..self.limits
             };
             let mut session = None;
             for tolerance in self.tolerances_of(method) {
                 progress.step();
-                if journal.has(scene, &name, tolerance) {
+                if journal.has_cell(scene, &name, tolerance) {
                     continue;
                 }
                 progress.set_message(&format!("{scene}: {name}, {tolerance:e}"));
@@ -115,11 +115,11 @@ impl Plan {
         Ok(())
     }
 
-    fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>> {
+    fn scenes(&self, models: &mut ModelCache) -> Result<Vec<Scene>> {
         let progress = Progress::new(Total::Steps(self.listings.len()));
         let make = |listing: &Listing| {
             progress.set_message(&format!("making {}", listing.name));
-            let scene = listing.make(models);
+            let scene = listing.make_scene(models);
             progress.step();
             scene
         };
@@ -133,7 +133,7 @@ impl Plan {
     /// Prepares the pieces of all bodies that some method needs, on all processors.
     fn make_pieces(&self, scenes: &[Scene]) {
         let kinds = self.methods.iter().filter_map(|method| match method {
-            Method::Ours(_, pieces) => Some(*pieces),
+            Method::ThisProject(_, pieces) => Some(*pieces),
             Method::Rival(_) | Method::Peer(_) | Method::Script(_) => None,
         });
         let bodies = scenes.iter().flat_map(|scene| [&scene.a, &scene.b]);
@@ -145,7 +145,7 @@ impl Plan {
             })
             .collect();
         wanted.into_par_iter().for_each(|((_, pieces), body)| {
-            body.body_of(pieces);
+            body.body_with_pieces(pieces);
         });
     }
 
@@ -165,7 +165,7 @@ impl Plan {
             self.models
                 .as_ref()
                 .map_or("by code".into(), |folder| folder.display().to_string()),
-            self.allowance
+            self.limits
         )
     }
 }

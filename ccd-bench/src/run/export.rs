@@ -1,6 +1,6 @@
 //! Exports scenes to other programs.
 
-use crate::scene::{Listing, Models};
+use crate::scene::{Listing, ModelCache};
 use anyhow::{Context, Result};
 use ccd_decomp::write_obj;
 use rigid_ccd::table::motions;
@@ -12,9 +12,9 @@ use std::{fs, io};
 /// # Errors
 /// If a scene cannot be made or a file cannot be written.
 pub fn export(listings: &[Listing], models: Option<PathBuf>, folder: &Path) -> Result<()> {
-    let mut models = Models::new(models);
+    let mut models = ModelCache::new(models);
     for listing in listings {
-        let scene = listing.make(&mut models)?;
+        let scene = listing.make_scene(&mut models)?;
         let directory = folder.join(&scene.name);
         let place = || directory.display().to_string();
         fs::create_dir_all(&directory).with_context(place)?;

@@ -94,7 +94,7 @@ impl Trial {
             micros: outcome.micros(patience),
             steps: outcome.steps(),
             verdict: judged.verdict.to_string(),
-            error: judged.error,
+            error: judged.time_error,
             time: outcome
                 .claim()
                 .and_then(Claim::time)

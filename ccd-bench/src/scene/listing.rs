@@ -1,6 +1,6 @@
 //! The list of scenes: their models, and their rows in tables of motions.
 
-use super::{Models, Scene};
+use super::{ModelCache, Scene};
 use crate::scene::model::Model;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::ValueEnum;
@@ -59,7 +59,7 @@ impl Listing {
     ///
     /// # Errors
     /// If the data names something unknown, or a model's file is no mesh that a body can be made of.
-    pub fn make(&self, models: &mut Models) -> Result<Scene> {
+    pub fn make_scene(&self, models: &mut ModelCache) -> Result<Scene> {
         let motions = || format!("scene {}: {}", self.name, self.motions);
         Ok(Scene {
             name: self.name.clone(),

@@ -16,7 +16,7 @@ mod style;
 #[cfg(test)]
 mod tests;
 
-pub use heat_map::{GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
+pub use heat_map::{COST_GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
 
 use crate::method::Method;
 use crate::run::measured::Cell;
@@ -25,7 +25,7 @@ use plane::Shown;
 
 /// The measurements that all charts show.
 #[derive(Clone, Copy, Debug)]
-pub struct Charts<'a> {
+pub struct ChartData<'a> {
     /// The measurements of every method on every scene at every tolerance, with medians that [can be
     /// compared](super::comparable).
     pub cells: &'a [Cell],
@@ -41,12 +41,12 @@ pub struct MethodFacts<'a> {
     /// The name of the method in the tables.
     pub name: &'a str,
     /// Whether the method is this project's, a published one or a library.
-    pub family: Family,
+    pub family: MethodFamily,
 }
 
 /// Where a method comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
+pub enum MethodFamily {
     /// The method is this project's.
     Ours,
     /// The method is published, and built here for comparison.
@@ -57,17 +57,17 @@ pub enum Family {
     Model,
 }
 
-impl Charts<'_> {
+impl ChartData<'_> {
     /// Draws the chart of time against error; returns the text of an SVG file, or `None` without any time.
     ///
     /// # Errors
     /// If no row of the table is of a known scene and a known method, or the drawing library fails.
-    pub fn pareto(&self) -> Result<Option<String>> {
+    pub fn draw_pareto_chart(&self) -> Result<Option<String>> {
         ensure!(
             !self.measured_scenes().is_empty(),
             "nothing to draw: no row of the table is of a known scene and a known method"
         );
-        pareto::chart(self)
+        pareto::draw_chart(self)
     }
 
     /// Returns true if the method was late or missed a contact in any cell.
@@ -98,14 +98,16 @@ impl Charts<'_> {
     }
 
     /// Returns the measured methods of some families, each with its style.
-    fn methods_with_styles(&self, families: &[Family]) -> Vec<Shown<'_>> {
+    fn methods_with_styles(&self, families: &[MethodFamily]) -> Vec<Shown<'_>> {
         let measured = |name: &str| {
             let of = |scene: &&str| !self.cells_of(scene, name).is_empty();
             self.scenes.iter().any(of)
         };
         self.methods
             .iter()
-            .zip(style::styles(self.methods, |name| self.is_unsafe(name)))
+            .zip(style::method_styles(self.methods, |name| {
+                self.is_unsafe(name)
+            }))
             .filter(|(method, _)| families.contains(&method.family) && measured(method.name))
             .collect()
     }
@@ -113,28 +115,31 @@ impl Charts<'_> {
 
 impl<'a> MethodFacts<'a> {
     /// Returns the facts about the method with this name; an unknown method was measured elsewhere.
-    pub fn named(name: &'a str) -> Self {
+    pub fn from_name(name: &'a str) -> Self {
         let family = match Method::from_name(name) {
-            Some(method @ Method::Ours(..)) if method.is_piece_variant() => Family::Model,
-            Some(Method::Ours(..)) => Family::Ours,
-            Some(Method::Rival(_)) => Family::Rival,
-            Some(Method::Peer(_) | Method::Script(_)) | None => Family::Peer,
+            Some(method @ Method::ThisProject(..)) if method.is_piece_variant() => {
+                MethodFamily::Model
+            }
+            Some(Method::ThisProject(..)) => MethodFamily::Ours,
+            Some(Method::Rival(_)) => MethodFamily::Rival,
+            Some(Method::Peer(_) | Method::Script(_)) | None => MethodFamily::Peer,
         };
         MethodFacts { name, family }
     }
 }
 
-impl Family {
+impl MethodFamily {
     /// The families of methods that the charts compare.
-    const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
+    const COMPARED_FAMILIES: [MethodFamily; 3] =
+        [MethodFamily::Ours, MethodFamily::Rival, MethodFamily::Peer];
 
     /// Returns the heading of the family in the legend.
     pub(in crate::show) fn title(self) -> &'static str {
         match self {
-            Family::Ours => "this project",
-            Family::Rival => "published rivals",
-            Family::Peer => "peer libraries",
-            Family::Model => "models",
+            MethodFamily::Ours => "this project",
+            MethodFamily::Rival => "published rivals",
+            MethodFamily::Peer => "peer libraries",
+            MethodFamily::Model => "models",
         }
     }
 }

@@ -12,17 +12,17 @@ type RowKey<'a> = (&'a str, u64, usize);
 
 /// The times of the method with which the others are compared, by row.
 #[derive(Debug)]
-pub struct Reference<'a> {
+pub struct ReferenceTimes<'a> {
     name: &'a str,
     trials: &'a [Trial],
     times: HashMap<RowKey<'a>, f64>,
 }
 
-impl<'a> Reference<'a> {
+impl<'a> ReferenceTimes<'a> {
     /// Collects the times of the method with this name.
     pub fn new(name: &'a str, trials: &'a [Trial]) -> Self {
         let own = trials.iter().filter(|trial| trial.method == name);
-        Reference {
+        ReferenceTimes {
             name,
             trials,
             times: own.map(|trial| (row_key(trial), trial.micros)).collect(),
@@ -31,7 +31,7 @@ impl<'a> Reference<'a> {
 
     /// Returns the median ratio of a method's times to those of the reference, over the rows that both ran on; `None`
     /// without such rows.
-    fn ratio(&self, cell: &Cell) -> Option<f64> {
+    fn median_time_ratio(&self, cell: &Cell) -> Option<f64> {
         let of_cell = |trial: &&Trial| {
             trial.method == cell.method
                 && trial.scene == cell.scene
@@ -59,7 +59,7 @@ impl<'a> Reference<'a> {
             .collect();
         let moved = cells.iter().map(|cell| {
             let here = (cell.scene.as_str(), cell.tolerance.to_bits());
-            let median_us = medians.get(&here).zip(self.ratio(cell));
+            let median_us = medians.get(&here).zip(self.median_time_ratio(cell));
             Cell {
                 median_us: median_us.map_or(cell.median_us, |(time, ratio)| time * ratio),
                 ..cell.clone()

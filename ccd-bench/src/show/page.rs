@@ -11,7 +11,11 @@ mod tests;
 ///
 /// # Errors
 /// If the views cannot be serialised.
-pub fn html(chart: &str, views: &Views, tables: &[TextTable]) -> Result<String, serde_json::Error> {
+pub fn page_html(
+    chart: &str,
+    views: &Views,
+    tables: &[TextTable],
+) -> Result<String, serde_json::Error> {
     let parts = [
         ("style", include_str!("page/style.css").to_owned()),
         ("charts", format!("<figure>{chart}</figure>\n")),

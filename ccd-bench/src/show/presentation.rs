@@ -2,8 +2,8 @@
 
 use crate::method::PAPER_TOLERANCE;
 use crate::run::evaluation::Evaluation;
-use crate::show::chart::{Charts, Family, MethodFacts};
-use crate::show::comparable::Reference;
+use crate::show::chart::{ChartData, MethodFacts, MethodFamily};
+use crate::show::comparable::ReferenceTimes;
 use crate::show::page;
 use crate::show::tables::{self, TextTable};
 use crate::show::views::Views;
@@ -25,39 +25,42 @@ const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 ///
 /// # Errors
 /// If there is nothing to draw, or a file cannot be written.
-pub fn present(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable, PathBuf)> {
+pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable, PathBuf)> {
     let (cells, trials) = (evaluated.journal.cells(), evaluated.journal.trials());
     let methods = tables::methods(cells).into_iter();
-    let methods: Vec<MethodFacts<'_>> = methods.map(MethodFacts::named).collect();
+    let methods: Vec<MethodFacts<'_>> = methods.map(MethodFacts::from_name).collect();
     let scenes = evaluated.scenes.iter().map(|scene| scene.name.as_str());
     let scenes: Vec<&str> = scenes.collect();
     let is_other = |method: &&MethodFacts<'_>| {
-        matches!(method.family, Family::Rival | Family::Peer) || method.name == PAPER_METHOD
+        matches!(method.family, MethodFamily::Rival | MethodFamily::Peer)
+            || method.name == PAPER_METHOD
     };
     let others = methods.iter().filter(is_other).map(|method| method.name);
     let others: Vec<&str> = others.collect();
-    let compared = |tolerance| tables::ratios(trials, REFERENCE_METHOD, &others, tolerance);
-    let mut published = tables::ratios(trials, PAPER_METHOD, &PAPERS_RIVALS, PAPER_TOLERANCE);
+    let compared =
+        |tolerance| tables::time_ratio_table(trials, REFERENCE_METHOD, &others, tolerance);
+    let mut published =
+        tables::time_ratio_table(trials, PAPER_METHOD, &PAPERS_RIVALS, PAPER_TOLERANCE);
     published.title += "; the paper reports 1.4 to 45.5 over CONTACT";
-    let reference = Reference::new(REFERENCE_METHOD, trials);
-    let safety = tables::safety(cells, trials);
+    let reference = ReferenceTimes::new(REFERENCE_METHOD, trials);
+    let safety = tables::safety_table(cells, trials);
     let tables = [
         compared(PAPER_TOLERANCE),
         compared(FINE_TOLERANCE),
         published,
         safety.clone(),
     ];
-    let charts = Charts {
+    let charts = ChartData {
         cells: &reference.comparable_cells(cells),
         scenes: &scenes,
         methods: &methods,
     };
-    let chart = charts.pareto()?.unwrap_or_default();
+    let chart = charts.draw_pareto_chart()?.unwrap_or_default();
     write(&folder.join("pareto.svg"), &chart)?;
     let text: Vec<String> = tables.iter().map(|table| format!("{table}\n")).collect();
     write(&folder.join("tables.md"), &text.join("\n"))?;
     let page = folder.join("index.html");
     let views = Views::new(&evaluated.scenes)?;
-    write(&page, &page::html(&chart, &views, &tables)?)?;
+    write(&page, &page::page_html(&chart, &views, &tables)?)?;
     Ok((safety, page))
 }

@@ -24,7 +24,7 @@ pub struct TextTable {
 }
 
 /// The number of rows below which a median is shown together with the number of rows.
-const FEW_ROWS: usize = 10;
+const SMALL_SAMPLE_SIZE: usize = 10;
 
 /// The text in place of a value that is missing.
 const NO_VALUE: &str = "–";
@@ -77,7 +77,7 @@ const COUNTS: [Count; 8] = [
 
 /// Counts how often each method was late, missed a contact, or reported a false one, over all
 /// scenes and tolerances. Methods that answer no query are left out.
-pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
+pub fn safety_table(cells: &[Cell], trials: &[Trial]) -> TextTable {
     let not_judged = Verdict::NotJudged.to_string();
     let answers = |method: &str| {
         let judged = |t: &Trial| t.method == method && t.verdict != not_judged;
@@ -101,7 +101,12 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
 /// Compares the times of other methods with those of a reference, scene by scene. A cell has the
 /// median of the ratios query by query (and the ratio of the total times) over the queries that
 /// both were asked, and a mark if the other method was late or missed a contact there.
-pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64) -> TextTable {
+pub fn time_ratio_table(
+    trials: &[Trial],
+    reference: &str,
+    others: &[&str],
+    tolerance: f64,
+) -> TextTable {
     let title = format!("Time in units of {reference}, tolerance {tolerance:e}");
     let mut table = TextTable::new(&title, ["scene"].iter().chain(others).copied());
     let at = |t: &&Trial| t.tolerance == tolerance;
@@ -149,7 +154,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         ""
     };
     let rows = match ratios.len() {
-        few @ ..FEW_ROWS => format!(" [{few}]"),
+        few @ ..SMALL_SAMPLE_SIZE => format!(" [{few}]"),
         _ => String::new(),
     };
     let mark = if occurs(Verdict::Late) || occurs(Verdict::Missed) {
@@ -158,13 +163,13 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         ""
     };
     let (typical, total) = (
-        three_digits(median(&mut ratios)),
-        three_digits(theirs / ours),
+        format_three_digits(median(&mut ratios)),
+        format_three_digits(theirs / ours),
     );
     format!("{given_up}{typical} ({total}){rows}{mark}")
 }
 
-fn three_digits(value: f64) -> String {
+fn format_three_digits(value: f64) -> String {
     match value {
         ..10.0 => format!("{value:.2}"),
         10.0..100.0 => format!("{value:.1}"),
@@ -174,7 +179,10 @@ fn three_digits(value: f64) -> String {
 
 /// Returns the names of the methods in a table, in the usual order.
 pub fn methods(cells: &[Cell]) -> Vec<&str> {
-    let order: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
+    let order: Vec<String> = Method::built_in_methods()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     let mut methods: Vec<&str> = Vec::new();
     for cell in cells {
         if !methods.contains(&cell.method.as_str()) {

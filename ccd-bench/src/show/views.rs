@@ -20,7 +20,7 @@ pub struct Views {
 }
 
 /// The maximum numbers of contacts and of other motions of a scene to view.
-const MOST_VIEWS: [usize; 2] = [6, 2];
+const MAX_VIEWS: [usize; 2] = [6, 2];
 
 impl Views {
     /// Draws the first contacts of each scene, and the first other motions.
@@ -54,7 +54,7 @@ impl Views {
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;
             let kind = usize::from(!matches!(answer.outcome, Outcome::Contact { .. }));
-            if found[kind].len() < MOST_VIEWS[kind] {
+            if found[kind].len() < MAX_VIEWS[kind] {
                 let course = Movements::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
                 let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_comparison(None));
@@ -64,7 +64,7 @@ impl Views {
                 }
                 found[kind].push(view);
             }
-            if found.each_ref().map(Vec::len) == MOST_VIEWS {
+            if found.each_ref().map(Vec::len) == MAX_VIEWS {
                 break;
             }
         }

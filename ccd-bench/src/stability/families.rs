@@ -36,7 +36,7 @@ fn family(name: &'static str, make: fn(f64) -> Result<FamilyStep>) -> Family {
     Family {
         name,
         parameter: "",
-        values: Vec::new(),
+        parameter_values: Vec::new(),
         make,
     }
 }
@@ -52,7 +52,7 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 }
 
 /// Returns the step of a body that falls onto a slab, and meets it at a time known to within 1e-14.
-fn onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
+fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(mesh, slab()?);
     let expected = contact_at(time, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)

@@ -15,7 +15,7 @@ pub struct Family {
     /// The description of the parameter in words.
     pub parameter: &'static str,
     /// The values of the parameter, the easiest first.
-    pub values: Vec<f64>,
+    pub parameter_values: Vec<f64>,
     /// The function that makes the scene of a value.
     pub make: fn(f64) -> Result<FamilyStep>,
 }
@@ -32,16 +32,16 @@ pub struct FamilyStep {
     /// The duration of all queries.
     pub duration: f64,
     /// The queries with their answers.
-    pub cases: Vec<Case>,
+    pub cases: Vec<ExactCase>,
 }
 
 /// A query with its exact answer.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct ExactCase {
     /// The motions of both bodies.
     pub query: Motions,
     /// The exact answer of the query, in which a contact is a distance of at most the margin, or a body inside the other.
-    pub expected: Truth,
+    pub expected_truth: Truth,
 }
 
 impl Family {
@@ -49,7 +49,7 @@ impl Family {
     pub(super) fn with_values(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
             parameter,
-            values,
+            parameter_values: values,
             ..self
         }
     }
@@ -120,7 +120,7 @@ impl BodyMotion {
     }
 
     /// Returns the same motion with another orientation at the start.
-    pub(super) fn oriented(self, turned: DQuat) -> Self {
+    pub(super) fn with_orientation(self, turned: DQuat) -> Self {
         BodyMotion {
             orientation: turned,
             ..self
@@ -128,7 +128,7 @@ impl BodyMotion {
     }
 
     /// Returns the same motion with an added rotation about the centre.
-    pub(super) fn spinning(self, spin: DVec3) -> Self {
+    pub(super) fn with_spin(self, spin: DVec3) -> Self {
         BodyMotion {
             angular_velocity: spin,
             ..self
@@ -214,7 +214,10 @@ impl FamilyStep {
             },
             other => other,
         };
-        self.cases.push(Case { query, expected });
+        self.cases.push(ExactCase {
+            query,
+            expected_truth: expected,
+        });
         Ok(self)
     }
 }

@@ -16,7 +16,7 @@ pub struct Findings<'j> {
     pub(super) methods: Vec<Method>,
     pub(super) journal: &'j Journal,
     /// The worst verdict on each step by each method.
-    worst: HashMap<(&'j str, &'j str), Verdict>,
+    worst_verdicts: HashMap<(&'j str, &'j str), Verdict>,
 }
 
 /// A step of a family to which a method gave a wrong answer.
@@ -29,13 +29,13 @@ pub(super) struct FailedStep {
 
 /// How far a method is right in a family.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reach {
+pub(super) struct SolvedRange {
     /// The share of the family's steps, from the easiest, before the first wrong answer.
     pub(super) solved_fraction: f64,
     /// The first step with a wrong answer; `None` if all are right.
     pub(super) first: Option<FailedStep>,
     /// The first step with the worst verdict of all; `None` if all are right.
-    pub(super) worst_answers: Option<FailedStep>,
+    pub(super) first_worst_step: Option<FailedStep>,
 }
 
 impl<'j> Findings<'j> {
@@ -51,18 +51,18 @@ impl<'j> Findings<'j> {
         let (steps, asked): (HashSet<&str>, HashSet<&str>) = worst.keys().copied().unzip();
         let asked_about = |mut family: Family| {
             let name = |value: f64| step_name(&family, value);
-            let values = family.values.iter().copied();
-            family.values = values
+            let values = family.parameter_values.iter().copied();
+            family.parameter_values = values
                 .filter(|&v| steps.contains(name(v).as_str()))
                 .collect();
-            (!family.values.is_empty()).then_some(family)
+            (!family.parameter_values.is_empty()).then_some(family)
         };
         let was_asked = |method: &Method| asked.contains(method.to_string().as_str());
         Findings {
             families: families.into_iter().filter_map(asked_about).collect(),
             methods: methods.into_iter().filter(was_asked).collect(),
             journal,
-            worst,
+            worst_verdicts: worst,
         }
     }
 
@@ -72,21 +72,22 @@ impl<'j> Findings<'j> {
     }
 
     /// Returns how far a method is right in a family; `None` without answers.
-    pub(super) fn reach(&self, family: &Family, method: &str) -> Option<Reach> {
+    pub(super) fn reach(&self, family: &Family, method: &str) -> Option<SolvedRange> {
         let answer = |&value: &f64| {
             let step = step_name(family, value);
-            Some((value, *self.worst.get(&(step.as_str(), method))?))
+            Some((value, *self.worst_verdicts.get(&(step.as_str(), method))?))
         };
-        let asked: Vec<(f64, Verdict)> = family.values.iter().filter_map(answer).collect();
+        let asked: Vec<(f64, Verdict)> =
+            family.parameter_values.iter().filter_map(answer).collect();
         let most = asked.iter().map(|&(_, verdict)| verdict).max()?;
         let is_right = |asked: &&(f64, Verdict)| asked.1 == Verdict::Right;
         let right = asked.iter().take_while(is_right).count();
         let limit = |&(value, verdict): &(f64, Verdict)| FailedStep { value, verdict };
         let worst = asked.iter().find(|step| step.1 == most && !is_right(step));
-        Some(Reach {
-            solved_fraction: right as f64 / family.values.len() as f64,
+        Some(SolvedRange {
+            solved_fraction: right as f64 / family.parameter_values.len() as f64,
             first: asked.get(right).map(limit),
-            worst_answers: worst.map(limit),
+            first_worst_step: worst.map(limit),
         })
     }
 }

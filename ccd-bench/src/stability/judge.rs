@@ -1,6 +1,6 @@
 //! Judges the answer to a query of a step against the exact one.
 
-use super::family::{Case, FamilyStep};
+use super::family::{ExactCase, FamilyStep};
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{self, Judgement, Verdict, is_within_tolerance, judge_contact};
@@ -13,36 +13,43 @@ const MAX_START_TIME: f64 = 1e-12;
 /// measures distances; it is not asked for the answer.
 pub fn judge(
     step: &FamilyStep,
-    case: &Case,
+    case: &ExactCase,
     referee: &Referee<'_>,
     outcome: &QueryOutcome,
 ) -> Judgement {
     contest::judge_outcome(outcome, |reply| judge_reply(step, case, referee, reply))
 }
 
-fn judge_reply(step: &FamilyStep, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judgement {
+fn judge_reply(
+    step: &FamilyStep,
+    case: &ExactCase,
+    referee: &Referee<'_>,
+    reply: &Reply,
+) -> Judgement {
     let claim = reply.claim;
     let query = &case.query;
     let within = step.margin + reply.judging_tolerance(step.tolerance);
-    match case.expected {
+    match case.expected_truth {
         _ if claim == Claim::Refused => Judgement::without_error(Verdict::Refused),
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
             is_within_tolerance(referee, query, time, within)
         }),
-        Truth::Start => Judgement::without_error(from_start(claim, query.duration)),
+        Truth::ContactAtStart => {
+            Judgement::without_error(judge_contact_from_start(claim, query.duration))
+        }
         truth => contest::judge(referee, query, truth, claim, within),
     }
 }
 
 /// Judges a claim about bodies in contact from the start.
-fn from_start(claim: Claim, duration: f64) -> Verdict {
+fn judge_contact_from_start(claim: Claim, duration: f64) -> Verdict {
     match claim {
         Claim::Contact { time } if time <= MAX_START_TIME * duration => Verdict::Right,
         Claim::Unresolved { safe_until } if safe_until <= MAX_START_TIME * duration => {
             Verdict::Unresolved
         }
         Claim::Contact { .. } | Claim::Unresolved { .. } => Verdict::Late,
-        Claim::Free => Verdict::Missed,
+        Claim::NoContact => Verdict::Missed,
         Claim::Refused => Verdict::Refused,
         Claim::NoClaim => Verdict::NotJudged,
     }

@@ -1,8 +1,8 @@
 //! Makes the meshes of the families.
 
 pub(super) use crate::scene::model::cuboid;
-use crate::scene::model::ring;
 use crate::scene::model::sphere::sphere;
+use crate::scene::model::torus_mesh;
 use ccd_core::glam::{DAffine3, DVec3, dvec3};
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
@@ -38,7 +38,7 @@ pub(super) fn sheet(squares: u32) -> Result<TriangleMesh, MeshError> {
 
 /// Returns a torus about the z axis.
 pub(super) fn torus(radius: f64, tube: f64) -> Result<TriangleMesh, MeshError> {
-    ring([64, 24], radius, tube)
+    torus_mesh([64, 24], radius, tube)
 }
 
 /// Returns a cone that stands on its tip at the origin, with its base at z = 1.
@@ -62,13 +62,13 @@ pub(super) const TOOTH_SHARE: f64 = 0.4;
 pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
     let border = |k: u32| (f64::from(k / 2) + TOOTH_SHARE * f64::from(k % 2)) / f64::from(teeth);
     let borders: Vec<f64> = (0..2 * teeth).map(border).collect();
-    extrude(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
+    extrude_cells(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
         level == 0 || column % 2 == 0
     })
 }
 
 /// Returns a solid that is extruded along y by a half depth: the filled cells of a grid in the plane of x and z.
-pub(super) fn extrude(
+pub(super) fn extrude_cells(
     x: &[f64],
     z: &[f64],
     half: f64,
@@ -128,7 +128,7 @@ fn with_used_vertices(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<Triang
 /// height.
 pub(super) fn slit_plate(slit: f64) -> Result<TriangleMesh, MeshError> {
     let levels = [-3.0, -slit, slit, 3.0];
-    extrude(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
+    extrude_cells(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
 }
 
 /// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch per turn.

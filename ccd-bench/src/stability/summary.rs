@@ -5,7 +5,7 @@ use super::findings::Findings;
 use super::survey::step_name;
 use crate::run::contest::Verdict;
 use crate::run::measured::{Cell, Trial};
-use crate::show::chart::{GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
+use crate::show::chart::{COST_GROWTH, HeatCell, HeatMap, HeatMapKind, HeatRow, SOLVED_RANGE};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
 use clap::ValueEnum;
@@ -60,7 +60,7 @@ pub fn limits(findings: &Findings<'_>) -> TextTable {
 pub fn solved_range_map(findings: &Findings<'_>) -> HeatMap {
     map(findings, SOLVED_RANGE, |family, method| {
         let reach = findings.reach(family, method)?;
-        let worst = reach.worst_answers;
+        let worst = reach.first_worst_step;
         Some(HeatCell::reach(
             worst.map_or(Verdict::Right, |limit| limit.verdict),
             reach.solved_fraction,
@@ -79,8 +79,8 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
     let cells = findings.journal.cells().iter();
     let costs: HashMap<(String, String), f64> =
         cells.filter(|cell| cell.cut_off == 0).map(cost).collect();
-    map(findings, GROWTH, |family, method| {
-        let costs = family.values.iter().filter_map(|&value| {
+    map(findings, COST_GROWTH, |family, method| {
+        let costs = family.parameter_values.iter().filter_map(|&value| {
             let key = (step_name(family, value), method.to_owned());
             costs.get(&key).copied()
         });
@@ -90,7 +90,7 @@ pub fn growth_map(findings: &Findings<'_>) -> HeatMap {
         };
         let most = costs.iter().copied().fold(0.0, greater);
         // Some methods count no steps.
-        (most > 1.0).then_some(HeatCell::growth(most / easiest))
+        (most > 1.0).then_some(HeatCell::cost_growth(most / easiest))
     })
 }
 

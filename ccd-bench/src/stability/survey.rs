@@ -4,10 +4,10 @@
 use super::family::{Family, FamilyStep};
 use super::judge::judge;
 use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
-use crate::method::rival::is_screw;
+use crate::method::rival::are_screw_motions;
 use crate::method::solver::TimedReply;
 use crate::method::{Method, MotionKind};
-use crate::run::contest::{Journal, Judgement, Verdict, program_stamp, summarise};
+use crate::run::contest::{Journal, Judgement, Verdict, program_stamp, summarise_trials};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use anyhow::{Context, Result};
@@ -54,21 +54,21 @@ impl Survey {
     /// If a scene cannot be made, a method cannot be started, or the journal cannot be kept; earlier answers are kept.
     pub fn run(&self) -> Result<Journal> {
         for &method in &self.methods {
-            self.programs.check(method)?;
+            self.programs.check_script_starts(method)?;
         }
         let journal = Mutex::new(Journal::open(&self.folder, &stamp())?);
         let steps = self.families.iter().map(|f| self.values(f).len());
         let steps: usize = steps.sum();
         let progress = Progress::new(Total::Steps(steps * self.methods.len()));
         let families = self.families.par_iter();
-        families.try_for_each(|family| self.ask_family(family, &journal, &progress))?;
+        families.try_for_each(|family| self.run_family_queries(family, &journal, &progress))?;
         drop(progress);
         Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Returns the values of a family that are asked about.
     fn values(&self, family: &Family) -> Vec<f64> {
-        let all = &family.values;
+        let all = &family.parameter_values;
         if self.full {
             return all.clone();
         }
@@ -77,7 +77,7 @@ impl Survey {
         rows.into_iter().map(|row| all[row]).collect()
     }
 
-    fn ask_family(
+    fn run_family_queries(
         &self,
         family: &Family,
         journal: &Mutex<Journal>,
@@ -96,7 +96,7 @@ impl Survey {
                 progress.set_message(&format!("{name}: {method}"));
                 progress.step();
                 let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
-                let known = locked().has(&name, &method.to_string(), step.tolerance);
+                let known = locked().has_cell(&name, &method.to_string(), step.tolerance);
                 if *stopped >= STOPS_BEFORE_SKIPPING || known {
                     continue;
                 }
@@ -108,7 +108,7 @@ impl Survey {
                 } else {
                     *stopped = 0;
                 }
-                locked().add(summarise(&trials), trials)?;
+                locked().add(summarise_trials(&trials), trials)?;
             }
         }
         Ok(())
@@ -128,7 +128,7 @@ impl PreparedStep<'_> {
         let step = self.step;
         let setting = GuardSettings {
             margin: step.margin,
-            preparation: PREPARATION_TIME_LIMIT,
+            preparation_limit: PREPARATION_TIME_LIMIT,
             ..GuardSettings::new(method, step.tolerance)
         };
         let name = method.to_string();
@@ -144,17 +144,17 @@ impl PreparedStep<'_> {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
-                let judged = (judge_not_started(error)?, note);
-                return Ok(vec![trial(0, &QueryOutcome::Died, judged)]);
+                let judged = (judge_failed_start(error)?, note);
+                return Ok(vec![trial(0, &QueryOutcome::Crashed, judged)]);
             }
         };
         let [a, b] = &self.surfaces;
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
-            if method.motion_kind() == MotionKind::Screw && !is_screw(&case.query) {
+            if method.motion_kind() == MotionKind::Screw && !are_screw_motions(&case.query) {
                 let refused = Judgement::without_error(Verdict::Refused);
                 let note = "bodies move along screws only".to_owned();
-                trials.push(trial(row, &QueryOutcome::Died, (refused, note)));
+                trials.push(trial(row, &QueryOutcome::Crashed, (refused, note)));
                 continue;
             }
             let outcome = guarded.run_query(&case.query, QUERY_TIME_LIMIT)?;
@@ -182,7 +182,7 @@ impl PreparedStep<'_> {
 }
 
 /// Judges a method that ends before its first query.
-fn judge_not_started(error: io::Error) -> io::Result<Judgement> {
+fn judge_failed_start(error: io::Error) -> io::Result<Judgement> {
     Ok(Judgement::without_error(match error.kind() {
         io::ErrorKind::Unsupported => Verdict::Refused,
         io::ErrorKind::TimedOut => Verdict::CutOff,

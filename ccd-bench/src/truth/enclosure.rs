@@ -1,6 +1,6 @@
 //! Vectors, matrices and rotations whose entries are intervals.
 
-use super::interval::{Interval, exact};
+use super::interval::{Interval, point_interval};
 use ccd_core::glam::{DQuat, DVec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -12,9 +12,9 @@ pub(super) struct IntervalVector(pub(super) [Interval; 3]);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IntervalMatrix(pub(super) [[Interval; 3]; 3]);
 
-const ZERO: Interval = exact(0.0);
-const ONE: Interval = exact(1.0);
-const TWO: Interval = exact(2.0);
+const ZERO: Interval = point_interval(0.0);
+const ONE: Interval = point_interval(1.0);
+const TWO: Interval = point_interval(2.0);
 /// The range of every sine and cosine.
 const SINE_RANGE: Interval = Interval::new(-1.0, 1.0);
 
@@ -44,7 +44,7 @@ impl IntervalVector {
 
 impl From<DVec3> for IntervalVector {
     fn from(v: DVec3) -> Self {
-        IntervalVector(v.to_array().map(exact))
+        IntervalVector(v.to_array().map(point_interval))
     }
 }
 
@@ -56,7 +56,7 @@ impl IntervalMatrix {
 
     /// Returns the rotation of a quaternion of about unit length, after normalisation.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
-        let [x, y, z, w] = q.to_array().map(exact);
+        let [x, y, z, w] = q.to_array().map(point_interval);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
         let [xy, yz, zx] = [TWO * x * y, TWO * y * z, TWO * z * x];
         let [wx, wy, wz] = [TWO * w * x, TWO * w * y, TWO * w * z];
@@ -72,11 +72,11 @@ impl IntervalMatrix {
     /// Returns the rotation by an angular velocity over a time, whatever the number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
-    pub(super) fn turn(spin: DVec3, time: f64) -> Self {
+    pub(super) fn from_angular_velocity(spin: DVec3, time: f64) -> Self {
         let omega = IntervalVector::from(spin);
         let square = omega.0[0].sqr() + omega.0[1].sqr() + omega.0[2].sqr();
         let rate = square.sqrt();
-        let angle = rate * exact(time);
+        let angle = rate * point_interval(time);
         if !(square.inf() > MIN_SQUARED_ANGULAR_SPEED) {
             // The bound |R − I| ≤ θ is all that remains if the squares underflow.
             let off = SINE_RANGE * angle;
@@ -154,9 +154,9 @@ impl Neg for IntervalVector {
 /// |r|ⁿ⁺¹/(n+1)!: r²¹/21! for the sine, r²²/22! for the cosine, below 2e-22.
 pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
-    let rest = x - exact(quarters) * Interval::FRAC_PI_2;
+    let rest = x - point_interval(quarters) * Interval::FRAC_PI_2;
     // The first comparison is false for an unbounded interval.
-    if !(rest.mag() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MOST_QUARTERS) {
+    if !(rest.mag() <= LARGEST_POLYNOMIAL_ARGUMENT && quarters.abs() <= MAX_QUARTER_TURNS) {
         return (SINE_RANGE, SINE_RANGE);
     }
     let (sine, cosine) = taylor_sin_cos(rest);
@@ -171,10 +171,10 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
 /// The largest argument for the polynomial, in radians: a little over π/2. Reduced arguments are at most about π/4.
 const LARGEST_POLYNOMIAL_ARGUMENT: f64 = 1.6;
 /// 2⁵⁰, the largest number of quarter turns to subtract: up to it, the number and its remainder modulo 4 are exact.
-const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
+const MAX_QUARTER_TURNS: f64 = 1_125_899_906_842_624.0;
 /// The factorial of 21, which is exact in f64: an odd number below 2⁵³ times 2¹⁸.
-const FACTORIAL_21: Interval = exact(51_090_942_171_709_440_000.0);
-const TWENTY_TWO: Interval = exact(22.0);
+const FACTORIAL_21: Interval = point_interval(51_090_942_171_709_440_000.0);
+const FACTORIAL_22_BY_21: Interval = point_interval(22.0);
 
 fn taylor_sin_cos(r: Interval) -> (Interval, Interval) {
     let square = r.sqr();
@@ -183,16 +183,16 @@ fn taylor_sin_cos(r: Interval) -> (Interval, Interval) {
         let n = f64::from(2 * k);
         if k < 10 {
             // 1 − r²/(2k(2k+1)) (…)
-            sine = ONE - square / exact(n * (n + 1.0)) * sine;
+            sine = ONE - square / point_interval(n * (n + 1.0)) * sine;
         }
-        cosine = ONE - square / exact((n - 1.0) * n) * cosine;
+        cosine = ONE - square / point_interval((n - 1.0) * n) * cosine;
     }
     let mut power = r.abs();
     for _ in 0..10 {
         power = power * square;
     }
     let sine_rest = power / FACTORIAL_21;
-    let cosine_rest = sine_rest * r.abs() / TWENTY_TWO;
+    let cosine_rest = sine_rest * r.abs() / FACTORIAL_22_BY_21;
     (
         (r * sine + SINE_RANGE * sine_rest).intersection(SINE_RANGE),
         (cosine + SINE_RANGE * cosine_rest).intersection(SINE_RANGE),

@@ -1,10 +1,10 @@
 //! Computes the distance of two surfaces at one time.
 
 use super::DistanceBounds;
-use super::rounding::FORTY_ROUNDINGS;
+use super::rounding::FORTY_ROUNDINGS_ERROR;
 use super::search::{Pair, Search};
 use super::snapshot::{Snapshot, Span};
-use super::triangle::{gap, nearest_or_common, normals};
+use super::triangle::{gap, nearest_or_common_points, separating_axis_candidates};
 use ccd_core::order::{greater, lesser};
 
 /// Returns bounds on the least distance between the surfaces at a time. The nearer part comes first, and parts farther
@@ -36,7 +36,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
         search.budget -= 1;
         if let Some(split) = search.split(pair) {
             let mut parts = split
-                .parts
+                .child_pairs
                 .map(|part| (box_distance_bound(&search, &snapshot, part), part));
             // The last one is examined first.
             if parts[0].0 < parts[1].0 {
@@ -56,7 +56,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> DistanceBounds {
 
 fn box_distance_bound(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
     let [a, b] = search.nodes(pair);
-    snapshot.boxes_distance(a, b)
+    snapshot.box_distance_lower_bound(a, b)
 }
 
 /// Returns bounds on the distance of two triangles: any two points bound it from above, and the gap along any direction
@@ -73,13 +73,13 @@ fn triangle_distance_bounds(
         };
     };
     let placed = snapshot.triangle_at_instant(a);
-    let (p, q) = nearest_or_common(&placed, b);
-    let directions = normals(&placed, b).chain([(p - q).normalize()]);
+    let (p, q) = nearest_or_common_points(&placed, b);
+    let directions = separating_axis_candidates(&placed, b).chain([(p - q).normalize()]);
     let gaps = directions
         .filter(|n| n.is_finite())
         .map(|n| gap(n, &placed, b));
     DistanceBounds {
-        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS) - snapshot.slack(),
+        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR) - snapshot.slack(),
         upper: (p - q).length() + snapshot.slack(),
     }
 }

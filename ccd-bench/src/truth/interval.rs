@@ -10,7 +10,7 @@
 //! Everything doubtful becomes the whole line, which proves nothing: bounds that are not numbers,
 //! 0 times infinity, division by what may be 0, an operation that is left without operands.
 
-use super::rounding::larger;
+use super::rounding::nan_propagating_max;
 use ccd_core::order::{greater, lesser};
 use std::ops::{Add, Div, Mul, Neg, RangeInclusive, Sub};
 
@@ -24,7 +24,7 @@ pub(super) struct Interval {
 }
 
 /// Returns the interval of a single float; the whole line if it is not finite.
-pub(super) const fn exact(x: f64) -> Interval {
+pub(super) const fn point_interval(x: f64) -> Interval {
     Interval::new(x, x)
 }
 
@@ -69,8 +69,8 @@ impl Interval {
     /// Returns an upper bound of the distance of the numbers from `mid`, whatever `mid` rounds to.
     pub(super) fn rad(self) -> f64 {
         let mid = self.mid();
-        let ([_, below], [_, above]) = (sum(mid, -self.inf), sum(self.sup, -mid));
-        larger(below, above)
+        let ([_, below], [_, above]) = (sum_bounds(mid, -self.inf), sum_bounds(self.sup, -mid));
+        nan_propagating_max(below, above)
     }
 
     /// Returns the least upper bound of the numbers' absolute values.
@@ -89,7 +89,7 @@ impl Interval {
     /// where the lower bound of a product is.
     pub(super) fn sqr(self) -> Self {
         let Interval { inf, sup } = self.abs();
-        let ([least, _], [_, most]) = (product(inf, inf), product(sup, sup));
+        let ([least, _], [_, most]) = (product_bounds(inf, inf), product_bounds(sup, sup));
         Interval::new(greater(least, 0.0), most)
     }
 
@@ -109,12 +109,12 @@ impl Interval {
 
     /// Returns the products with the numbers in `factor`, none of which is negative.
     fn times_nonnegative(self, factor: Self) -> Self {
-        self.scaled_between(product, [factor.inf, factor.sup])
+        self.scaled_between(product_bounds, [factor.inf, factor.sup])
     }
 
     /// Returns the quotients by the numbers in `divisor`, all of which are positive.
     fn divided_by_positive(self, divisor: Self) -> Self {
-        self.scaled_between(quotient, [divisor.sup, divisor.inf])
+        self.scaled_between(quotient_bounds, [divisor.sup, divisor.inf])
     }
 
     /// Returns the results of scaling by factors from `least` to `most`. The lower bound is scaled by `least`, or by
@@ -144,7 +144,10 @@ impl Add for Interval {
 
     /// Adds the bounds: a sum is increasing in both operands.
     fn add(self, other: Interval) -> Interval {
-        let ([inf, _], [_, sup]) = (sum(self.inf, other.inf), sum(self.sup, other.sup));
+        let ([inf, _], [_, sup]) = (
+            sum_bounds(self.inf, other.inf),
+            sum_bounds(self.sup, other.sup),
+        );
         Interval::new(inf, sup)
     }
 }
@@ -177,9 +180,15 @@ impl Mul for Interval {
         if self.sup <= 0.0 {
             return -other.times_nonnegative(-self);
         }
-        let ([x, _], [_, y]) = (product(self.inf, other.sup), product(self.inf, other.inf));
-        let ([u, _], [_, v]) = (product(self.sup, other.inf), product(self.sup, other.sup));
-        Interval::new(-larger(-x, -u), larger(y, v))
+        let ([x, _], [_, y]) = (
+            product_bounds(self.inf, other.sup),
+            product_bounds(self.inf, other.inf),
+        );
+        let ([u, _], [_, v]) = (
+            product_bounds(self.sup, other.inf),
+            product_bounds(self.sup, other.sup),
+        );
+        Interval::new(-nan_propagating_max(-x, -u), nan_propagating_max(y, v))
     }
 }
 
@@ -219,7 +228,7 @@ fn rounded_outward(rounded: f64, rest: f64) -> [f64; 2] {
 ///
 /// Knuth's error of a sum (TwoSum) is exact unless something overflows, and then it is not finite.
 /// Small sums are exact.
-fn sum(x: f64, y: f64) -> [f64; 2] {
+fn sum_bounds(x: f64, y: f64) -> [f64; 2] {
     let sum = x + y;
     let back = sum - x;
     let rest = (x - (sum - back)) + (y - back);
@@ -227,7 +236,7 @@ fn sum(x: f64, y: f64) -> [f64; 2] {
 }
 
 /// Returns bounds of the exact product of two floats; NaN for 0 times infinity.
-fn product(x: f64, y: f64) -> [f64; 2] {
+fn product_bounds(x: f64, y: f64) -> [f64; 2] {
     let product = x * y;
     if x == 0.0 || y == 0.0 {
         return [product; 2];
@@ -237,7 +246,7 @@ fn product(x: f64, y: f64) -> [f64; 2] {
 
 /// Returns bounds of the exact quotient of two floats, of which the second is not 0. A number over infinity stands for
 /// quotients that come near 0.
-fn quotient(x: f64, y: f64) -> [f64; 2] {
+fn quotient_bounds(x: f64, y: f64) -> [f64; 2] {
     let quotient = x / y;
     if x == 0.0 {
         return [quotient; 2];

@@ -1,10 +1,10 @@
 //! Searches for the first contact of two surfaces by halving time. Time is halved, earliest first, and each half starts
 //! from the pairs of nodes that could not be excluded over the whole.
 
-use super::snapshot::{Boxes, IntervalMaps, Snapshot, Span};
+use super::snapshot::{BoxSeparation, IntervalMaps, Snapshot, Span};
 use super::surface::{Content, Node, Surface, Triangle};
 use super::track::EnclosedMotion;
-use super::triangle::{gap, nearest, normals};
+use super::triangle::{gap, nearest, separating_axis_candidates};
 use super::{Referee, Truth};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
@@ -16,8 +16,8 @@ pub(super) type Pair = [u32; 2];
 /// The state of the search for the answer to one query.
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
-    pub(super) tracks: [EnclosedMotion; 2],
-    farthest: [f64; 2],
+    pub(super) motions: [EnclosedMotion; 2],
+    farthest_distances: [f64; 2],
     duration: f64,
     /// The number of tests of pairs that may still be made.
     pub(super) budget: u64,
@@ -30,26 +30,26 @@ const BUDGET: u64 = 30_000_000;
 const SHORTEST_SPAN: f64 = 1.0 / (1_u64 << 46) as f64;
 /// How often the step is doubled in the search for a proven contact after the first undecided time. The last step is
 /// about a thousandth of the duration.
-const MOST_DOUBLINGS: u32 = 36;
+const MAX_DOUBLINGS: u32 = 36;
 /// The number of doublings after which all triangles are tested, not only those that came near first.
 const DOUBLINGS_PER_FULL_TEST: u32 = 6;
 /// The size of nodes, as a multiple of their displacement in the interval, up to which they are not split.
 const LARGEST_UNSPLIT_SIZE: f64 = 1.0;
 /// The size, as a fraction of the displacement, below which triangles are separated as well by their boxes.
-const BOXES_SUFFICE_BELOW: f64 = 0.25;
+const MAX_SIZE_FOR_BOX_TEST: f64 = 0.25;
 
 /// The number of normals of two triangles' faces.
-const FACE_NORMALS: usize = 2;
+const FACE_NORMAL_COUNT: usize = 2;
 /// The distance, as a fraction of the edges, below which triangles are also tested along the normals of pairs of edges.
-const EDGE_NORMALS_BELOW: f64 = 1e-3;
+const MAX_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
 
 /// The pairs of nodes that may meet within an interval of time.
 #[derive(Debug, PartialEq)]
 enum RemainingPairs {
     /// The pairs of nodes that are not excluded.
-    Remaining(Vec<Pair>),
+    NotExcluded(Vec<Pair>),
     /// The budget of tests was used up before all pairs were tested.
-    Spent,
+    BudgetSpent,
 }
 
 impl<'a> Search<'a> {
@@ -57,11 +57,11 @@ impl<'a> Search<'a> {
         let surfaces = [referee.a, referee.b];
         Search {
             surfaces,
-            tracks: [
+            motions: [
                 EnclosedMotion::new(&query.a, referee.a),
                 EnclosedMotion::new(&query.b, referee.b),
             ],
-            farthest: surfaces.map(Surface::farthest_distance),
+            farthest_distances: surfaces.map(Surface::farthest_distance),
             duration: query.duration,
             budget: BUDGET,
         }
@@ -81,8 +81,8 @@ impl<'a> Search<'a> {
             return Truth::Undecided { lo: 0.0 };
         }
         match self.touch_at(roots, 0.0, Proof::NotApart) {
-            Touch::No => self.bisect_time(roots),
-            Touch::Yes => Truth::Start,
+            Touch::NotTouching => self.bisect_time(roots),
+            Touch::Touching => Truth::ContactAtStart,
             Touch::Spent => Truth::Undecided { lo: 0.0 },
         }
     }
@@ -102,9 +102,9 @@ impl<'a> Search<'a> {
             };
             let snapshot = self.snapshot(span);
             let left = match self.pairs_that_may_meet(&snapshot, &pairs) {
-                RemainingPairs::Remaining(left) if left.is_empty() => continue,
-                RemainingPairs::Remaining(left) => left,
-                RemainingPairs::Spent => {
+                RemainingPairs::NotExcluded(left) if left.is_empty() => continue,
+                RemainingPairs::NotExcluded(left) => left,
+                RemainingPairs::BudgetSpent => {
                     return Truth::Undecided {
                         lo: undecided.first.unwrap_or(span.start),
                     };
@@ -119,7 +119,8 @@ impl<'a> Search<'a> {
                 continue;
             }
             let lo = *undecided.first.get_or_insert(span.start);
-            if let Some(hi) = self.find_contact_after(span.start, roots, &left, undecided.times_met)
+            if let Some(hi) =
+                self.find_contact_after(span.start, roots, &left, undecided.undecided_count)
             {
                 return Truth::Hit { lo, hi };
             }
@@ -132,37 +133,40 @@ impl<'a> Search<'a> {
     }
 
     pub(super) fn snapshot(&self, span: Span) -> Snapshot {
-        let [a, b] = &self.tracks;
-        Snapshot::new([a, b], self.farthest, span)
+        let [a, b] = &self.motions;
+        Snapshot::new([a, b], self.farthest_distances, span)
     }
 
     /// Returns the pairs that may meet within the interval, of nodes no larger than their displacement.
     fn pairs_that_may_meet(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> RemainingPairs {
         let mut left = Vec::new();
-        if snapshot.is_far() {
-            return RemainingPairs::Remaining(left);
+        if snapshot.are_bodies_far_apart() {
+            return RemainingPairs::NotExcluded(left);
         }
         let mut stack = pairs.to_vec();
         while let Some(pair) = stack.pop() {
             if self.budget == 0 {
-                return RemainingPairs::Spent;
+                return RemainingPairs::BudgetSpent;
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
-            let Boxes::Near { travel } = snapshot.boxes(a, b) else {
+            let BoxSeparation::Near { travel } = snapshot.box_separation(a, b) else {
                 continue;
             };
             match self.split(pair) {
-                Some(SplitPair { size, parts }) if size > LARGEST_UNSPLIT_SIZE * travel => {
+                Some(SplitPair {
+                    size,
+                    child_pairs: parts,
+                }) if size > LARGEST_UNSPLIT_SIZE * travel => {
                     stack.extend(parts);
                 }
                 Some(_) => left.push(pair),
-                None if greater(a.size, b.size) < BOXES_SUFFICE_BELOW * travel => left.push(pair),
+                None if greater(a.size, b.size) < MAX_SIZE_FOR_BOX_TEST * travel => left.push(pair),
                 None if self.triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
         }
-        RemainingPairs::Remaining(left)
+        RemainingPairs::NotExcluded(left)
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the interval.
@@ -177,15 +181,15 @@ impl<'a> Search<'a> {
             n.is_finite() && least > snapshot.slack()
         };
         let placed = snapshot.triangle_at_instant(a);
-        let mut normals = normals(&placed, b);
-        if normals.by_ref().take(FACE_NORMALS).any(apart) {
+        let mut normals = separating_axis_candidates(&placed, b);
+        if normals.by_ref().take(FACE_NORMAL_COUNT).any(apart) {
             return true;
         }
         let (p, q) = nearest(&placed, b);
         let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
         // The direction between two points is only useful if their distance is larger than rounding.
         apart(between.normalize())
-            || (between.length() < EDGE_NORMALS_BELOW * size && normals.any(apart))
+            || (between.length() < MAX_DISTANCE_FOR_EDGE_NORMALS * size && normals.any(apart))
     }
 
     /// Searches for a time soon after `from` at which the surfaces certainly share a point.
@@ -197,7 +201,7 @@ impl<'a> Search<'a> {
         times_met: u32,
     ) -> Option<f64> {
         let mut step = SHORTEST_SPAN * self.duration;
-        for doubling in 0..=MOST_DOUBLINGS {
+        for doubling in 0..=MAX_DOUBLINGS {
             let time = lesser(from + step, self.duration);
             if self.certainly_meet_at(near, time) {
                 return Some(time);
@@ -206,7 +210,7 @@ impl<'a> Search<'a> {
             // is slow.
             let wider = doubling % DOUBLINGS_PER_FULL_TEST == DOUBLINGS_PER_FULL_TEST - 1
                 && (times_met == 0 || doubling == times_met);
-            if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
+            if wider && self.touch_at(roots, time, Proof::Piercing) == Touch::Touching {
                 return Some(time);
             }
             if time >= self.duration {
@@ -218,7 +222,7 @@ impl<'a> Search<'a> {
     }
 
     fn certainly_meet_at(&mut self, pairs: &[Pair], time: f64) -> bool {
-        let [a, b] = &self.tracks;
+        let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         self.budget = self.budget.saturating_sub(pairs.len() as u64);
         let mut triangles = pairs.iter().filter_map(|&pair| self.triangles(pair));
@@ -232,7 +236,7 @@ impl<'a> Search<'a> {
             end: time,
         };
         let snapshot = self.snapshot(span);
-        let [a, b] = &self.tracks;
+        let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         let mut stack = vec![roots];
         while let Some(pair) = stack.pop() {
@@ -241,20 +245,23 @@ impl<'a> Search<'a> {
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
-            if snapshot.boxes(a, b) == Boxes::Apart {
+            if snapshot.box_separation(a, b) == BoxSeparation::Apart {
                 continue;
             }
-            if let Some(SplitPair { parts, .. }) = self.split(pair) {
+            if let Some(SplitPair {
+                child_pairs: parts, ..
+            }) = self.split(pair)
+            {
                 stack.extend(parts);
             } else if !self.triangles_apart(&snapshot, pair) {
                 let triangles = self.triangles(pair);
                 let meet = |[a, b]: [&Triangle; 2]| instant.certainly_meet(a, b);
                 if proof == Proof::NotApart || triangles.is_some_and(meet) {
-                    return Touch::Yes;
+                    return Touch::Touching;
                 }
             }
         }
-        Touch::No
+        Touch::NotTouching
     }
 
     pub(super) fn nodes(&self, [a, b]: Pair) -> [&'a Node; 2] {
@@ -276,11 +283,11 @@ impl<'a> Search<'a> {
         let [node_a, node_b] = self.nodes([a, b]);
         let of_a = |parts: [u32; 2]| SplitPair {
             size: node_a.size,
-            parts: parts.map(|part| [part, b]),
+            child_pairs: parts.map(|part| [part, b]),
         };
         let of_b = |parts: [u32; 2]| SplitPair {
             size: node_b.size,
-            parts: parts.map(|part| [a, part]),
+            child_pairs: parts.map(|part| [a, part]),
         };
         match (node_a.content, node_b.content) {
             (Content::Children(parts), Content::Children(_)) if node_a.size >= node_b.size => {
@@ -297,7 +304,7 @@ impl<'a> Search<'a> {
 pub(super) struct SplitPair {
     /// The size of the node that was split.
     size: f64,
-    pub(super) parts: [Pair; 2],
+    pub(super) child_pairs: [Pair; 2],
 }
 
 /// The proof that is required for surfaces to count as touching.
@@ -306,13 +313,13 @@ enum Proof {
     /// The surfaces cannot be proven to be apart.
     NotApart,
     /// An edge certainly passes through a triangle.
-    Pierced,
+    Piercing,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Touch {
-    Yes,
-    No,
+    Touching,
+    NotTouching,
     Spent,
 }
 
@@ -324,16 +331,16 @@ struct UndecidedTimes {
     /// The time up to which the search skips.
     skipped_until: f64,
     /// The number of undecided times so far.
-    times_met: u32,
+    undecided_count: u32,
 }
 
 impl UndecidedTimes {
     /// Skips time after an undecided one; the skipped length doubles each time. Surfaces that slide on each other all
     /// the time are left after about as many steps as the duration has halvings.
     fn skip_after(&mut self, span: Span, shortest: f64) {
-        let ahead = shortest * 2.0_f64.powi(self.times_met.min(1000) as i32);
+        let ahead = shortest * 2.0_f64.powi(self.undecided_count.min(1000) as i32);
         self.skipped_until = span.end + ahead;
-        self.times_met = self.times_met.saturating_add(1);
+        self.undecided_count = self.undecided_count.saturating_add(1);
     }
 }
 

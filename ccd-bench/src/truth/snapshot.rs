@@ -12,8 +12,8 @@
 //! ends, by more than `slack`. The direction n need not be exact.
 
 use super::enclosure::{IntervalMatrix, IntervalVector};
-use super::interval::{Interval, exact};
-use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, UNIT_ROUNDOFF, larger};
+use super::interval::{Interval, point_interval};
+use super::rounding::{FORTY_ROUNDINGS_ERROR, ROUND_UP_FACTOR, UNIT_ROUNDOFF, nan_propagating_max};
 use super::surface::{Node, Triangle};
 use super::track::EnclosedMotion;
 use ccd_core::glam::{DMat3, DVec3};
@@ -36,18 +36,18 @@ pub(super) struct Snapshot {
     /// The map from a point of B to its velocity, relative to B's centre.
     rate_b: Affine,
     /// Half the length of the interval.
-    half: f64,
+    half_duration: f64,
     /// The gap above which bodies are certainly apart: a bound on the rounding, and on the motion's deviation from a
     /// straight one.
     slack: f64,
     /// The part of `slack` that is due to the motion's deviation from a straight one.
     motion_slack: f64,
     /// The bounds on the extents of boxes, along the axes of B and of A.
-    along_b: Extents,
-    along_a: Extents,
+    extents_along_b: Extents,
+    extents_along_a: Extents,
     /// The vector from B's centre of rotation to A's, and its rate of change.
-    centres: DVec3,
-    centres_rate: DVec3,
+    centre_offset: DVec3,
+    centre_offset_rate: DVec3,
     /// The sum of the bodies' greatest distances from their centres of rotation.
     radius_sum: f64,
 }
@@ -61,7 +61,7 @@ struct Extents {
 
 /// Whether two boxes may meet in the interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Boxes {
+pub(super) enum BoxSeparation {
     /// The boxes stay apart for the whole interval.
     Apart,
     /// The boxes may meet; `travel` bounds their relative displacement.
@@ -75,87 +75,92 @@ impl Snapshot {
         span: Span,
     ) -> Self {
         let time = span.start.midpoint(span.end);
-        let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
+        let half = greater(time - span.start, span.end - time) * ROUND_UP_FACTOR;
         let exactly = IntervalMaps::new(a, b, time);
         let placement = Affine::new(&exactly.placement, size_a);
         let rate_a = Affine::new(&exactly.rate_a, size_a);
         let rate_b = Affine::new(&exactly.rate_b, size_b);
-        let motion_slack = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
+        let motion_slack =
+            0.5 * half * half * (a.max_acceleration + b.max_acceleration) * ROUND_UP_FACTOR;
         let errors = placement.error + half * (rate_a.error + rate_b.error);
         let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
         let centre = |v: &IntervalVector| DVec3::from_array(v.0.map(Interval::mid));
         let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
         Snapshot {
-            half,
+            half_duration: half,
             motion_slack,
-            slack: motion_slack * ROUNDED_UP
-                + errors * ROUNDED_UP
+            slack: motion_slack * ROUND_UP_FACTOR
+                + errors * ROUND_UP_FACTOR
                 + GAP_ROUNDINGS * UNIT_ROUNDOFF * sizes,
-            along_b: Extents {
+            extents_along_b: Extents {
                 a: larger_of_sum_and_difference(r, w_a),
                 b: larger_of_sum_and_difference(DMat3::IDENTITY, w_b),
             },
-            along_a: Extents {
+            extents_along_a: Extents {
                 a: larger_of_sum_and_difference(back * r, back * w_a),
                 b: larger_of_sum_and_difference(back, back * w_b),
             },
             placement,
             rate_a,
             rate_b,
-            centres: centre(&exactly.centres),
-            centres_rate: centre(&exactly.velocity),
+            centre_offset: centre(&exactly.centres),
+            centre_offset_rate: centre(&exactly.velocity),
             radius_sum: a.reach + b.reach,
         }
     }
 
     /// Returns true if the bodies stay apart whatever their rotation, because their centres are far from each other.
-    pub(super) fn is_far(&self) -> bool {
-        let (d, w) = (self.centres, self.half * self.centres_rate);
+    pub(super) fn are_bodies_far_apart(&self) -> bool {
+        let (d, w) = (
+            self.centre_offset,
+            self.half_duration * self.centre_offset_rate,
+        );
         // The point of the segment from d − w to d + w that is nearest to 0.
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
         let nearest = if s.is_nan() { d } else { d + s * w };
-        nearest.length() * (1.0 - FORTY_ROUNDINGS)
-            > (self.radius_sum + self.slack - self.motion_slack) * ROUNDED_UP
-                + FORTY_ROUNDINGS * (d.length() + w.length())
+        nearest.length() * (1.0 - FORTY_ROUNDINGS_ERROR)
+            > (self.radius_sum + self.slack - self.motion_slack) * ROUND_UP_FACTOR
+                + FORTY_ROUNDINGS_ERROR * (d.length() + w.length())
     }
 
     /// Tests whether two boxes stay apart along the six directions of their faces.
-    pub(super) fn boxes(&self, a: &Node, b: &Node) -> Boxes {
+    pub(super) fn box_separation(&self, a: &Node, b: &Node) -> BoxSeparation {
         let apart = self.placement.apply(a.centre) - b.centre;
-        let moved = self.half * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
-        let gaps_b = self.along_b.axis_gaps(apart, moved, a, b);
+        let moved =
+            self.half_duration * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
+        let gaps_b = self.extents_along_b.axis_gaps(apart, moved, a, b);
         if gaps_b.max_element() > self.slack {
-            return Boxes::Apart;
+            return BoxSeparation::Apart;
         }
-        let gaps_a = self
-            .along_a
-            .axis_gaps(self.rotate_back(apart), self.rotate_back(moved), a, b);
+        let gaps_a =
+            self.extents_along_a
+                .axis_gaps(self.rotate_back(apart), self.rotate_back(moved), a, b);
         if gaps_a.max_element() > self.slack {
-            return Boxes::Apart;
+            return BoxSeparation::Apart;
         }
-        Boxes::Near {
+        BoxSeparation::Near {
             travel: moved.length() + self.motion_slack,
         }
     }
 
     /// Returns a lower bound of the distance of two boxes at the middle time, invalid for an interval.
-    pub(super) fn boxes_distance(&self, a: &Node, b: &Node) -> f64 {
+    pub(super) fn box_distance_lower_bound(&self, a: &Node, b: &Node) -> f64 {
         let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
-        let gaps_b = self.along_b.axis_gaps(apart, none, a, b).max(none);
+        let gaps_b = self.extents_along_b.axis_gaps(apart, none, a, b).max(none);
         let gaps_a = self
-            .along_a
+            .extents_along_a
             .axis_gaps(self.rotate_back(apart), none, a, b)
             .max(none);
         let distance = greater(gaps_b.length(), gaps_a.length());
-        distance * (1.0 - FORTY_ROUNDINGS) - 2.0 * self.slack
+        distance * (1.0 - FORTY_ROUNDINGS_ERROR) - 2.0 * self.slack
     }
 
     /// Returns the corners of two triangles in the common frame, at both ends of the interval.
     pub(super) fn triangles_at_ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
-        let moved_a = a.map(|p| self.half * self.rate_a.apply(p));
-        let moved_b = b.map(|q| self.half * self.rate_b.apply(q));
+        let moved_a = a.map(|p| self.half_duration * self.rate_a.apply(p));
+        let moved_b = b.map(|q| self.half_duration * self.rate_b.apply(q));
         let a = a.map(|p| self.placement.apply(p));
         let at = |end: f64, from: &Triangle, moved: &Triangle| {
             [0, 1, 2].map(|i| from[i] + end * moved[i])
@@ -214,19 +219,22 @@ impl Affine {
             .0
             .map(|row| DVec3::from_array(row.map(Interval::mid)));
         let entries = matrix.0.iter().flatten();
-        let width = entries.fold(0.0, |width, entry| larger(width, entry.rad()));
-        let offset_width = offset.0.iter().fold(0.0, |w, x| larger(w, x.rad()));
-        let offset = DVec3::from_array(offset.0.map(Interval::mid));
-        let row = rows
+        let width = entries.fold(0.0, |width, entry| nan_propagating_max(width, entry.rad()));
+        let offset_width = offset
+            .0
             .iter()
-            .fold(0.0, |longest: f64, row| larger(longest, row.length()));
+            .fold(0.0, |w, x| nan_propagating_max(w, x.rad()));
+        let offset = DVec3::from_array(offset.0.map(Interval::mid));
+        let row = rows.iter().fold(0.0, |longest: f64, row| {
+            nan_propagating_max(longest, row.length())
+        });
         let coordinate = row * farthest + offset.length();
         let widths = width * SQRT_3 * farthest + offset_width;
         Affine {
             matrix: DMat3::from_cols(rows[0], rows[1], rows[2]).transpose(),
             offset,
-            error: SQRT_3 * (widths + 5.0 * UNIT_ROUNDOFF * coordinate) * ROUNDED_UP,
-            size: SQRT_3 * coordinate * ROUNDED_UP,
+            error: SQRT_3 * (widths + 5.0 * UNIT_ROUNDOFF * coordinate) * ROUND_UP_FACTOR,
+            size: SQRT_3 * coordinate * ROUND_UP_FACTOR,
         }
     }
 
@@ -260,7 +268,7 @@ impl IntervalMaps {
         IntervalMaps {
             placement: (rotation, offset),
             rate_a: (swirl_a, drift),
-            rate_b: (swirl_b, IntervalVector([exact(0.0); 3])),
+            rate_b: (swirl_b, IntervalVector([point_interval(0.0); 3])),
             centres,
             velocity,
         }

@@ -1,6 +1,6 @@
 //! The triangles of a mesh in a tree of boxes along the axes of the body's frame.
 
-use super::rounding::{ROUNDED_UP, larger};
+use super::rounding::{ROUND_UP_FACTOR, nan_propagating_max};
 use ccd_core::glam::DVec3;
 use ccd_decomp::TriangleMesh;
 
@@ -83,8 +83,11 @@ impl Surface {
 
     /// Returns an upper bound of the distance of the body's points from the origin.
     pub(super) fn farthest_distance(&self) -> f64 {
-        let far = self.corners().map(DVec3::length).fold(0.0, larger);
-        far * ROUNDED_UP
+        let far = self
+            .corners()
+            .map(DVec3::length)
+            .fold(0.0, nan_propagating_max);
+        far * ROUND_UP_FACTOR
     }
 
     /// Adds the node of some triangles with all nodes below it, and returns its index. They are halved at the median
@@ -115,7 +118,7 @@ impl Surface {
             high = high.max(corner);
         }
         let centre = low.midpoint(high);
-        let half = (high - centre).max(centre - low) * ROUNDED_UP;
+        let half = (high - centre).max(centre - low) * ROUND_UP_FACTOR;
         Node {
             centre,
             half,

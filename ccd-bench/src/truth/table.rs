@@ -29,7 +29,7 @@ impl TruthRow {
         let (status, lo, hi) = match truth {
             Truth::Hit { lo, hi } => ("hit", lo, hi),
             Truth::Free => ("free", duration, duration),
-            Truth::Start => ("initial", 0.0, 0.0),
+            Truth::ContactAtStart => ("initial", 0.0, 0.0),
             Truth::Graze { lo } => ("graze", lo, duration),
             Truth::Undecided { lo } => ("undecided", lo, duration),
         };

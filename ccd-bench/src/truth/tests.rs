@@ -45,7 +45,7 @@ fn random_vector(rng: &mut impl Rng, reach: f64) -> DVec3 {
 }
 
 /// Returns random triangles in a cube, which may share corners or cross each other.
-fn soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
+fn triangle_soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
     let vertices = (0..3 * triangles).map(|_| random_vector(rng, 1.0));
     let faces: Vec<_> = (0..triangles)
         .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])

@@ -1,8 +1,8 @@
 //! Computes the position of a moving body at an instant, to within intervals.
 
 use super::enclosure::{IntervalMatrix, IntervalVector};
-use super::interval::exact;
-use super::rounding::{FORTY_ROUNDINGS, ROUNDED_UP, larger};
+use super::interval::point_interval;
+use super::rounding::{FORTY_ROUNDINGS_ERROR, ROUND_UP_FACTOR, nan_propagating_max};
 use super::surface::Surface;
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DVec3};
@@ -25,7 +25,7 @@ pub(super) struct EnclosedMotion {
     /// An upper bound of the distance of the body's points from the centre c.
     pub(super) reach: f64,
     /// An upper bound |ω|²ρ of the acceleration of the point that is farthest from the axis, at distance ρ.
-    pub(super) acceleration: f64,
+    pub(super) max_acceleration: f64,
 }
 
 /// The placement of a body at an instant: x = `centre` + `rotation` (p − c).
@@ -48,7 +48,7 @@ impl EnclosedMotion {
             from: IntervalVector::from(start.translation()) + &orientation * &centre,
             orientation,
             reach: 0.0,
-            acceleration: 0.0,
+            max_acceleration: 0.0,
         };
         // The axis is fixed in the body's frame. The distance from it is convex there, so it is
         // largest at a corner of the box around the body.
@@ -56,18 +56,20 @@ impl EnclosedMotion {
         let rate = motion.spin().length();
         for corner in surface.corners() {
             let arm = corner - motion.centre();
-            track.reach = larger(track.reach, arm.length() * ROUNDED_UP);
+            track.reach = nan_propagating_max(track.reach, arm.length() * ROUND_UP_FACTOR);
             // The sum covers the rounding of the cross product, which is relative to its factors.
-            let speed = axis.cross(arm).length() + FORTY_ROUNDINGS * rate * arm.length();
-            track.acceleration = larger(track.acceleration, rate * speed * ROUNDED_UP);
+            let speed = axis.cross(arm).length() + FORTY_ROUNDINGS_ERROR * rate * arm.length();
+            track.max_acceleration =
+                nan_propagating_max(track.max_acceleration, rate * speed * ROUND_UP_FACTOR);
         }
         track
     }
 
     pub(super) fn at(&self, time: f64) -> Placement {
         Placement {
-            rotation: &IntervalMatrix::turn(self.spin_floats, time) * &self.orientation,
-            centre: self.from + self.velocity.scaled(exact(time)),
+            rotation: &IntervalMatrix::from_angular_velocity(self.spin_floats, time)
+                * &self.orientation,
+            centre: self.from + self.velocity.scaled(point_interval(time)),
         }
     }
 }

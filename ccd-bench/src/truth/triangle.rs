@@ -15,7 +15,10 @@ pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
 
 /// Returns the unit normals of both triangles, and then those of all pairs of an edge of each, from `b` towards `a`.
 /// Disjoint triangles that are not in one plane are apart along one of them. A normal that does not exist is NaN.
-pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3> {
+pub(super) fn separating_axis_candidates(
+    a: &Triangle,
+    b: &Triangle,
+) -> impl Iterator<Item = DVec3> {
     let [edges_a, edges_b] = [a, b].map(|t| [t[1] - t[0], t[2] - t[1], t[0] - t[2]]);
     let between = (a[0] + a[1] + a[2]) - (b[0] + b[1] + b[2]);
     let faces = [edges_b[0].cross(edges_b[1]), edges_a[0].cross(edges_a[1])];
@@ -28,12 +31,12 @@ pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3>
 
 /// Returns the nearest points of two triangles of any shape, up to rounding; the same point if they intersect.
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
-    let mut best = nearest_of_edges(a, b);
+    let mut best = nearest_points_of_edges(a, b);
     for i in 0..3 {
-        if let Some(q) = foot(a[i], b) {
+        if let Some(q) = projection_in_triangle(a[i], b) {
             best = nearer_pair(best, (a[i], q));
         }
-        if let Some(p) = foot(b[i], a) {
+        if let Some(p) = projection_in_triangle(b[i], a) {
             best = nearer_pair(best, (p, b[i]));
         }
     }
@@ -42,13 +45,13 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
 
 /// Returns the nearest points of two triangles as [`nearest`] does, or a common point if an edge pierces the other
 /// triangle.
-pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
+pub(super) fn nearest_or_common_points(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest(a, b);
     for i in 0..3 {
-        if let Some((p, q)) = crossing([a[i], a[(i + 1) % 3]], b) {
+        if let Some((p, q)) = segment_triangle_crossing([a[i], a[(i + 1) % 3]], b) {
             best = nearer_pair(best, (p, q));
         }
-        if let Some((q, p)) = crossing([b[i], b[(i + 1) % 3]], a) {
+        if let Some((q, p)) = segment_triangle_crossing([b[i], b[(i + 1) % 3]], a) {
             best = nearer_pair(best, (p, q));
         }
     }
@@ -65,11 +68,11 @@ fn nearer_pair(best: (DVec3, DVec3), found: (DVec3, DVec3)) -> (DVec3, DVec3) {
     }
 }
 
-fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
+fn nearest_points_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = (a[0], b[0]);
     for i in 0..3 {
         for j in 0..3 {
-            let found = nearest_of_segments([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]);
+            let found = nearest_points_of_segments([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]);
             best = nearer_pair(best, found);
         }
     }
@@ -77,7 +80,7 @@ fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
 }
 
 /// Returns the nearest points of two segments: it minimises |p + s u − q − t v| over s and t in 0..1.
-fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3, DVec3) {
+fn nearest_points_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3, DVec3) {
     let (u, v, r) = (p_end - p, q_end - q, p - q);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
     let (ur, vr) = (u.dot(r), v.dot(r));
@@ -92,7 +95,7 @@ fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3
 }
 
 /// Returns the nearest point of a triangle's plane to a point, if it lies in the triangle.
-fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
+fn projection_in_triangle(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
     let (u, v, r) = (b - a, c - a, p - a);
     let n = u.cross(v);
     let square = n.length_squared();
@@ -102,7 +105,10 @@ fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
 }
 
 /// Returns where a segment crosses a triangle: the point on the segment, and the one on the triangle.
-fn crossing([from, to]: [DVec3; 2], triangle: &Triangle) -> Option<(DVec3, DVec3)> {
+fn segment_triangle_crossing(
+    [from, to]: [DVec3; 2],
+    triangle: &Triangle,
+) -> Option<(DVec3, DVec3)> {
     let [a, b, c] = triangle;
     let n = (b - a).cross(c - a);
     let (start, end) = (n.dot(from - a), n.dot(to - a));
@@ -111,5 +117,5 @@ fn crossing([from, to]: [DVec3; 2], triangle: &Triangle) -> Option<(DVec3, DVec3
     }
     let s = start / (start - end);
     let point = from + s.clamp(0.0, 1.0) * (to - from);
-    foot(point, triangle).map(|on| (point, on))
+    projection_in_triangle(point, triangle).map(|on| (point, on))
 }

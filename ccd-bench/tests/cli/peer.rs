@@ -15,7 +15,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// A time limit that no query in these tests reaches.
-const PATIENCE: Duration = Duration::from_secs(60);
+const QUERY_TIME_LIMIT: Duration = Duration::from_secs(60);
 
 fn cube() -> TriangleMesh {
     cuboid(0.5, 0.5, 0.5).unwrap()
@@ -32,17 +32,17 @@ fn drop() -> Motions {
     }
 }
 
-fn guarded(kind: PeerKind) -> GuardedMethod {
-    guarded_with(GuardSettings::new(Method::Peer(kind), 1e-3))
+fn guarded_peer(kind: PeerKind) -> GuardedMethod {
+    guarded_method(GuardSettings::new(Method::Peer(kind), 1e-3))
 }
 
-fn guarded_with(setting: GuardSettings) -> GuardedMethod {
+fn guarded_method(setting: GuardSettings) -> GuardedMethod {
     GuardedMethod::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
 /// Runs a script of this folder in place of a method's program.
 #[cfg(unix)]
-fn guarded_by(script: &str) -> GuardedMethod {
+fn guarded_script(script: &str) -> GuardedMethod {
     let script = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/cli")
         .join(script);
@@ -64,28 +64,28 @@ fn assert_answered(outcome: QueryOutcome) {
 #[test]
 fn every_method_answers_behind_a_guard() {
     let is_script = |method: &Method| matches!(method, Method::Script(_));
-    for method in Method::known()
+    for method in Method::known_methods()
         .into_iter()
         .filter(|method| !is_script(method))
     {
-        let mut guarded = guarded_with(GuardSettings::new(method, 1e-3));
-        assert_answered(guarded.run_query(&drop(), PATIENCE).unwrap());
+        let mut guarded = guarded_method(GuardSettings::new(method, 1e-3));
+        assert_answered(guarded.run_query(&drop(), QUERY_TIME_LIMIT).unwrap());
     }
 }
 
 #[test]
 fn a_margin_is_kept_or_refused() {
     let ask = |method: Method| {
-        let mut guarded = guarded_with(GuardSettings {
+        let mut guarded = guarded_method(GuardSettings {
             margin: 0.5,
             ..GuardSettings::new(method, 1e-3)
         });
-        guarded.run_query(&drop(), PATIENCE)
+        guarded.run_query(&drop(), QUERY_TIME_LIMIT)
     };
-    for method in Method::all() {
+    for method in Method::built_in_methods() {
         let outcome = ask(method);
         match method {
-            Method::Ours(..) => {
+            Method::ThisProject(..) => {
                 let Ok(QueryOutcome::Answered(TimedReply { reply, .. })) = outcome else {
                     panic!("{method}: {outcome:?}");
                 };
@@ -110,7 +110,7 @@ fn a_margin_is_kept_or_refused() {
 #[cfg(unix)]
 #[test]
 fn a_hanging_peer_is_cut_off_and_restarted() {
-    let mut hanging = guarded_by("hanging");
+    let mut hanging = guarded_script("hanging");
     let start = Instant::now();
     for _ in 0..2 {
         let outcome = hanging
@@ -118,38 +118,38 @@ fn a_hanging_peer_is_cut_off_and_restarted() {
             .unwrap();
         assert_eq!(outcome, QueryOutcome::CutOff);
     }
-    assert!(start.elapsed() < PATIENCE);
+    assert!(start.elapsed() < QUERY_TIME_LIMIT);
 }
 
 #[test]
 fn the_query_after_a_cut_off_one_is_answered() {
-    let mut peer = guarded(PeerKind::ParryF64);
+    let mut peer = guarded_peer(PeerKind::ParryF64);
     assert_eq!(
         peer.run_query(&drop(), Duration::ZERO).unwrap(),
         QueryOutcome::CutOff
     );
-    assert_answered(peer.run_query(&drop(), PATIENCE).unwrap());
-    assert_answered(peer.run_query(&drop(), PATIENCE).unwrap());
+    assert_answered(peer.run_query(&drop(), QUERY_TIME_LIMIT).unwrap());
+    assert_answered(peer.run_query(&drop(), QUERY_TIME_LIMIT).unwrap());
 }
 
 #[cfg(unix)]
 #[test]
 fn a_dying_peer_is_reported_and_restarted() {
-    let mut dying = guarded_by("dying");
+    let mut dying = guarded_script("dying");
     for _ in 0..2 {
         assert_eq!(
-            dying.run_query(&drop(), PATIENCE).unwrap(),
-            QueryOutcome::Died
+            dying.run_query(&drop(), QUERY_TIME_LIMIT).unwrap(),
+            QueryOutcome::Crashed
         );
     }
 }
 
 #[test]
 fn a_tolerance_is_passed_on() {
-    let mut peer = guarded(PeerKind::ParrySweepF64);
+    let mut peer = guarded_peer(PeerKind::ParrySweepF64);
     peer.set_tolerance(1e-6);
     let QueryOutcome::Answered(TimedReply { reply, .. }) =
-        peer.run_query(&drop(), PATIENCE).unwrap()
+        peer.run_query(&drop(), QUERY_TIME_LIMIT).unwrap()
     else {
         panic!("no answer");
     };
@@ -164,5 +164,5 @@ fn a_program_that_is_no_peer_does_not_start() {
     let missing = "no/such/program".into();
     let setting = GuardSettings::new(Method::Peer(PeerKind::ParryF64), 1e-3);
     let mut peer = GuardedMethod::with_program(missing, setting, [&cube(), &cube()]).unwrap();
-    assert!(peer.run_query(&drop(), PATIENCE).is_err());
+    assert!(peer.run_query(&drop(), QUERY_TIME_LIMIT).is_err());
 }

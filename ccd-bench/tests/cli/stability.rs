@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-fn survey(folder: &Path, methods: &str) -> Output {
+fn run_survey(folder: &Path, methods: &str) -> Output {
     let families = ["--families", "bullet and paper, margin"];
-    stability(folder, &[&families[..], &["--methods", methods]].concat())
+    run_stability(folder, &[&families[..], &["--methods", methods]].concat())
 }
 
-fn stability(folder: &Path, options: &[&str]) -> Output {
+fn run_stability(folder: &Path, options: &[&str]) -> Output {
     let mut command = Command::new(crate::PROGRAM);
     command.arg("stability").args(options);
     command.arg("--out").arg(folder);
@@ -30,7 +30,7 @@ fn row<'t>(table: &'t str, method: &str) -> Vec<&'t str> {
 #[test]
 fn methods_are_judged_and_answers_are_kept() {
     let folder = std::env::temp_dir().join(format!("ccd-stability-{}", std::process::id()));
-    let output = survey(&folder, "best-first direct,discrete stepping");
+    let output = run_survey(&folder, "best-first direct,discrete stepping");
     let table = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{table}");
     // Three values of two families, each in three worlds.
@@ -49,7 +49,7 @@ fn methods_are_judged_and_answers_are_kept() {
     assert!(paper.contains("late"), "{paper}");
     // A second run runs only what is missing.
     let answers = fs::read_to_string(folder.join("trials.csv")).unwrap();
-    let again = survey(&folder, "best-first direct,discrete stepping,C2A");
+    let again = run_survey(&folder, "best-first direct,discrete stepping,C2A");
     assert!(again.status.success());
     let more = fs::read_to_string(folder.join("trials.csv")).unwrap();
     assert!(more.starts_with(&answers) && more.contains("C2A"));
@@ -57,7 +57,7 @@ fn methods_are_judged_and_answers_are_kept() {
     let margin = limit("| margin");
     assert!(margin.contains("1e-2 refused"), "{margin}");
     // All answers are drawn, although fewer are requested.
-    let few = stability(&folder, &["--families", "margin", "--methods", "CONTACT"]);
+    let few = run_stability(&folder, &["--families", "margin", "--methods", "CONTACT"]);
     assert!(few.status.success());
     let paper = limit("bullet and paper");
     assert!(
@@ -65,14 +65,14 @@ fn methods_are_judged_and_answers_are_kept() {
         "{paper}"
     );
     let drawn = fs::read_to_string(folder.join("limits.md")).unwrap();
-    assert!(stability(&folder, &["--redraw"]).status.success());
+    assert!(run_stability(&folder, &["--redraw"]).status.success());
     assert_eq!(fs::read_to_string(folder.join("limits.md")).unwrap(), drawn);
     fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
 fn a_folder_without_answers_is_not_drawn() {
-    let output = stability(Path::new("never-made"), &["--redraw"]);
+    let output = run_stability(Path::new("never-made"), &["--redraw"]);
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(message.contains("holds no answers"), "{message}");
     assert!(!output.status.success() && !Path::new("never-made").exists());
@@ -81,7 +81,7 @@ fn a_folder_without_answers_is_not_drawn() {
 #[test]
 fn a_script_that_does_not_run_is_an_error() {
     let script = ["--peers", "never-made.py", "--methods", "coal-steps"];
-    let output = stability(Path::new("never-made"), &script);
+    let output = run_stability(Path::new("never-made"), &script);
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(message.contains("python-fcl"), "{message}");
     assert!(!output.status.success() && !Path::new("never-made").exists());
@@ -89,7 +89,7 @@ fn a_script_that_does_not_run_is_an_error() {
 
 #[test]
 fn unknown_names_are_answered_with_the_known_ones() {
-    let output = survey(Path::new("never-made"), "unicorn");
+    let output = run_survey(Path::new("never-made"), "unicorn");
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(
         !output.status.success() && message.contains("discrete stepping"),

@@ -1,6 +1,6 @@
 //! Lists of values by number, stored contiguously.
 
-use super::facets::range;
+use super::facets::range_from_ends;
 
 /// A list of values for each number from 0, such as the facets that meet in each corner.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl<V: Copy + Default> AdjacencyLists<V> {
     #[inline]
     pub(crate) fn of(&self, k: usize) -> &[V] {
         if k < self.ends.len() {
-            &self.values[range(&self.ends, k)]
+            &self.values[range_from_ends(&self.ends, k)]
         } else {
             &[]
         }
@@ -44,7 +44,7 @@ impl<V: Copy + Default> AdjacencyLists<V> {
 impl<V> AdjacencyLists<V> {
     /// Calls a function with each list.
     pub(super) fn for_each_list(&mut self, mut change: impl FnMut(&mut [V])) {
-        (0..self.ends.len()).for_each(|k| change(&mut self.values[range(&self.ends, k)]));
+        (0..self.ends.len()).for_each(|k| change(&mut self.values[range_from_ends(&self.ends, k)]));
     }
 
     /// Returns the approximate memory use in bytes.

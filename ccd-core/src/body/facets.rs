@@ -69,7 +69,7 @@ pub(crate) fn fan_of<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + C
 
 /// Returns the `k`-th range of a list that is stored by the ends of its ranges.
 #[inline]
-pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
+pub(crate) fn range_from_ends(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     let start = if k == 0 { 0 } else { ends[k - 1] };
     start as usize..ends[k] as usize
 }

@@ -4,17 +4,17 @@ use super::tree::ray::crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
-use crate::tuning::BELOW_SURFACE;
+use crate::tuning::INTERIOR_PROBE_DEPTHS;
 use glam::DVec3;
 
 /// The side of a flat piece on which the solid bounded by the body's faces lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
     /// The solid is on one side only; the unit normal points out of it.
-    Out(DVec3),
+    OutwardNormal(DVec3),
     /// The outward side does not exist or is unknown. Examples are a piece of a surface, a piece with a volume or
     /// without an area, and two faces back to back.
-    Neither,
+    NoOutwardSide,
     /// The solid is on different sides at different points, or other faces are too near to decide.
     Unclear,
 }
@@ -22,7 +22,7 @@ pub(crate) enum Facing {
 /// The cached results for a flat piece of a solid.
 struct CachedFacing {
     facing: Facing,
-    inside: Option<DVec3>,
+    inside_point: Option<DVec3>,
 }
 
 impl Body {
@@ -34,14 +34,14 @@ impl Body {
     /// through.
     pub(crate) fn facing(&self, piece: u32) -> Facing {
         self.cached_facing(piece)
-            .map_or(Facing::Neither, |kept| kept.facing)
+            .map_or(Facing::NoOutwardSide, |kept| kept.facing)
     }
 
     /// Returns the unit normal of a flat piece that points out of the solid; `None` if there is no such normal.
     pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
         match self.facing(piece) {
-            Facing::Out(normal) => Some(normal),
-            Facing::Neither | Facing::Unclear => None,
+            Facing::OutwardNormal(normal) => Some(normal),
+            Facing::NoOutwardSide | Facing::Unclear => None,
         }
     }
 
@@ -50,7 +50,7 @@ impl Body {
         if !self.pieces().get(piece as usize).is_flat() {
             return Some(self.centroid(piece));
         }
-        self.cached_facing(piece)?.inside
+        self.cached_facing(piece)?.inside_point
     }
 
     /// Returns the mean of a piece's points.
@@ -73,8 +73,8 @@ impl Body {
         let normal = triangle.and_then(crate::math::vector::normal);
         let (Some(triangle), Some(normal)) = (triangle, normal) else {
             return CachedFacing {
-                facing: Facing::Neither,
-                inside: None,
+                facing: Facing::NoOutwardSide,
+                inside_point: None,
             };
         };
         let middle = triangle.iter().sum::<DVec3>() / 3.0;
@@ -89,13 +89,16 @@ impl Body {
             .iter()
             .fold(0.0, |size, p| greater(size, p.distance(middle)));
         let inside = match facing {
-            Facing::Out(out) => BELOW_SURFACE
+            Facing::OutwardNormal(out) => INTERIOR_PROBE_DEPTHS
                 .iter()
                 .map(|share| middle - out * (share * size))
                 .find(|&p| self.has_nonzero_winding(p)),
-            Facing::Neither | Facing::Unclear => None,
+            Facing::NoOutwardSide | Facing::Unclear => None,
         };
-        CachedFacing { facing, inside }
+        CachedFacing {
+            facing,
+            inside_point: inside,
+        }
     }
 
     /// Returns on which side of a face with this normal the surface has a nonzero winding number, near the point `at`.
@@ -108,14 +111,14 @@ impl Body {
         let (ahead, behind) = (found.sum_ahead, found.sum_ahead + found.sum_at_start);
         let ahead_is_out = match ahead.abs().cmp(&behind.abs()) {
             _ if found.triangles_at_start == 0 => return Facing::Unclear,
-            std::cmp::Ordering::Equal => return Facing::Neither,
+            std::cmp::Ordering::Equal => return Facing::NoOutwardSide,
             std::cmp::Ordering::Less => true,
             std::cmp::Ordering::Greater => false,
         };
         if ahead_is_out == (normal.dot(found.direction) > 0.0) {
-            Facing::Out(normal)
+            Facing::OutwardNormal(normal)
         } else {
-            Facing::Out(-normal)
+            Facing::OutwardNormal(-normal)
         }
     }
 

@@ -7,7 +7,7 @@ use super::piece::Piece;
 use super::polytope::FacetOrigin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
-use crate::tuning::{FACET_DISTANCE, MAX_SCANNED_POINTS};
+use crate::tuning::{FACET_TOLERANCE, MAX_SCANNED_POINTS};
 use glam::DVec3;
 
 /// The mesh's feature at a point of a polytope.
@@ -16,7 +16,7 @@ pub(crate) enum MeshFeature {
     Vertex(u32),
     Edge(u32, u32),
     Face(u32),
-    Nothing,
+    NoFeature,
 }
 
 /// Finds the mesh's feature that contains a combination of corners.
@@ -26,7 +26,7 @@ pub(crate) enum MeshFeature {
 pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     let (facets, support) = (piece.facets, point.support());
     if !facets.is_empty() && !is_on_mesh(piece) {
-        return MeshFeature::Nothing;
+        return MeshFeature::NoFeature;
     }
     if let [v] = *support {
         return MeshFeature::Vertex(v);
@@ -56,7 +56,7 @@ pub(crate) fn find_mesh_feature(piece: &Piece<'_>, point: &Combination) -> MeshF
         None => point
             .position(piece.points)
             .and_then(|at| face_at(piece, at))
-            .map_or(MeshFeature::Nothing, MeshFeature::Face),
+            .map_or(MeshFeature::NoFeature, MeshFeature::Face),
     }
 }
 
@@ -105,7 +105,7 @@ pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
         return None;
     }
     let way = |p: &DVec3| p.distance(point);
-    let reach = FACET_DISTANCE * piece.points.iter().map(way).fold(0.0, greater);
+    let reach = FACET_TOLERANCE * piece.points.iter().map(way).fold(0.0, greater);
     let near = |[a, b, c]: [DVec3; 3]| {
         let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
         lo.cmple(point).all() && point.cmple(hi).all()

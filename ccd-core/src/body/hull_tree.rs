@@ -20,7 +20,7 @@ pub use hull::{FacetClass, Hull, HullNode};
 pub use loops::PolygonList;
 
 use super::adjacency::AdjacencyLists;
-use super::facets::range;
+use super::facets::range_from_ends;
 use super::hierarchy::{Hierarchy, HierarchyNode};
 use super::piece::Combination;
 use super::piece::Piece;
@@ -84,7 +84,7 @@ impl HullTree {
     /// # Panics
     /// When there is no such node.
     pub fn facet_classes(&self, node: u32) -> &[FacetClass] {
-        &self.hulls.classes[range(&self.hulls.class_ends, node as usize)]
+        &self.hulls.classes[range_from_ends(&self.hulls.class_ends, node as usize)]
     }
 
     /// Returns the class of the feature that contains a combination of a node's points: the best class among the facets
@@ -126,7 +126,7 @@ impl HullTree {
         self.hulls
             .pieces
             .get(node as usize)
-            .with_support(support_of)
+            .with_support_map(support_of)
     }
 
     /// Returns the input nodes from which the tree can be [built](HullTree::new) again.
@@ -153,7 +153,7 @@ impl HullTree {
     }
 
     /// Returns the approximate memory use in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_usage(&self) -> usize {
         self.hulls.bytes()
     }
 }

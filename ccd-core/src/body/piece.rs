@@ -6,7 +6,7 @@ use super::side_table::SideTable;
 use super::support::Support;
 use crate::math::order::greater;
 use crate::math::vector::distance;
-use crate::rounding::{RATE_F64, WEIGHTS};
+use crate::rounding::{RATE_ERROR_F64, WEIGHT_RANGE};
 use crate::tuning::MAX_SCANNED_POINTS;
 use glam::DVec3;
 use std::any::Any;
@@ -23,14 +23,14 @@ pub struct Piece<'a> {
     /// The facets of the hull, if known; empty for up to three points.
     pub facets: Facets<'a>,
     /// A search structure for extremal points, if one was prepared.
-    pub(crate) support: Option<&'a Support>,
+    pub(crate) support_map: Option<&'a Support>,
     /// The entry in which backends store values with the piece.
-    pub(crate) slot: Option<Slot<'a>>,
+    pub(crate) side_table_entry: Option<SideTableEntry<'a>>,
 }
 
 /// The entry of a piece in a side table.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Slot<'a> {
+pub(crate) struct SideTableEntry<'a> {
     pub(crate) side_table: &'a SideTable,
     pub(crate) len: usize,
     pub(crate) index: usize,
@@ -43,8 +43,8 @@ impl<'a> Piece<'a> {
             points,
             radius: 0.0,
             facets: Facets::NONE,
-            support: None,
-            slot: None,
+            support_map: None,
+            side_table_entry: None,
         }
     }
 
@@ -70,7 +70,7 @@ impl<'a> Piece<'a> {
     /// ```
     #[inline]
     pub fn cached<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
-        let slot = self.slot?;
+        let slot = self.side_table_entry?;
         let entry = slot.side_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
     }
@@ -78,13 +78,13 @@ impl<'a> Piece<'a> {
     /// Adds a search structure for extremal points if the piece has many points. The structure is created once and
     /// stored.
     #[inline]
-    pub(crate) fn with_support(self, make: impl FnOnce(&Self) -> Support) -> Self {
-        if self.points.len() <= MAX_SCANNED_POINTS || self.support.is_some() {
+    pub(crate) fn with_support_map(self, make: impl FnOnce(&Self) -> Support) -> Self {
+        if self.points.len() <= MAX_SCANNED_POINTS || self.support_map.is_some() {
             return self;
         }
         let support = self.cached(|piece| Box::new(make(piece)));
         Piece {
-            support: support.map(|kept| &**kept),
+            support_map: support.map(|kept| &**kept),
             ..self
         }
     }
@@ -112,7 +112,7 @@ impl<'a> Piece<'a> {
     /// # Guarantee
     /// The guarantee of [`Support::extremal`].
     pub fn extremal(&self, direction: DVec3) -> u32 {
-        if let Some(support) = self.support {
+        if let Some(support) = self.support_map {
             return support.extremal(direction);
         }
         let (mut found, mut highest) = (0, f64::NEG_INFINITY);
@@ -134,13 +134,13 @@ impl<'a> Piece<'a> {
     /// structure.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
-        self.support.and_then(Support::bounding_ball)
+        self.support_map.and_then(Support::bounding_ball)
     }
 
     /// Returns an upper bound of the distances of the piece's points from `from`, as tight as rounding allows.
     pub(crate) fn max_distance_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.bounding_ball() {
-            return (distance(middle, from) + radius) * (1.0 + RATE_F64);
+            return (distance(middle, from) + radius) * (1.0 + RATE_ERROR_F64);
         }
         let squares = self.points.iter().map(|p| p.distance_squared(from));
         squares.fold(0.0, greater).sqrt()
@@ -149,7 +149,7 @@ impl<'a> Piece<'a> {
     /// Returns the approximate number of points that a search for an extremal point evaluates.
     pub(crate) fn evaluations_per_search(&self) -> u64 {
         let few = self.points.len().min(MAX_SCANNED_POINTS);
-        match self.support {
+        match self.support_map {
             Some(_) => few as u64,
             None => self.points.len() as u64,
         }
@@ -192,11 +192,11 @@ impl Combination {
         out
     }
 
-    /// Adds a point with a weight. Weights that are not positive, or outside of [`WEIGHTS`], are dropped. Equal indices
+    /// Adds a point with a weight. Weights that are not positive, or outside of [`WEIGHT_RANGE`], are dropped. Equal indices
     /// are merged. Terms beyond four distinct indices are dropped.
     pub fn push(&mut self, index: u32, weight: f64) {
         // A NaN is in no range.
-        if !WEIGHTS.contains(&weight) {
+        if !WEIGHT_RANGE.contains(&weight) {
             return;
         }
         let len = self.len as usize;

@@ -5,11 +5,11 @@ pub(crate) mod builder;
 mod serial;
 mod unpack;
 
-use super::facets::{Facets, range};
+use super::facets::{Facets, range_from_ends};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
 use super::piece::Combination;
-use super::piece::{Piece, Slot};
+use super::piece::{Piece, SideTableEntry};
 use super::polytope::{Face, FacetOrigin};
 use super::side_table::SideTable;
 use crate::error::InputError;
@@ -22,12 +22,12 @@ use glam::DVec3;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    serde(try_from = "serial::Stored", into = "serial::Stored")
+    serde(try_from = "serial::StoredPieces", into = "serial::StoredPieces")
 )]
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    shape: Shape,
+    shape: PieceShapes,
     /// The values that backends store with the pieces.
     side_table: SideTable,
 }
@@ -37,7 +37,7 @@ pub struct Pieces {
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
-enum Shape {
+enum PieceShapes {
     /// Every piece is a triangle, and is one face of the mesh.
     Triangles {
         face_ids: Vec<u32>,
@@ -96,10 +96,10 @@ impl Pieces {
         let vertex_ids: Vec<u32> = faces.iter().flatten().copied().collect();
         let points = vertex_ids.iter().map(|&v| vertices[v as usize]).collect();
         let face_ids = face_ids.to_vec();
-        Pieces::with_shape(points, vertex_ids, Shape::Triangles { face_ids }).checked()
+        Pieces::with_shape(points, vertex_ids, PieceShapes::Triangles { face_ids }).into_validated()
     }
 
-    fn with_shape(points: Vec<DVec3>, vertex_ids: Vec<u32>, shape: Shape) -> Self {
+    fn with_shape(points: Vec<DVec3>, vertex_ids: Vec<u32>, shape: PieceShapes) -> Self {
         Pieces {
             points,
             vertex_ids,
@@ -108,7 +108,7 @@ impl Pieces {
         }
     }
 
-    fn checked(self) -> Result<Self, InputError> {
+    fn into_validated(self) -> Result<Self, InputError> {
         if self.len() == 0 {
             return Err(InputError::NoPieces);
         }
@@ -156,14 +156,14 @@ impl Pieces {
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match &self.shape {
-            Shape::Triangles { face_ids } => face_ids.len(),
-            Shape::Polytopes(polytopes) => polytopes.point_ends.len(),
+            PieceShapes::Triangles { face_ids } => face_ids.len(),
+            PieceShapes::Polytopes(polytopes) => polytopes.point_ends.len(),
         }
     }
 
     /// Returns whether every piece is a triangle with radius 0.
     pub fn all_triangles(&self) -> bool {
-        matches!(self.shape, Shape::Triangles { .. })
+        matches!(self.shape, PieceShapes::Triangles { .. })
     }
 
     /// Returns the piece with this index.
@@ -176,8 +176,8 @@ impl Pieces {
             points: &self.points[self.point_range(index)],
             radius: self.radius(index),
             facets: self.facets(index),
-            support: None,
-            slot: Some(Slot {
+            support_map: None,
+            side_table_entry: Some(SideTableEntry {
                 side_table: &self.side_table,
                 len: self.len(),
                 index,
@@ -198,8 +198,8 @@ impl Pieces {
     /// Returns the approximate memory use in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let others = match &self.shape {
-            Shape::Triangles { face_ids } => size_of_val(face_ids.as_slice()),
-            Shape::Polytopes(polytopes) => polytopes.bytes(),
+            PieceShapes::Triangles { face_ids } => size_of_val(face_ids.as_slice()),
+            PieceShapes::Polytopes(polytopes) => polytopes.bytes(),
         };
         size_of_val(self.points.as_slice()) + 4 * self.vertex_ids.len() + others
     }
@@ -227,20 +227,20 @@ impl Pieces {
     }
 
     /// Returns the pieces in a new order: piece `k` of the result is piece `order[k]` of `self`.
-    pub(crate) fn reordered(&self, order: &[u32]) -> Pieces {
+    pub(crate) fn with_piece_order(&self, order: &[u32]) -> Pieces {
         let order = order.iter().map(|&k| k as usize);
         match &self.shape {
-            Shape::Triangles { face_ids } => {
+            PieceShapes::Triangles { face_ids } => {
                 let numbers = self.vertex_ids.as_chunks::<3>().0;
                 Pieces::with_shape(
                     order.clone().flat_map(|k| self.triangle(k)).collect(),
                     order.clone().flat_map(|k| numbers[k]).collect(),
-                    Shape::Triangles {
+                    PieceShapes::Triangles {
                         face_ids: order.map(|k| face_ids[k]).collect(),
                     },
                 )
             }
-            Shape::Polytopes(_) => {
+            PieceShapes::Polytopes(_) => {
                 let mut builder = PiecesBuilder::default();
                 for k in order {
                     let piece = self.get(k);
@@ -265,15 +265,15 @@ impl Pieces {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {
             (_, []) => Feature::Piece(piece as u32),
-            (Shape::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
-            (Shape::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
-            (Shape::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
-            (Shape::Polytopes(_), _) => {
+            (PieceShapes::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
+            (PieceShapes::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
+            (PieceShapes::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
+            (PieceShapes::Polytopes(_), _) => {
                 match feature_lookup::find_mesh_feature(&self.get(piece), point) {
                     MeshFeature::Vertex(v) => Feature::Vertex(id(v)),
                     MeshFeature::Edge(v, w) => Feature::edge(id(v), id(w)),
                     MeshFeature::Face(face) => Feature::Face(face),
-                    MeshFeature::Nothing => Feature::Piece(piece as u32),
+                    MeshFeature::NoFeature => Feature::Piece(piece as u32),
                 }
             }
         }
@@ -282,24 +282,24 @@ impl Pieces {
     #[inline]
     pub(crate) fn point_range(&self, piece: usize) -> std::ops::Range<usize> {
         match &self.shape {
-            Shape::Triangles { .. } => 3 * piece..3 * piece + 3,
-            Shape::Polytopes(polytopes) => range(&polytopes.point_ends, piece),
+            PieceShapes::Triangles { .. } => 3 * piece..3 * piece + 3,
+            PieceShapes::Polytopes(polytopes) => range_from_ends(&polytopes.point_ends, piece),
         }
     }
 
     #[inline]
     fn radius(&self, piece: usize) -> f64 {
         match &self.shape {
-            Shape::Triangles { .. } => 0.0,
-            Shape::Polytopes(polytopes) => polytopes.radii[piece],
+            PieceShapes::Triangles { .. } => 0.0,
+            PieceShapes::Polytopes(polytopes) => polytopes.radii[piece],
         }
     }
 
     #[inline]
     fn facets(&self, piece: usize) -> Facets<'_> {
         match &self.shape {
-            Shape::Triangles { .. } => Facets::NONE,
-            Shape::Polytopes(polytopes) => polytopes.facets_of(piece),
+            PieceShapes::Triangles { .. } => Facets::NONE,
+            PieceShapes::Polytopes(polytopes) => polytopes.facets_of(piece),
         }
     }
 }
@@ -307,7 +307,7 @@ impl Pieces {
 impl Polytopes {
     #[inline]
     fn facets_of(&self, piece: usize) -> Facets<'_> {
-        let facets = range(&self.facet_ends, piece);
+        let facets = range_from_ends(&self.facet_ends, piece);
         Facets {
             first_corner: match facets.start {
                 0 => 0,
@@ -316,7 +316,7 @@ impl Polytopes {
             origins: &self.origins[facets.clone()],
             ends: &self.corner_ends[facets],
             corners: &self.corners,
-            faces: &self.faces[range(&self.face_ends, piece)],
+            faces: &self.faces[range_from_ends(&self.face_ends, piece)],
         }
     }
 

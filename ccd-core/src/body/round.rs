@@ -27,13 +27,13 @@ use std::f64::consts::{PI, TAU};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidOfRevolution {
-    kind: Kind,
+    kind: SolidKind,
     radius: f64,
     half_height: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum SolidKind {
     Cylinder,
     Cone,
 }
@@ -58,7 +58,7 @@ impl SolidOfRevolution {
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
     pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        SolidOfRevolution::new(Kind::Cylinder, radius, half_height)
+        SolidOfRevolution::new(SolidKind::Cylinder, radius, half_height)
     }
 
     /// Creates a cone along z. Its base is at `−half_height` along z, its apex at `half_height`.
@@ -66,10 +66,10 @@ impl SolidOfRevolution {
     /// # Errors
     /// [`InputError::OutOfRange`] for lengths that are not from 0 to [`MAX_COORDINATE`].
     pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        SolidOfRevolution::new(Kind::Cone, radius, half_height)
+        SolidOfRevolution::new(SolidKind::Cone, radius, half_height)
     }
 
-    fn new(kind: Kind, radius: f64, half_height: f64) -> Result<Self, InputError> {
+    fn new(kind: SolidKind, radius: f64, half_height: f64) -> Result<Self, InputError> {
         for (what, value) in [("radius", radius), ("half height", half_height)] {
             check_length(what, value)?;
         }
@@ -104,13 +104,13 @@ impl SolidOfRevolution {
         let base: Vec<u32> = (0..count).rev().collect();
         let sides = (0..count).map(|k| (k, (k + 1) % count));
         let (points, loops): (Vec<DVec3>, Vec<Vec<u32>>) = match self.kind {
-            Kind::Cylinder => {
+            SolidKind::Cylinder => {
                 let top = (count..2 * count).collect();
                 let sides = sides.map(|(k, next)| vec![k, next, count + next, count + k]);
                 let loops = [base, top].into_iter().chain(sides);
                 (level(-z).chain(level(z)).collect(), loops.collect())
             }
-            Kind::Cone => {
+            SolidKind::Cone => {
                 let sides = sides.map(|(k, next)| vec![k, next, count]);
                 let points = level(-z).chain([z * DVec3::Z]);
                 (points.collect(), [base].into_iter().chain(sides).collect())
@@ -241,7 +241,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn cylinder(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        SolidOfRevolution::cylinder(radius, half_height)?.default_enclosure()
+        SolidOfRevolution::cylinder(radius, half_height)?.default_enclosing_body()
     }
 
     /// Creates a cone about the origin, with the base at `−half_height` along z, and the apex at `half_height`. The
@@ -250,12 +250,12 @@ impl Body {
     /// # Errors
     /// [`InputError::OutOfRange`].
     pub fn cone(radius: f64, half_height: f64) -> Result<Self, InputError> {
-        SolidOfRevolution::cone(radius, half_height)?.default_enclosure()
+        SolidOfRevolution::cone(radius, half_height)?.default_enclosing_body()
     }
 }
 
 impl SolidOfRevolution {
-    fn default_enclosure(&self) -> Result<Body, InputError> {
+    fn default_enclosing_body(&self) -> Result<Body, InputError> {
         self.enclose(self.usual_excess())?.body()
     }
 }

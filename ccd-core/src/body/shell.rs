@@ -14,7 +14,7 @@ pub(crate) type Shell = [DVec3; 6];
 /// Approximately linear in the number of points.
 pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
-    let (mut parts, distinct) = join_by_number(pieces);
+    let (mut parts, distinct) = join_points_by_number(pieces);
     let mut count = distinct.len();
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
@@ -24,7 +24,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     }
     // A single part needs no further joining.
     if count > 1 {
-        join_equal(points, &distinct, &mut parts);
+        join_coincident_points(points, &distinct, &mut parts);
     }
     let mut shell_of = vec![u32::MAX; points.len()];
     let mut shells: Vec<Shell> = Vec::new();
@@ -49,7 +49,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
 ///
 /// The points of a mesh's vertex have its number, so that hardly any equal points remain. The result does not rely on
 /// numbers: points count as equal by their coordinates.
-fn join_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
+fn join_points_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
     let range = numbers
@@ -80,7 +80,7 @@ fn join_by_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
 }
 
 /// Joins points at the same position.
-fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut DisjointSets) {
+fn join_coincident_points(points: &[DVec3], distinct: &[u32], parts: &mut DisjointSets) {
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
         // The numbers 0 and −0 are equal.

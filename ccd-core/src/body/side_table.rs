@@ -25,7 +25,7 @@ impl SideTable {
     pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
         let mut side_table = self;
         loop {
-            let column = side_table.0.get_or_init(|| Box::new(Column::of::<T>(len)));
+            let column = side_table.0.get_or_init(|| Box::new(Column::new::<T>(len)));
             if let Some(entries) = column.entries.downcast_ref::<Vec<OnceLock<T>>>() {
                 return &entries[index];
             }
@@ -35,7 +35,7 @@ impl SideTable {
 }
 
 impl Column {
-    fn of<T: Any + Send + Sync>(len: usize) -> Self {
+    fn new<T: Any + Send + Sync>(len: usize) -> Self {
         let entries: Vec<OnceLock<T>> = (0..len).map(|_| OnceLock::new()).collect();
         Column {
             entries: Box::new(entries),

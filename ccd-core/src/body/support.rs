@@ -56,7 +56,7 @@ impl Support {
     ///
     /// # Guarantee
     /// No point of the piece is farther by more than the rounding of two heights, each of which is
-    /// [`HEIGHT_F64`](crate::rounding::HEIGHT_F64) of the direction's 1-norm and the largest
+    /// [`HEIGHT_ERROR_F64`](crate::rounding::HEIGHT_ERROR_F64) of the direction's 1-norm and the largest
     /// coordinate. A direction that is not finite gives some point.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
@@ -69,7 +69,7 @@ impl Support {
 
     /// Like `Support::extremal`, for a direction along which `corner` may be known to be nearly extremal.
     #[inline]
-    pub(crate) fn extremal_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
+    pub(crate) fn extremal_point_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {
             (Support::Climb(table), Some(corner)) => table.extremal_from(corner, direction),
             _ => self.extremal(direction),

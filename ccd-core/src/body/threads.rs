@@ -11,7 +11,7 @@ pub(super) const MIN_PARALLEL_WORK: usize = 1024;
 const CHUNK_LENGTH: usize = 64;
 
 /// Calls a function with every element and its index, in parallel. Each thread has its own workspace.
-pub(super) fn for_each<T: Send, W: Clone + Send>(
+pub(super) fn parallel_for_each<T: Send, W: Clone + Send>(
     list: &mut [T],
     workspace: &W,
     work: impl Fn(&mut W, usize, &mut T) + Sync,
@@ -23,10 +23,10 @@ pub(super) fn for_each<T: Send, W: Clone + Send>(
             .map_or(1, NonZero::get)
             .min(list.len() / MIN_PARALLEL_WORK + 1)
     };
-    for_each_in(threads, list, workspace, work);
+    parallel_for_each_on(threads, list, workspace, work);
 }
 
-fn for_each_in<T: Send, W: Clone + Send>(
+fn parallel_for_each_on<T: Send, W: Clone + Send>(
     threads: usize,
     list: &mut [T],
     workspace: &W,

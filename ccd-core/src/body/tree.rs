@@ -96,7 +96,7 @@ impl Tree {
     }
 
     /// Returns the common fields of a group of triangles.
-    pub(crate) fn triangle_members(&self, index: u32) -> &GroupHeader {
+    pub(crate) fn triangle_group_header(&self, index: u32) -> &GroupHeader {
         &self.triangles[index as usize].members
     }
 

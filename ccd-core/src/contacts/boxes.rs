@@ -18,24 +18,24 @@ pub(super) struct FaceTrees {
 struct FaceBox {
     low: DVec3,
     high: DVec3,
-    below: Below,
+    below: FaceBoxContent,
 }
 
 #[derive(Clone, Copy)]
-enum Below {
+enum FaceBoxContent {
     Face(u32),
     /// An inner node: its first child is the next node in the list, its second child has this index.
     Inner(u32),
 }
 
 /// The pairs of near faces that a search finds, and its remaining budget.
-pub(super) struct NearFaces {
+pub(super) struct NearFacePairs {
     pub(super) pairs: Vec<[u32; 2]>,
     pub(super) budget: u64,
     pub(super) reach: f64,
 }
 
-impl NearFaces {
+impl NearFacePairs {
     /// Adds the pairs of faces below two roots whose boxes are nearer than `reach`. Returns `None` if the budget is
     /// spent.
     pub(super) fn add_pairs_below(
@@ -51,14 +51,20 @@ impl NearFaces {
             }
             self.budget = self.budget.checked_sub(1)?;
             match (a.below, b.below) {
-                (Below::Face(face_a), Below::Face(face_b)) => self.pairs.push([face_a, face_b]),
-                (Below::Inner(right), Below::Face(_)) => {
+                (FaceBoxContent::Face(face_a), FaceBoxContent::Face(face_b)) => {
+                    self.pairs.push([face_a, face_b])
+                }
+                (FaceBoxContent::Inner(right), FaceBoxContent::Face(_)) => {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
-                (Below::Inner(right), Below::Inner(_)) if a.size() >= b.size() => {
+                (FaceBoxContent::Inner(right), FaceBoxContent::Inner(_))
+                    if a.size() >= b.size() =>
+                {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
-                (_, Below::Inner(right)) => stack.extend([[at_a, right], [at_a, at_b + 1]]),
+                (_, FaceBoxContent::Inner(right)) => {
+                    stack.extend([[at_a, right], [at_a, at_b + 1]])
+                }
             }
         }
         Some(())
@@ -78,7 +84,7 @@ impl FaceTrees {
         let point = FaceBox {
             low: at,
             high: at,
-            below: Below::Face(0),
+            below: FaceBoxContent::Face(0),
         };
         let mut near = Vec::new();
         let root = (!self.nodes.is_empty()).then_some(0);
@@ -87,8 +93,8 @@ impl FaceTrees {
             let node = self.get(id);
             match node.below {
                 _ if node.is_farther_apart(&point, reach) => {}
-                Below::Face(face) => near.push(face),
-                Below::Inner(right) => stack.extend([right, id + 1]),
+                FaceBoxContent::Face(face) => near.push(face),
+                FaceBoxContent::Inner(right) => stack.extend([right, id + 1]),
             }
         }
         near
@@ -124,7 +130,7 @@ impl FaceTrees {
         if faces.len() > 1 {
             let (left, right) = split_at_median(faces, around.high - around.low);
             self.add(left)?;
-            self.nodes[at].below = Below::Inner(self.add(right)?);
+            self.nodes[at].below = FaceBoxContent::Inner(self.add(right)?);
         }
         Some(at as u32)
     }
@@ -136,7 +142,7 @@ impl FaceBox {
         FaceBox {
             low: a.min(b).min(c) - radius,
             high: a.max(b).max(c) + radius,
-            below: Below::Face(face),
+            below: FaceBoxContent::Face(face),
         }
     }
 

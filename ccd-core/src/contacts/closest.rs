@@ -9,7 +9,7 @@ pub(super) enum TrianglePart {
     Corner(usize),
     /// The edge from corner `k` to the next one.
     Edge(usize),
-    Inside,
+    Interior,
 }
 
 /// Returns the nearest point of a triangle, and the smallest part of the triangle that is equally near up to
@@ -17,7 +17,7 @@ pub(super) enum TrianglePart {
 ///
 /// Even if a weight suffers cancellation, the point is in the triangle, so that its distance is
 /// never too small.
-pub(super) fn nearest_on_triangle(
+pub(super) fn nearest_point_on_triangle(
     from: DVec3,
     corners: [DVec3; 3],
     rounding: f64,
@@ -30,7 +30,7 @@ pub(super) fn nearest_on_triangle(
             project_to_segment(from, [corners[k], next(k)])?,
         ))
     };
-    let inside = project_to_triangle(from, corners).map(|foot| (TrianglePart::Inside, foot));
+    let inside = project_to_triangle(from, corners).map(|foot| (TrianglePart::Interior, foot));
     // The smallest parts come first: a smaller part is taken if no larger one is nearer.
     let parts = [
         Some(corner(0)),
@@ -44,7 +44,7 @@ pub(super) fn nearest_on_triangle(
     let way = |&(_, at): &(TrianglePart, DVec3)| from.distance(at);
     let mut best = corner(0);
     for part in parts.into_iter().flatten() {
-        let nearer = if same_kind(part.0, best.0) {
+        let nearer = if is_same_part_kind(part.0, best.0) {
             way(&part) < way(&best)
         } else {
             way(&part) + rounding < way(&best)
@@ -58,7 +58,7 @@ pub(super) fn nearest_on_triangle(
 
 /// Returns the nearest points of two edges if both are inside the edges, and nearer than the ends by more than
 /// `rounding`. Edges that are parallel, or meet at an end, do not cross.
-pub(super) fn nearest_on_crossing_edges(
+pub(super) fn nearest_points_on_crossing_edges(
     e: [DVec3; 2],
     f: [DVec3; 2],
     rounding: f64,
@@ -75,16 +75,16 @@ pub(super) fn nearest_on_crossing_edges(
     let p = inner(q, e)?;
     let q = inner(p, f)?;
     let ends = [
-        e[0].distance(nearest_on(e[0], f)),
-        e[1].distance(nearest_on(e[1], f)),
-        f[0].distance(nearest_on(f[0], e)),
-        f[1].distance(nearest_on(f[1], e)),
+        e[0].distance(nearest_point_on_segment(e[0], f)),
+        e[1].distance(nearest_point_on_segment(e[1], f)),
+        f[0].distance(nearest_point_on_segment(f[0], e)),
+        f[1].distance(nearest_point_on_segment(f[1], e)),
     ];
     let nearest_end = ends.into_iter().fold(f64::INFINITY, lesser);
     (p.distance(q) + rounding < nearest_end).then_some([p, q])
 }
 
-fn same_kind(one: TrianglePart, other: TrianglePart) -> bool {
+fn is_same_part_kind(one: TrianglePart, other: TrianglePart) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
@@ -97,7 +97,7 @@ fn project_to_segment(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
 }
 
 /// Returns the point of a segment that is nearest to `from`.
-fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
+fn nearest_point_on_segment(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     let nearer_end = if from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
         edge[1]
     } else {

@@ -73,7 +73,7 @@ fn with_common_normal(
         return contact;
     }
     let [frame, _] = &snapshot.frames;
-    let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.local(at)));
+    let points = [witness_a, witness_b].map(|at| frame.inverse_point(problem.to_local_point(at)));
     let Some(axis) = common_normal(&snapshot, points, frame.inverse_vector(normal), meter) else {
         return contact;
     };
@@ -112,7 +112,8 @@ fn contact_of_pieces<O: DistanceOracle>(
         // bounds that its normal proves for the pieces.
         None => {
             let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
-            let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));
+            let from = snapshot.frames[0]
+                .inverse_point(given.to_local_point(contact.separation.witness_a));
             let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
             contact
                 .cap_lower_bound(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)

@@ -1,7 +1,7 @@
 //! Collects the pairs of features in contact, and chooses those to report.
 
 use super::candidate::Candidate;
-use super::closest::{TrianglePart, nearest_on_crossing_edges, nearest_on_triangle};
+use super::closest::{TrianglePart, nearest_point_on_triangle, nearest_points_on_crossing_edges};
 use super::feature_pair::FeaturePair;
 use super::measure::measure;
 use super::skin::{NearSurface, SurfacePart, triangle_edge};
@@ -13,15 +13,15 @@ use std::cell::LazyCell;
 use std::collections::{HashMap, HashSet};
 
 /// All pairs of features found in contact.
-pub(super) struct Manifold<'a> {
+pub(super) struct ContactManifold<'a> {
     problem: &'a Problem<'a>,
     near_surfaces: [&'a NearSurface<'a>; 2],
     found: HashMap<[SurfacePart; 2], Candidate>,
 }
 
-impl<'a> Manifold<'a> {
+impl<'a> ContactManifold<'a> {
     pub(super) fn new(problem: &'a Problem<'_>, skins: [&'a NearSurface<'a>; 2]) -> Self {
-        Manifold {
+        ContactManifold {
             problem,
             near_surfaces: skins,
             found: HashMap::new(),
@@ -38,19 +38,19 @@ impl<'a> Manifold<'a> {
         let [a, b] = self.near_surfaces;
         let rounding = self.problem.rounding;
         for v in a.corners_of(faces[0]) {
-            let (part, foot) = nearest_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
+            let (part, foot) = nearest_point_on_triangle(a.at(v), b.triangle(faces[1]), rounding);
             let spots = [SurfacePart::Corner(v), surface_part(b, faces[1], part)];
             self.add_pair(spots, [a.at(v), foot], faces);
         }
         for v in b.corners_of(faces[1]) {
-            let (part, foot) = nearest_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
+            let (part, foot) = nearest_point_on_triangle(b.at(v), a.triangle(faces[0]), rounding);
             let spots = [surface_part(a, faces[0], part), SurfacePart::Corner(v)];
             self.add_pair(spots, [foot, b.at(v)], faces);
         }
         for e in a.edges_of(faces[0]) {
             for f in b.edges_of(faces[1]) {
                 let ends = [e.map(|end| a.at(end)), f.map(|end| b.at(end))];
-                if let Some(points) = nearest_on_crossing_edges(ends[0], ends[1], rounding) {
+                if let Some(points) = nearest_points_on_crossing_edges(ends[0], ends[1], rounding) {
                     self.add_pair([SurfacePart::Edge(e), SurfacePart::Edge(f)], points, faces);
                 }
             }
@@ -120,7 +120,7 @@ impl<'a> Manifold<'a> {
         (0..2).any(|k| {
             let (skin, from) = (self.near_surfaces[k], candidate.points[1 - k]);
             skin.coplanar_faces_around(spots[k]).iter().any(|&face| {
-                let (_, nearest) = nearest_on_triangle(from, skin.triangle(face), rounding);
+                let (_, nearest) = nearest_point_on_triangle(from, skin.triangle(face), rounding);
                 from.distance(nearest) + rounding < candidate.distance()
             })
         })
@@ -133,10 +133,10 @@ impl<'a> Manifold<'a> {
         let mut covered = HashSet::new();
         for &[of_a, of_b] in self.found.keys() {
             if let SurfacePart::Corner(_) = of_a {
-                covered.extend(b.boundary(of_b).into_iter().map(|part| [of_a, part]));
+                covered.extend(b.boundary_parts(of_b).into_iter().map(|part| [of_a, part]));
             }
             if let SurfacePart::Corner(_) = of_b {
-                covered.extend(a.boundary(of_a).into_iter().map(|part| [part, of_b]));
+                covered.extend(a.boundary_parts(of_a).into_iter().map(|part| [part, of_b]));
             }
         }
         covered
@@ -149,7 +149,7 @@ fn surface_part(skin: &NearSurface<'_>, face: u32, part: TrianglePart) -> Surfac
     match part {
         TrianglePart::Corner(k) => SurfacePart::Corner(corners[k]),
         TrianglePart::Edge(k) => SurfacePart::Edge(triangle_edge(corners, k)),
-        TrianglePart::Inside => SurfacePart::Face(face),
+        TrianglePart::Interior => SurfacePart::Face(face),
     }
 }
 

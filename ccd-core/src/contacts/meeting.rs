@@ -21,16 +21,19 @@ pub(super) fn common_normal(
     let (mut looks, turn) = (0, pieces.b_to_a.rotation);
     let normals = &mut meter.scratch_memory().normals;
     normals.reset(LEVEL_HEIGHT * problem.rounding);
-    problem.a.body.offsets_around(points[0], reach, |way| {
-        looks += 1;
-        normals.add_offset_of_a(way);
-    });
+    problem
+        .a
+        .body
+        .for_each_offset_around(points[0], reach, |way| {
+            looks += 1;
+            normals.add_offset_of_a(way);
+        });
     let in_b = pieces.b_to_a.inverse_point(points[1]);
-    problem.b.body.offsets_around(in_b, reach, |way| {
+    problem.b.body.for_each_offset_around(in_b, reach, |way| {
         looks += 1;
         normals.add_offset_of_b(turn * way);
     });
-    normals.sort();
+    normals.sort_offsets();
     meter.stats.point_evaluations += looks;
     let normals = &meter.scratch_memory().normals;
     normals.nearest_normal_along(towards, points[1] - points[0])

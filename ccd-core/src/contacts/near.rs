@@ -1,6 +1,6 @@
 //! Finds near pieces of two bodies, and their near faces, by trees.
 
-use super::boxes::{FaceTrees, NearFaces};
+use super::boxes::{FaceTrees, NearFacePairs};
 use super::skin::NearSurface;
 use crate::body::tree::{NodeChildren, NodeId, NodeOrTriangle, Tree};
 use crate::math::order::{greater, lesser};
@@ -12,19 +12,19 @@ use glam::DVec3;
 
 /// Returns all pairs of a face of A and a face of B that may be nearer than `reach`. Returns `None` if the search
 /// exceeds the problem's budget.
-pub(super) fn near_faces(
+pub(super) fn near_face_pairs(
     problem: &Problem<'_>,
     skins: &mut [NearSurface<'_>; 2],
     b_to_a: &Frame,
     reach: f64,
 ) -> Option<Vec<[u32; 2]>> {
     let mut trees = <[FaceTrees; 2]>::default();
-    let mut near = NearFaces {
+    let mut near = NearFacePairs {
         pairs: Vec::new(),
         budget: problem.budget,
         reach,
     };
-    for pieces in near_pieces(problem, b_to_a, reach)? {
+    for pieces in near_piece_pairs(problem, b_to_a, reach)? {
         let [a, b] = [0, 1].map(|k| trees[k].root(&mut skins[k], pieces[k]));
         if let (Some(a), Some(b)) = (a, b) {
             near.add_pairs_below(&trees, [a, b])?;
@@ -34,7 +34,7 @@ pub(super) fn near_faces(
 }
 
 /// Returns the pairs of pieces that may be nearer than `reach`, judged by their nodes on all levels of the trees.
-fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
+fn near_piece_pairs(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
     let mut stack: Vec<[NodeId; 2]> = vec![[0, 0]];
@@ -69,8 +69,8 @@ fn children_of(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
         NodeOrTriangle::Triangle(_) => return 0..0,
         NodeOrTriangle::Node(node) => match node.below {
-            NodeChildren::Boxes(group) => &tree.box_group(group).members,
-            NodeChildren::Triangles(group) => tree.triangle_members(group),
+            NodeChildren::Boxes(group) => &tree.box_group(group).header,
+            NodeChildren::Triangles(group) => tree.triangle_group_header(group),
             NodeChildren::Piece(_) => return 0..0,
         },
     };

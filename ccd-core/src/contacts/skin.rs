@@ -14,7 +14,7 @@ use std::ops::Range;
 /// The needed part of a body's surface as triangles, in A's frame.
 pub(super) struct NearSurface<'a> {
     body: &'a Body,
-    to_a: Frame,
+    body_to_a: Frame,
     corners: Vec<Corner>,
     faces: Vec<Face>,
     /// The index of the corner with a given position and mesh number.
@@ -63,7 +63,7 @@ impl<'a> NearSurface<'a> {
     pub(super) fn new(body: &'a Body, to_a: Frame) -> Self {
         NearSurface {
             body,
-            to_a,
+            body_to_a: to_a,
             corners: Vec::new(),
             faces: Vec::new(),
             corner_index: HashMap::new(),
@@ -85,7 +85,7 @@ impl<'a> NearSurface<'a> {
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
     pub(super) fn find_cut_edges(&mut self, rounding: f64) {
-        self.propagate_numbers();
+        self.propagate_mesh_numbers();
         self.add_normals();
         let mut sides: HashMap<[u32; 2], EdgeFaces> = HashMap::new();
         for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
@@ -107,7 +107,7 @@ impl<'a> NearSurface<'a> {
             self.is_hidden[corner as usize] = false;
         }
         for (ends, EdgeFaces { mut faces, count }) in sides {
-            if count == 2 && self.in_one_plane(ends, faces, rounding) {
+            if count == 2 && self.are_coplanar(ends, faces, rounding) {
                 faces.sort_by_key(|&face| (self.face(face).name, face));
                 self.coplanar_edges.insert(ends, faces);
             } else {
@@ -159,7 +159,7 @@ impl<'a> NearSurface<'a> {
     fn normal(&self, face: u32) -> DVec3 {
         let piece = self.face(face).piece;
         if let Some(normal) = self.body.outward_normal(piece) {
-            return self.to_a.rotation * normal;
+            return self.body_to_a.rotation * normal;
         }
         let [a, b, c] = self.triangle(face);
         let unknown = self.body.pieces().get(piece as usize).is_flat();
@@ -189,17 +189,17 @@ impl<'a> NearSurface<'a> {
         let placed = points
             .iter()
             .chain(&inside)
-            .map(|&point| self.to_a.point(point));
+            .map(|&point| self.body_to_a.point(point));
         corners.into_iter().chain(placed).for_each(look);
     }
 
     /// Returns the middle of a piece's points.
     pub(super) fn centroid(&self, piece: u32) -> DVec3 {
-        self.to_a.point(self.body.centroid(piece))
+        self.body_to_a.point(self.body.centroid(piece))
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.
-    pub(super) fn boundary(&self, spot: SurfacePart) -> Vec<SurfacePart> {
+    pub(super) fn boundary_parts(&self, spot: SurfacePart) -> Vec<SurfacePart> {
         match spot {
             SurfacePart::Corner(_) => Vec::new(),
             SurfacePart::Edge(ends) => ends.map(SurfacePart::Corner).to_vec(),
@@ -281,7 +281,7 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Copies mesh numbers to corners without one, from corners of other pieces at the same position.
-    fn propagate_numbers(&mut self) {
+    fn propagate_mesh_numbers(&mut self) {
         let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
             if let Some(id) = corner.id {
@@ -303,7 +303,7 @@ impl<'a> NearSurface<'a> {
 
     /// Returns whether two faces with a common edge are coplanar. They are if neither rises above the other's plane, or
     /// if they are cut from one facet.
-    fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
+    fn are_coplanar(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
         let [one, other] = faces.map(|face| self.face(face));
         // Rounding moves their surfaces off the plane by different radii.
         if one.radius.to_bits() != other.radius.to_bits() {

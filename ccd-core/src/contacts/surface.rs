@@ -1,7 +1,7 @@
 //! Finds the shape of a body's surface around its points, by a tree over its triangles.
 
 use super::boxes::FaceTrees;
-use super::closest::nearest_on_triangle;
+use super::closest::nearest_point_on_triangle;
 use super::skin::NearSurface;
 use crate::distance::common_normals::CommonNormals;
 use crate::rounding::{ADJACENCY_DISTANCE, LEVEL_HEIGHT};
@@ -32,7 +32,7 @@ impl<'a> Surface<'a> {
         normals.reset(LEVEL_HEIGHT * rounding);
         surfaces[0].offsets_around(points[0], reach, |way| normals.add_offset_of_a(way));
         surfaces[1].offsets_around(points[1], reach, |way| normals.add_offset_of_b(way));
-        normals.sort();
+        normals.sort_offsets();
         normals
     }
 
@@ -40,7 +40,7 @@ impl<'a> Surface<'a> {
     /// the solid.
     fn offsets_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.faces_near(at, reach) {
-            let (_, nearest) = nearest_on_triangle(at, self.near_surface.triangle(face), 0.0);
+            let (_, nearest) = nearest_point_on_triangle(at, self.near_surface.triangle(face), 0.0);
             // Written so that NaN is near.
             if !(nearest.distance(at) > reach) {
                 self.near_surface

@@ -36,11 +36,11 @@ fn at(x: f64, y: f64, z: f64) -> Pose {
     Pose::at(DVec3::new(x, y, z)).unwrap()
 }
 
-fn turned(pose: Pose, axis: DVec3, angle: f64) -> Pose {
+fn with_rotation(pose: Pose, axis: DVec3, angle: f64) -> Pose {
     Pose::new(pose.translation(), DQuat::from_axis_angle(axis, angle)).unwrap()
 }
 
-fn names(pairs: &[FeaturePair]) -> Vec<String> {
+fn feature_names(pairs: &[FeaturePair]) -> Vec<String> {
     let name = |pair: &FeaturePair| format!("{} {}", pair.feature_a, pair.feature_b);
     let mut names: Vec<String> = pairs.iter().map(name).collect();
     names.sort();
@@ -48,7 +48,7 @@ fn names(pairs: &[FeaturePair]) -> Vec<String> {
 }
 
 /// Counts the pairs of a vertex and a face, of two edges, and of other features.
-fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
+fn count_pair_kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     let mut counts = [0; 3];
     for pair in pairs {
         counts[match (pair.feature_a, pair.feature_b) {
@@ -89,10 +89,10 @@ fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
                 for gap in [5e-4, 1e-6, 0.0] {
                     let pairs = contacts(&cube, &slab, at(x, y, 1.5 + gap), 1e-3);
                     assert_eq!(
-                        kinds(&pairs),
+                        count_pair_kinds(&pairs),
                         [4, 0, 0],
                         "{x} {y} {gap}: {:?}",
-                        names(&pairs)
+                        feature_names(&pairs)
                     );
                     check_bounds(&pairs, gap, -DVec3::Z);
                     let vertices: Vec<u32> =
@@ -116,7 +116,12 @@ fn a_cube_over_the_side_of_a_slab_has_two_corners_and_two_crossings() {
     for cube in cuboids(DVec3::splat(0.5)) {
         for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
             let pairs = contacts(&cube, &slab, at(3.1, 0.2, 1.5005), 1e-3);
-            assert_eq!(kinds(&pairs), [2, 2, 0], "{:?}", names(&pairs));
+            assert_eq!(
+                count_pair_kinds(&pairs),
+                [2, 2, 0],
+                "{:?}",
+                feature_names(&pairs)
+            );
             check_bounds(&pairs, 5e-4, -DVec3::Z);
         }
     }
@@ -127,15 +132,25 @@ fn flush_squares_cross_along_their_outlines() {
     let square = || cuboids(DVec3::new(1.0, 1.0, 0.2));
     for (a, b) in square().into_iter().zip(square()) {
         // A star has eight crossings, and a cross of two bars four.
-        let star = turned(at(0.0, 0.0, 0.4005), DVec3::Z, 0.6);
+        let star = with_rotation(at(0.0, 0.0, 0.4005), DVec3::Z, 0.6);
         let pairs = contacts(&a, &b, star, 1e-3);
-        assert_eq!(kinds(&pairs), [0, 8, 0], "{:?}", names(&pairs));
+        assert_eq!(
+            count_pair_kinds(&pairs),
+            [0, 8, 0],
+            "{:?}",
+            feature_names(&pairs)
+        );
         check_bounds(&pairs, 5e-4, -DVec3::Z);
     }
     let bars = [DVec3::new(2.0, 0.5, 0.2), DVec3::new(0.5, 2.0, 0.2)];
     let [a, b] = bars.map(|half| Mesh::cuboid(half).body(Volume::Solid));
     let pairs = contacts(&a, &b, at(0.1, 0.0, 0.4), 1e-3);
-    assert_eq!(kinds(&pairs), [0, 4, 0], "{:?}", names(&pairs));
+    assert_eq!(
+        count_pair_kinds(&pairs),
+        [0, 4, 0],
+        "{:?}",
+        feature_names(&pairs)
+    );
     check_bounds(&pairs, 0.0, -DVec3::Z);
 }
 
@@ -144,11 +159,14 @@ fn flush_squares_cross_along_their_outlines() {
 fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
         let pairs = contacts(&a, &b, at(0.0, 0.0, 2.0005), 1e-3);
-        assert_eq!(names(&pairs), ["v0 v4", "v1 v5", "v2 v6", "v3 v7"]);
+        assert_eq!(feature_names(&pairs), ["v0 v4", "v1 v5", "v2 v6", "v3 v7"]);
         check_bounds(&pairs, 5e-4, -DVec3::Z);
         // One face is shifted along one side, and its corners are within edges.
         let pairs = contacts(&a, &b, at(0.7, 0.0, 2.0005), 1e-3);
-        assert_eq!(names(&pairs), ["e0-1 v5", "e2-3 v7", "v0 e4-5", "v2 e6-7"]);
+        assert_eq!(
+            feature_names(&pairs),
+            ["e0-1 v5", "e2-3 v7", "v0 e4-5", "v2 e6-7"]
+        );
         check_bounds(&pairs, 5e-4, -DVec3::Z);
     }
 }
@@ -158,7 +176,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
     let ball = Body::sphere(0.5).unwrap();
     let pairs = contacts(&ball, &slab, at(0.3, 0.1, 1.5005), 1e-3);
-    assert_eq!(names(&pairs), ["v0 f5"]);
+    assert_eq!(feature_names(&pairs), ["v0 f5"]);
     check_bounds(&pairs, 5e-4, -DVec3::Z);
     let pairs = contacts(
         &ball,
@@ -166,21 +184,21 @@ fn balls_and_capsules_touch_with_their_surfaces() {
         at(0.0, 1.2005, 0.0),
         1e-3,
     );
-    assert_eq!(names(&pairs), ["v0 v0"]);
+    assert_eq!(feature_names(&pairs), ["v0 v0"]);
     check_bounds(&pairs, 5e-4, -DVec3::Y);
 
     let capsule = Body::capsule(0.25, 1.0).unwrap();
-    let lying = turned(at(0.0, 0.0, 1.2505), DVec3::X, std::f64::consts::FRAC_PI_2);
+    let lying = with_rotation(at(0.0, 0.0, 1.2505), DVec3::X, std::f64::consts::FRAC_PI_2);
     let pairs = contacts(&capsule, &slab, lying, 1e-3);
-    assert_eq!(names(&pairs), ["v0 f5", "v1 f5"]);
+    assert_eq!(feature_names(&pairs), ["v0 f5", "v1 f5"]);
     check_bounds(&pairs, 5e-4, -DVec3::Z);
     // The edges cross each other, or are side by side.
-    let across = turned(at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
+    let across = with_rotation(at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
     let pairs = contacts(&capsule, &capsule, across, 1e-3);
-    assert_eq!(names(&pairs), ["e0-1 e0-1"]);
+    assert_eq!(feature_names(&pairs), ["e0-1 e0-1"]);
     check_bounds(&pairs, 5e-4, -DVec3::X);
     let pairs = contacts(&capsule, &capsule, at(0.5005, 0.0, 0.5), 1e-3);
-    assert_eq!(names(&pairs), ["e0-1 v1", "v0 e0-1"]);
+    assert_eq!(feature_names(&pairs), ["e0-1 v1", "v0 e0-1"]);
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
@@ -205,8 +223,8 @@ fn features_without_a_number_are_named_by_their_piece() {
     for (polytope, name) in [(hull, "p0 f5"), (bare, "v")] {
         let body = Body::polytope(polytope).unwrap();
         let pairs = contacts(&body, &slab, at(0.3, 0.1, 1.5005), 1e-3);
-        assert_eq!(pairs.len(), 4, "{:?}", names(&pairs));
-        assert!(names(&pairs).iter().all(|it| it.starts_with(name)));
+        assert_eq!(pairs.len(), 4, "{:?}", feature_names(&pairs));
+        assert!(feature_names(&pairs).iter().all(|it| it.starts_with(name)));
         check_bounds(&pairs, 5e-4, -DVec3::Z);
     }
 }
@@ -222,7 +240,7 @@ fn a_margin_is_reached_across() {
     for (height, count) in [(0.2505, 4), (0.2515, 0)] {
         let problem = still(&cube, &cube, at(0.0, 0.0, 1.0 + height), &config);
         let pairs = problem.contacts_at(0.5).unwrap();
-        assert_eq!(pairs.len(), count, "{:?}", names(&pairs));
+        assert_eq!(pairs.len(), count, "{:?}", feature_names(&pairs));
         check_bounds(&pairs, height, -DVec3::Z);
     }
 }
@@ -309,7 +327,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
             )
         })
         .collect();
-    for (name, distance) in &expected.certain {
+    for (name, distance) in &expected.certain_pairs {
         let same = reported.iter().find(|(other, _)| other == name);
         let Some((_, upper)) = same else {
             panic!("round {round}: {name} at {distance} of {tolerance} is missed");
@@ -322,7 +340,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     }
     for (name, distance) in &reported {
         assert!(
-            expected.certain.contains_key(name) || expected.uncertain.contains(name),
+            expected.certain_pairs.contains_key(name) || expected.uncertain_pairs.contains(name),
             "round {round}: {name} at {distance} of {tolerance} is no pair"
         );
     }
@@ -341,10 +359,10 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
         let loose = upper - lower > 1e-9 * tolerance + 16.0 * problem.rounding;
         assert!(!loose, "round {round}: not the nearest points: {pair:?}");
     }
-    for (count, more) in found.iter_mut().zip(kinds(&pairs)) {
+    for (count, more) in found.iter_mut().zip(count_pair_kinds(&pairs)) {
         *count += more;
     }
-    let mut unique = names(&pairs);
+    let mut unique = feature_names(&pairs);
     unique.dedup();
     assert_eq!(
         unique.len(),
@@ -364,8 +382,13 @@ fn fine_plates_face_to_face_are_no_trouble() {
     let cell = 6.0 / 60.0;
     let pairs = contacts(&body, &body, at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
     // Along two sides, 61 and 60 vertices of either plate hang over.
-    assert_eq!(kinds(&pairs)[0], 2 * 60 * 60);
-    assert_eq!(kinds(&pairs)[1], 2, "{:?}", &names(&pairs)[..8]);
+    assert_eq!(count_pair_kinds(&pairs)[0], 2 * 60 * 60);
+    assert_eq!(
+        count_pair_kinds(&pairs)[1],
+        2,
+        "{:?}",
+        &feature_names(&pairs)[..8]
+    );
     assert_eq!(pairs.len(), 2 * 60 * 60 + 2);
 }
 

@@ -1,7 +1,7 @@
 //! Finds a common normal of two surfaces at a pair of nearest points.
 
 use crate::math::vector::{across, length, unit};
-use crate::rounding::LEAST_SHARE;
+use crate::rounding::LEAST_COMPONENT_LENGTH;
 use glam::DVec3;
 
 /// The common normals of surfaces A and B at a point of each. They are the unit vectors `n` from A to B in the normal
@@ -36,7 +36,7 @@ impl CommonNormals {
 
     /// Sorts the offsets, the longest first. It is to be called after the last offset is added. The longest ones are
     /// the most exact.
-    pub(crate) fn sort(&mut self) {
+    pub(crate) fn sort_offsets(&mut self) {
         let length = |offset: &DVec3| offset.length_squared();
         self.offsets
             .sort_unstable_by(|one, other| length(other).total_cmp(&length(one)));
@@ -91,12 +91,12 @@ impl CommonNormals {
     /// offsets only.
     fn project_perpendicular(&self, towards: DVec3, level: DVec3, count: usize) -> Option<DVec3> {
         let level = unit(level)?;
-        let mut best = unit_if_distinct(towards - level * level.dot(towards))?;
+        let mut best = unit_of_component(towards - level * level.dot(towards))?;
         let before = || self.offsets.iter().copied().take(count);
         for (k, offset) in before().enumerate() {
             if self.violates(best, offset) {
                 let line = unit(across(level, offset))?;
-                best = unit_if_distinct(line * line.dot(towards))?;
+                best = unit_of_component(line * line.dot(towards))?;
                 if before().take(k).any(|offset| self.violates(best, offset)) {
                     return None;
                 }
@@ -115,8 +115,8 @@ impl CommonNormals {
 const MAX_KEPT_OFFSETS: usize = 1 << 20;
 
 /// Returns the unit vector along a component of a unit vector; `None` if the component may be mere rounding.
-fn unit_if_distinct(part: DVec3) -> Option<DVec3> {
-    (length(part) > LEAST_SHARE).then(|| unit(part))?
+fn unit_of_component(part: DVec3) -> Option<DVec3> {
+    (length(part) > LEAST_COMPONENT_LENGTH).then(|| unit(part))?
 }
 
 #[cfg(test)]

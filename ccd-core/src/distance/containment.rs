@@ -5,12 +5,12 @@ mod beside;
 use crate::answer::{Limit, Outcome, Overlap};
 use crate::body::Body;
 use crate::body::shell::Shell;
-use crate::body::tree::point_query::is_clear;
+use crate::body::tree::point_query::is_far_from_surface;
 use crate::body::tree::ray::crossings;
 use crate::math::vector::{across, unit_or_any};
 use crate::motion::pose::Frame;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::INSIDE;
+use crate::rounding::INSIDE_DISTANCE;
 use beside::points_beside_edges;
 use glam::DVec3;
 
@@ -42,26 +42,26 @@ pub(crate) fn containment_at_start(
         return None;
     }
     let (a, b) = (PlacedBody::of(&problem.a), PlacedBody::of(&problem.b));
-    let reach = INSIDE * problem.rounding;
+    let reach = INSIDE_DISTANCE * problem.rounding;
     let mut look = |outer: &PlacedBody<'_>, inner: &PlacedBody<'_>, side: usize| {
         let search = Search {
-            outer,
-            inner,
+            outer_body: outer,
+            inner_body: inner,
             reach,
         };
         if outer.body.may_be_hollow() {
             let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
             search.test_body(pairs, pieces)
         } else {
-            TestResult::Nothing
+            ContainmentResult::Nothing
         }
     };
     let result = [look(&b, &a, 0), look(&a, &b, 1)];
     let inside = |overlap| Some(Outcome::overlapping(overlap));
     match result {
-        [TestResult::Inside(p), _] => inside(Overlap::AInsideB(problem.world(p))),
-        [_, TestResult::Inside(p)] => inside(Overlap::BInsideA(problem.world(p))),
-        [TestResult::Nothing, TestResult::Nothing] => None,
+        [ContainmentResult::Inside(p), _] => inside(Overlap::AInsideB(problem.world(p))),
+        [_, ContainmentResult::Inside(p)] => inside(Overlap::BInsideA(problem.world(p))),
+        [ContainmentResult::Nothing, ContainmentResult::Nothing] => None,
         _ => Some(Outcome::unresolved(0.0, Limit::Undecided)),
     }
 }
@@ -83,23 +83,23 @@ impl PlacedBody<'_> {
 
 /// Tests points of one body, the inner one, against the solid of the other.
 struct Search<'a> {
-    outer: &'a PlacedBody<'a>,
-    inner: &'a PlacedBody<'a>,
+    outer_body: &'a PlacedBody<'a>,
+    inner_body: &'a PlacedBody<'a>,
     /// The distance from the outer surface below which a point counts as neither inside nor outside.
     reach: f64,
 }
 
 /// The result of a test; the point is in the problem's coordinates.
 #[derive(Clone, Copy)]
-enum TestResult {
+enum ContainmentResult {
     Inside(DVec3),
     Nothing,
     Undecided,
 }
 
-impl TestResult {
+impl ContainmentResult {
     fn is_inside(&self) -> bool {
-        matches!(self, TestResult::Inside(_))
+        matches!(self, ContainmentResult::Inside(_))
     }
 }
 
@@ -109,95 +109,97 @@ impl Search<'_> {
         &self,
         touching: impl Iterator<Item = [u32; 2]> + Clone,
         pieces: &mut Vec<u32>,
-    ) -> TestResult {
+    ) -> ContainmentResult {
         pieces.clear();
         pieces.extend(touching.clone().map(|[inner, _]| inner));
         pieces.sort_unstable();
         pieces.dedup();
-        let mut result = TestResult::Nothing;
-        let parts = self.inner.body.shells().iter();
+        let mut result = ContainmentResult::Nothing;
+        let parts = self.inner_body.body.shells().iter();
         let of_parts = parts.map(|shell| self.test_part(shell, pieces));
         let of_pieces = pieces.iter().map(|&piece| self.test_piece(piece));
         for one in of_parts.chain(of_pieces) {
             match one {
-                TestResult::Inside(_) => return one,
-                TestResult::Undecided => result = one,
-                TestResult::Nothing => {}
+                ContainmentResult::Inside(_) => return one,
+                ContainmentResult::Undecided => result = one,
+                ContainmentResult::Nothing => {}
             }
         }
         // Each piece is tested once: a hull of many facets may touch many pieces.
-        pieces.retain(|&piece| self.has_sides(piece) && !self.is_thick(piece));
+        pieces.retain(|&piece| self.has_known_outline(piece) && !self.is_thick(piece));
         let thin = touching.filter(|[inner, _]| pieces.binary_search(inner).is_ok());
         let inside = thin
             .map(|pair| self.test_edges(pair))
-            .find(TestResult::is_inside);
+            .find(ContainmentResult::is_inside);
         inside.unwrap_or(result)
     }
 
     /// Tests a point in the inner body's frame.
-    fn test_point(&self, point: DVec3) -> TestResult {
-        let placed = self.inner.frame.point(point);
-        let there = self.outer.frame.inverse_point(placed);
-        match contains(self.outer.body, there, self.reach) {
-            Some(true) => TestResult::Inside(placed),
-            Some(false) => TestResult::Nothing,
-            None => TestResult::Undecided,
+    fn test_point(&self, point: DVec3) -> ContainmentResult {
+        let placed = self.inner_body.frame.point(point);
+        let there = self.outer_body.frame.inverse_point(placed);
+        match contains(self.outer_body.body, there, self.reach) {
+            Some(true) => ContainmentResult::Inside(placed),
+            Some(false) => ContainmentResult::Nothing,
+            None => ContainmentResult::Undecided,
         }
     }
 
     /// Tests points one by one, until one is inside or undecided.
-    fn test_points(&self, points: impl IntoIterator<Item = DVec3>) -> TestResult {
+    fn test_points(&self, points: impl IntoIterator<Item = DVec3>) -> ContainmentResult {
         let mut answers = points.into_iter().map(|p| self.test_point(p));
-        let told = answers.find(|result| !matches!(result, TestResult::Undecided));
-        told.unwrap_or(TestResult::Undecided)
+        let told = answers.find(|result| !matches!(result, ContainmentResult::Undecided));
+        told.unwrap_or(ContainmentResult::Undecided)
     }
 
     /// Tests whether an extreme point of a connected part of the inner body is inside the outer body. If all of them
     /// are on the outer surface, the touching pieces decide about the part.
-    fn test_part(&self, shell: &Shell, touching: &[u32]) -> TestResult {
+    fn test_part(&self, shell: &Shell, touching: &[u32]) -> ContainmentResult {
         let result = self.test_points(*shell);
-        let pieces = self.inner.body.pieces();
+        let pieces = self.inner_body.body.pieces();
         let touches = |&piece: &u32| pieces.get(piece as usize).points.contains(&shell[0]);
         match result {
-            TestResult::Undecided if touching.iter().any(touches) => TestResult::Nothing,
+            ContainmentResult::Undecided if touching.iter().any(touches) => {
+                ContainmentResult::Nothing
+            }
             _ => result,
         }
     }
 
     /// Tests a touching piece: its corners, which it shares with pieces that do not touch, and a point of the solid
     /// below or in it.
-    fn test_piece(&self, piece: u32) -> TestResult {
-        let body = self.inner.body;
+    fn test_piece(&self, piece: u32) -> ContainmentResult {
+        let body = self.inner_body.body;
         let corners = match body.pieces().get(piece as usize) {
             // A single piece shares no corner: the middle decides if it is thick.
             _ if body.pieces().len() == 1 && self.is_thick(piece) => &[],
             piece => piece.points,
         };
         let mut inside = corners.iter().map(|&p| self.test_point(p));
-        if let Some(result) = inside.find(TestResult::is_inside) {
+        if let Some(result) = inside.find(ContainmentResult::is_inside) {
             return result;
         }
         match body.point_inside(piece) {
             Some(point) => self.test_points([point]),
             // A point of a surface that is on the other's surface is not inside.
             None => match self.test_point(body.centroid(piece)) {
-                TestResult::Undecided => TestResult::Nothing,
+                ContainmentResult::Undecided => ContainmentResult::Nothing,
                 result => result,
             },
         }
     }
 
     /// Returns whether the outline of a piece or of one of its facets is known.
-    fn has_sides(&self, piece: u32) -> bool {
-        let piece = self.inner.body.pieces().get(piece as usize);
+    fn has_known_outline(&self, piece: u32) -> bool {
+        let piece = self.inner_body.body.pieces().get(piece as usize);
         piece.is_flat() || !piece.facets.is_empty()
     }
 
     /// Returns whether a piece is thick: its middle is inside it by more than rounding. A face through the middle would
     /// intersect the piece by more than that.
     fn is_thick(&self, piece: u32) -> bool {
-        let middle = self.inner.body.centroid(piece);
-        let piece = self.inner.body.pieces().get(piece as usize);
+        let middle = self.inner_body.body.centroid(piece);
+        let piece = self.inner_body.body.pieces().get(piece as usize);
         let is_above = |corners: &[u32]| {
             let [a, b, c] = [0, 1, 2].map(|k| piece.points[corners[k] as usize]);
             unit_or_any(across(b - a, c - a)).dot(a - middle).abs() > self.reach
@@ -207,15 +209,19 @@ impl Search<'_> {
 
     /// Tests points of a thin piece next to edges of the other body that lie on it. Some of the points are next to
     /// faces.
-    fn test_edges(&self, [inner, outer]: [u32; 2]) -> TestResult {
-        let piece = self.inner.body.pieces().get(inner as usize);
-        let other = self.outer.body.pieces().get(outer as usize);
-        let place = |p: DVec3| self.inner.frame.inverse_point(self.outer.frame.point(p));
+    fn test_edges(&self, [inner, outer]: [u32; 2]) -> ContainmentResult {
+        let piece = self.inner_body.body.pieces().get(inner as usize);
+        let other = self.outer_body.body.pieces().get(outer as usize);
+        let place = |p: DVec3| {
+            self.inner_body
+                .frame
+                .inverse_point(self.outer_body.frame.point(p))
+        };
         let points = points_beside_edges(&piece, &other, place, self.reach);
         let mut result = points.map(|p| self.test_point(p));
         result
-            .find(TestResult::is_inside)
-            .unwrap_or(TestResult::Nothing)
+            .find(ContainmentResult::is_inside)
+            .unwrap_or(ContainmentResult::Nothing)
     }
 }
 
@@ -225,7 +231,7 @@ fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !body.tree().may_contain(point) {
         return Some(false);
     }
-    if !is_clear(body.tree(), body.pieces(), point, reach) {
+    if !is_far_from_surface(body.tree(), body.pieces(), point, reach) {
         return None;
     }
     let result = crossings(body.tree(), body.pieces(), point, 0.0)?;

@@ -56,7 +56,7 @@ pub(crate) fn intersects(
         if face.depth > rounding {
             return Intersection::Certain;
         }
-        let corner = farthest_difference(pair, face.normal);
+        let corner = minkowski_support_point(pair, face.normal);
         match face.normal.dot(corner) {
             height if height <= rounding => return Intersection::None,
             // The farthest difference is no farther than the face: rounding prevents progress.
@@ -68,7 +68,7 @@ pub(crate) fn intersects(
 }
 
 /// Returns the point of the Minkowski difference `a − b` that is farthest along a direction, in A's frame.
-fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
+fn minkowski_support_point(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
     let of_b = pair.b.farthest(-pair.b_to_a.inverse_vector(along));
     pair.a.farthest(along) - pair.b_to_a.point(of_b)
 }
@@ -158,7 +158,7 @@ impl InnerPolytope {
 /// Returns four differences far from one another. Returns `None` if all differences are in a plane up to rounding, so
 /// that the pieces cannot intersect by more than that.
 fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
-    let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
+    let both = |along: DVec3| [along, -along].map(|along| minkowski_support_point(pair, along));
     let farther =
         |best: (f64, DVec3), next: (f64, DVec3)| if next.0 > best.0 { next } else { best };
     let pick = |points: &[DVec3], measure: &dyn Fn(DVec3) -> f64| {

@@ -75,9 +75,9 @@ pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
 /// Like [`support_gap`], but starts the searches at corners that may be known to be nearly extremal.
 #[inline]
 fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
-    let highest = match pair.a.support {
+    let highest = match pair.a.support_map {
         Some(support) => {
-            let farthest = support.extremal_near(near[0], n);
+            let farthest = support.extremal_point_near(near[0], n);
             n.dot(pair.a.points[farthest as usize] - from)
         }
         None => {
@@ -87,9 +87,9 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     };
     let n_b = pair.b_to_a.inverse_vector(n);
     let origin_b = n.dot(pair.b_to_a.translation - from);
-    let lowest = match pair.b.support {
+    let lowest = match pair.b.support_map {
         Some(support) => {
-            let farthest = support.extremal_near(near[1], -n_b);
+            let farthest = support.extremal_point_near(near[1], -n_b);
             n_b.dot(pair.b.points[farthest as usize])
         }
         None => {

@@ -2,7 +2,7 @@
 
 use super::meter::Meter;
 use super::scratch::Scratch;
-use super::start::at_start;
+use super::start::outcome_at_start;
 use crate::answer::{Answer, Outcome, Stats};
 use crate::contacts::given::{contact_for_given_bodies, outcome_for_given_bodies};
 use crate::distance::oracle::DistanceOracle;
@@ -39,7 +39,7 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
 ) -> Answer {
     let at_start = |problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter| {
         let beyond = problem.contact_distance().next_up();
-        at_start(problem, beyond, oracle, meter)
+        outcome_at_start(problem, beyond, oracle, meter)
     };
     answer_under_policy(problem, oracle, scratch, at_start, search)
 }
@@ -81,12 +81,12 @@ fn answer_under_policy<O: DistanceOracle>(
 
 /// Searches a problem round by round if its motions are periodic, and as a whole otherwise.
 #[inline]
-pub(crate) fn in_rounds(
+pub(crate) fn search_in_rounds(
     problem: &Problem<'_>,
     meter: &mut Meter,
     mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
 ) -> Outcome {
-    let is_periodic = problem.turns_many_times();
+    let is_periodic = problem.turns_at_least_twice();
     match is_periodic.then(|| Rounds::for_problem(problem)).flatten() {
         Some(rounds) => rounds.run(meter, search),
         None => search(problem, meter),
@@ -170,7 +170,7 @@ pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f6
 }
 
 /// A schedule as the engine calls it.
-pub(crate) trait Solve<O: DistanceOracle> {
+pub(crate) trait EngineSchedule<O: DistanceOracle> {
     /// Returns whether the schedule handles accelerations of the bodies' centres. Otherwise they count as deviations
     /// from a straight path.
     fn takes_accelerations(&self) -> bool;

@@ -1,6 +1,6 @@
 //! Best-first search: always examines the pair whose proof expires first.
 
-use super::answer::{Solve, answer, in_rounds};
+use super::answer::{EngineSchedule, answer, search_in_rounds};
 use super::meter::Meter;
 use super::proven::ProvenFacts;
 use super::queue::Queue;
@@ -56,7 +56,7 @@ impl<O: DistanceOracle> Default for BestFirst<O> {
     }
 }
 
-impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
+impl<O: DistanceOracle> EngineSchedule<O> for BestFirst<O> {
     fn takes_accelerations(&self) -> bool {
         true
     }
@@ -68,11 +68,11 @@ impl<O: DistanceOracle> Solve<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
-            in_rounds(problem, meter, |problem, meter| {
+            search_in_rounds(problem, meter, |problem, meter| {
                 self.queue.clear();
                 let outcome = self.search(problem, oracle, meter);
                 let stats = &mut meter.stats;
-                stats.peak_front = stats.peak_front.max(self.queue.peak());
+                stats.peak_front = stats.peak_front.max(self.queue.peak_length());
                 outcome
             })
         });
@@ -99,7 +99,7 @@ impl<O: DistanceOracle> Question<O> for ProvenFacts {
     #[inline]
     fn on_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
-            self.past_start(problem)
+            self.record_past_start(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)
         } else {
             ControlFlow::Continue(())

@@ -22,13 +22,13 @@ use std::ops::ControlFlow;
 /// contain pieces that are nearer than those found.
 ///
 /// Pairs that may intersect have no lower bound of their distance, and therefore come first.
-pub(crate) struct Nearest<'p> {
+pub(crate) struct NearestSearch<'p> {
     problem: &'p Problem<'p>,
     common: NodeContext<'p>,
     clock: f64,
-    lists: &'p mut SearchBuffers,
+    buffers: &'p mut SearchBuffers,
     /// The distance at and beyond which pairs are ignored.
-    beyond: f64,
+    cutoff: f64,
     /// The two pieces with the least upper bound, by their indices in the problem, and their contact.
     nearest: Option<([u32; 2], Contact)>,
     /// A lower bound of the distances of all pieces that were measured, or that the oracle gave up.
@@ -46,15 +46,15 @@ pub(crate) enum SearchEnd {
     Limit(Limit),
 }
 
-impl<'p> Nearest<'p> {
+impl<'p> NearestSearch<'p> {
     /// Creates the search for the nearest pieces at a clock.
     pub(crate) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut SearchBuffers) -> Self {
-        Nearest {
+        NearestSearch {
             problem,
             common: NodeContext::new(problem),
             clock,
-            lists,
-            beyond: f64::INFINITY,
+            buffers: lists,
+            cutoff: f64::INFINITY,
             nearest: None,
             lower: f64::INFINITY,
             undecided: false,
@@ -63,7 +63,10 @@ impl<'p> Nearest<'p> {
 
     /// Limits the search to pieces that are nearer than `beyond` to each other.
     pub(crate) fn with_cutoff(self, beyond: f64) -> Self {
-        Nearest { beyond, ..self }
+        NearestSearch {
+            cutoff: beyond,
+            ..self
+        }
     }
 
     /// Searches for the nearest pieces until they are found, an overlap is found, or a limit ends the search.
@@ -93,7 +96,7 @@ impl<'p> Nearest<'p> {
                     let expansion = measure(&self.common, &split, self.clock);
                     self.enqueue(Siblings::new(&expansion, split, 0.0))?;
                 }
-                NextStep::Measure(a, b) => self.measure_pieces([a, b], oracle, meter)?,
+                NextStep::MeasurePieces(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
             next = self.next_pair();
         }
@@ -106,7 +109,7 @@ impl<'p> Nearest<'p> {
             return ControlFlow::Continue(());
         }
         match self
-            .lists
+            .buffers
             .waiting_pairs
             .push(distance, Rank::Siblings, siblings)
         {
@@ -118,7 +121,7 @@ impl<'p> Nearest<'p> {
     /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
     fn next_pair(&mut self) -> Option<NextStep> {
         let (upper, search_radius) = (self.upper_bound(), self.search_radius());
-        let (distance, siblings) = self.lists.waiting_pairs.next()?;
+        let (distance, siblings) = self.buffers.waiting_pairs.next()?;
         // Pairs without a distance may intersect.
         if distance > 0.0 && distance >= search_radius {
             self.lower = lesser(self.lower, distance);
@@ -126,8 +129,8 @@ impl<'p> Nearest<'p> {
         }
         let next = siblings.take_least(self.problem, distance);
         match siblings.clock() {
-            distance if distance < upper => self.lists.waiting_pairs.postpone(distance),
-            _ => self.lists.waiting_pairs.remove(),
+            distance if distance < upper => self.buffers.waiting_pairs.postpone(distance),
+            _ => self.buffers.waiting_pairs.remove(),
         }
         Some(next)
     }
@@ -157,7 +160,7 @@ impl<'p> Nearest<'p> {
         }
         // Written so that NaN is not apart.
         if !(checked.lower > 0.0) {
-            self.lists.touching_pairs.push(ids);
+            self.buffers.touching_pairs.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper_bound() {
@@ -169,7 +172,7 @@ impl<'p> Nearest<'p> {
     /// Returns the least upper bound found so far, or the distance beyond which pairs are ignored.
     fn upper_bound(&self) -> f64 {
         let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
-        self.nearest.map_or(self.beyond, upper)
+        self.nearest.map_or(self.cutoff, upper)
     }
 
     /// Returns the distance at and beyond which pairs need not be examined.

@@ -1,7 +1,7 @@
 //! The facts that are proven about two bodies in the course of a search.
 
 use super::meter::Meter;
-use super::pieces::pair::Step;
+use super::pieces::pair::PairStep;
 use super::start::{overlap_outcome, touching};
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::containment::containment_at_start;
@@ -27,17 +27,17 @@ impl ProvenFacts {
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        step: Step,
+        step: PairStep,
         s: f64,
     ) -> ControlFlow<Outcome, f64> {
         let unresolved = |reason| Outcome::unresolved(problem.time(s), reason);
         ControlFlow::Break(match step {
-            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
-            Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
-            Step::Contact(contact) => touching(problem, oracle, meter, contact),
-            Step::Overlap(contact) => overlap_outcome(contact),
-            Step::Stalled => unresolved(Limit::Stalled),
-            Step::GaveUp => unresolved(Limit::OracleGaveUp),
+            PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            PairStep::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
+            PairStep::Contact(contact) => touching(problem, oracle, meter, contact),
+            PairStep::Overlap(contact) => overlap_outcome(contact),
+            PairStep::Stalled => unresolved(Limit::Stalled),
+            PairStep::GaveUp => unresolved(Limit::OracleGaveUp),
         })
     }
 
@@ -52,7 +52,7 @@ impl ProvenFacts {
 
     /// Records that all pairs are past the start without contact there. Returns the outcome if one body is inside the
     /// other.
-    pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+    pub(crate) fn record_past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;
         }
@@ -65,7 +65,7 @@ impl ProvenFacts {
 
     /// Returns the outcome if all pairs are apart to the end.
     pub(crate) fn finish(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.past_start(problem).unwrap_or(Outcome::Free {
+        self.record_past_start(problem).unwrap_or(Outcome::Free {
             proven_gap: problem.proven_gap(),
         })
     }

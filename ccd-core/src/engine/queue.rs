@@ -25,7 +25,7 @@ pub(crate) struct Queue<T> {
 type Key = u128;
 
 /// The key of an empty slot, greater than all others.
-const VACANT: Key = Key::MAX;
+const VACANT_KEY: Key = Key::MAX;
 
 /// The largest number of items that can wait at once.
 const MAX_ITEMS: usize = u32::MAX as usize;
@@ -35,7 +35,7 @@ impl<T> Default for Queue<T> {
         Queue {
             items: Vec::new(),
             vacant_slots: Vec::new(),
-            least: VACANT,
+            least: VACANT_KEY,
             levels: Vec::new(),
             depth: 0,
             serial: 0,
@@ -48,23 +48,23 @@ impl<T> Queue<T> {
     pub(crate) fn clear(&mut self) {
         empty(&mut self.items);
         empty(&mut self.vacant_slots);
-        self.least = VACANT;
+        self.least = VACANT_KEY;
         self.levels.iter_mut().for_each(empty);
         self.depth = 0;
         self.serial = 0;
     }
 
     /// Returns the largest number of items that waited at once.
-    pub(crate) fn peak(&self) -> u64 {
+    pub(crate) fn peak_length(&self) -> u64 {
         self.items.len() as u64
     }
 
     fn least_slot(&self) -> u32 {
-        assert!(self.least != VACANT, "no item waits");
+        assert!(self.least != VACANT_KEY, "no item waits");
         slot(self.least)
     }
 
-    fn newest(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
+    fn newest_key(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
         self.serial = self.serial.wrapping_add(1);
         key(clock, rank, self.serial, place)
     }
@@ -95,7 +95,7 @@ impl<T> Queue<T> {
             }
             last /= 4;
             if level.len() == last {
-                level.push([VACANT; 4]);
+                level.push([VACANT_KEY; 4]);
             }
         }
     }
@@ -105,7 +105,7 @@ impl<T> Queue<T> {
         if self.levels.len() == self.depth {
             self.levels.push(Vec::new());
         }
-        self.levels[self.depth].push([self.least, VACANT, VACANT, VACANT]);
+        self.levels[self.depth].push([self.least, VACANT_KEY, VACANT_KEY, VACANT_KEY]);
         self.depth += 1;
     }
 }
@@ -125,7 +125,7 @@ impl<T> Worklist<T> for Queue<T> {
             }
             None => return Err(QueueFull),
         };
-        let key = self.newest(clock, rank, place);
+        let key = self.newest_key(clock, rank, place);
         self.set(place, key);
         Ok(())
     }
@@ -146,7 +146,7 @@ impl<T> Worklist<T> for Queue<T> {
     #[inline]
     fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
         let place = self.least_slot();
-        let key = self.newest(clock, rank, place);
+        let key = self.newest_key(clock, rank, place);
         self.set(place, key);
     }
 
@@ -159,10 +159,10 @@ impl<T> Worklist<T> for Queue<T> {
 
     #[inline]
     fn remove(&mut self) {
-        if self.least != VACANT {
+        if self.least != VACANT_KEY {
             let place = slot(self.least);
             self.vacant_slots.push(place);
-            self.set(place, VACANT);
+            self.set(place, VACANT_KEY);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::meter::Meter;
 use super::nodes::common::NodeContext;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{NextStep, Siblings};
-use super::pieces::pair::{Pair, Step};
+use super::pieces::pair::{Pair, PairStep};
 use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
@@ -62,12 +62,12 @@ pub(crate) struct AdvanceResult {
     /// The clock at which the pair was examined.
     pub(crate) clock: f64,
     /// The new clock, the contact, or the failure of the pair.
-    pub(crate) step: Step,
+    pub(crate) step: PairStep,
 }
 
 /// The state of a search: the oracle, the waiting pairs and the counters.
 pub(crate) struct Search<'s, O, W> {
-    waiting: &'s mut W,
+    worklist: &'s mut W,
     pub(crate) oracle: &'s mut O,
     pub(crate) meter: &'s mut Meter,
 }
@@ -76,7 +76,7 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     #[inline]
     pub(crate) fn new(waiting: &'s mut W, oracle: &'s mut O, meter: &'s mut Meter) -> Self {
         Search {
-            waiting,
+            worklist: waiting,
             oracle,
             meter,
         }
@@ -110,7 +110,7 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     ) -> ControlFlow<Q::Found, f64> {
         let common = NodeContext::new(problem);
         loop {
-            if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
+            if let Some((s, _)) = self.worklist.next().filter(|&(s, _)| s >= until) {
                 question.on_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
@@ -121,10 +121,10 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     /// Adds the pair of both roots to the waiting pairs.
     pub(crate) fn push_roots(&mut self, problem: &Problem<'_>) -> Result<(), QueueFull> {
         let item = match NextStep::roots(problem) {
-            NextStep::Measure(a, b) => Item::Pieces(Pair::new(a, b)),
+            NextStep::MeasurePieces(a, b) => Item::Pieces(Pair::new(a, b)),
             NextStep::Split(split) => Item::Siblings(Siblings::roots(split.body)),
         };
-        self.waiting.push(0.0, item.rank(), item)
+        self.worklist.push(0.0, item.rank(), item)
     }
 
     /// Examines the next pair: proves it apart for longer, or splits it.
@@ -137,7 +137,7 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
     ) -> ControlFlow<Q::Found> {
         let problem = common.problem;
         let Search {
-            waiting,
+            worklist: waiting,
             oracle,
             meter,
         } = self;
@@ -171,10 +171,10 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
             NextStep::Split(split) => {
                 let expansion = expand(common, &split, s);
                 let mut siblings = Siblings::new(&expansion, split, s);
-                look.finish_proven(problem, &split, s, &mut siblings, meter);
+                look.finish_proven_pairs(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
-            NextStep::Measure(a, b) => {
+            NextStep::MeasurePieces(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
                 let clock = question.on_advance(problem, *oracle, meter, advance)?;
@@ -192,12 +192,12 @@ impl<'s, O: DistanceOracle, W: Worklist<Item<O::Cache>>> Search<'s, O, W> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {
-                self.waiting.postpone(rest);
-                self.waiting.push(clock, new.rank(), new)?;
+                self.worklist.postpone(rest);
+                self.worklist.push(clock, new.rank(), new)?;
             }
-            (false, true) => self.waiting.postpone(rest),
-            (true, false) => self.waiting.replace(clock, new.rank(), new),
-            (true, true) => self.waiting.remove(),
+            (false, true) => self.worklist.postpone(rest),
+            (true, false) => self.worklist.replace(clock, new.rank(), new),
+            (true, true) => self.worklist.remove(),
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Handles bodies in contact at the start: measures their distance, or proves that they overlap.
 
 use super::meter::Meter;
-use super::nearest::{Nearest, SearchEnd};
+use super::nearest::{NearestSearch, SearchEnd};
 use crate::answer::{Contact, Limit, Outcome, Overlap};
 use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
@@ -22,14 +22,14 @@ pub(crate) fn touching<O: DistanceOracle>(
     meter: &mut Meter,
     seen: Contact,
 ) -> Outcome {
-    let contact = |nearest: &Nearest<'_>| Some(nearest.contact(seen));
+    let contact = |nearest: &NearestSearch<'_>| Some(nearest.contact(seen));
     let outcome = measure_at_start(problem, f64::INFINITY, oracle, meter, contact);
     outcome.unwrap_or(Outcome::Touching { contact: seen })
 }
 
 /// Returns the outcome for bodies that are nearer than `beyond` at the start, which then count as touching, or of which
 /// one is inside the other; `None` for others.
-pub(crate) fn at_start<O: DistanceOracle>(
+pub(crate) fn outcome_at_start<O: DistanceOracle>(
     problem: &Problem<'_>,
     beyond: f64,
     oracle: &mut O,
@@ -45,17 +45,17 @@ fn measure_at_start<O: DistanceOracle>(
     beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-    contact: impl FnOnce(&Nearest<'_>) -> Option<Contact>,
+    contact: impl FnOnce(&NearestSearch<'_>) -> Option<Contact>,
 ) -> Option<Outcome> {
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
-    let mut nearest = Nearest::new(problem, 0.0, &mut lists).with_cutoff(beyond);
+    let mut nearest = NearestSearch::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
         Some(SearchEnd::Overlap(_, contact)) => Some(overlap_outcome(contact)),
         Some(SearchEnd::Limit(limit)) => Some(unresolved_outcome(limit)),
         None if nearest.undecided => Some(unresolved_outcome(Limit::Undecided)),
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
-            let (pairs, pieces) = lists.touching();
+            let (pairs, pieces) = lists.touching_pairs_and_scratch();
             containment_at_start(problem, pairs, pieces).or(touching)
         }
     };

@@ -42,7 +42,7 @@ struct Node {
 }
 
 /// The largest number of points in a leaf.
-const LEAF: usize = 8;
+const LEAF_CAPACITY: usize = 8;
 
 impl PointTree {
     /// Builds the tree in O(n log n).
@@ -51,7 +51,7 @@ impl PointTree {
         let mut tree = PointTree {
             base,
             points: points.iter().map(|&p| p - base).zip(0..).collect(),
-            nodes: Vec::with_capacity(4 * points.len() / LEAF + 1),
+            nodes: Vec::with_capacity(4 * points.len() / LEAF_CAPACITY + 1),
             reach: 0.0,
         };
         if !points.is_empty() {
@@ -75,7 +75,7 @@ impl PointTree {
         let (middle, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let half = half + (lo.abs().max(hi.abs())) * f64::EPSILON;
         let at = self.nodes.len();
-        let is_leaf = points.len() <= LEAF;
+        let is_leaf = points.len() <= LEAF_CAPACITY;
         self.nodes.push(Node {
             middle,
             half,

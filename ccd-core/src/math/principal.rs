@@ -30,7 +30,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
             continue;
         }
         let (s, c) = half_angle(2.0 * m[i][j], m[j][j] - m[i][i]);
-        rotate(&mut m, i, j, s, c);
+        apply_jacobi_rotation(&mut m, i, j, s, c);
         let (x, y) = (axes.col(i), axes.col(j));
         *axes.col_mut(i) = x * c - y * s;
         *axes.col_mut(j) = x * s + y * c;
@@ -58,7 +58,7 @@ fn half_angle(y: f64, x: f64) -> (f64, f64) {
 }
 
 /// Applies the Jacobi rotation by (s, c) in the plane of `i` and `j`: `m ← Jᵀ m J`.
-fn rotate(m: &mut [[f64; 3]; 3], i: usize, j: usize, s: f64, c: f64) {
+fn apply_jacobi_rotation(m: &mut [[f64; 3]; 3], i: usize, j: usize, s: f64, c: f64) {
     for row in m.iter_mut() {
         let (x, y) = (row[i], row[j]);
         (row[i], row[j]) = (c * x - s * y, s * x + c * y);

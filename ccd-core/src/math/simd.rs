@@ -11,7 +11,7 @@ use glam::{DMat3, DVec3, Vec3};
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// The least positive normal number, which replaces zero in divisors.
-pub(crate) const TINY: f32 = f32::MIN_POSITIVE;
+pub(crate) const LEAST_DIVISOR: f32 = f32::MIN_POSITIVE;
 
 /// Eight vectors of three coordinates in f32.
 #[derive(Clone, Copy)]

@@ -26,12 +26,12 @@ pub fn unit(v: DVec3) -> Option<DVec3> {
     if SQUARES.contains(&square) {
         Some(v / square.sqrt())
     } else {
-        unit_of_extreme(v)
+        unit_of_extreme_vector(v)
     }
 }
 
 #[cold]
-fn unit_of_extreme(v: DVec3) -> Option<DVec3> {
+fn unit_of_extreme_vector(v: DVec3) -> Option<DVec3> {
     let v = scaled(v).0;
     let length = v.length();
     // False for NaN too.
@@ -80,7 +80,7 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     if SQUARES.contains(&square) {
         Some(across_both / square.sqrt())
     } else {
-        unit_of_extreme(across(b - a, c - a))
+        unit_of_extreme_vector(across(b - a, c - a))
     }
 }
 

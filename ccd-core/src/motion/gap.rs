@@ -1,6 +1,6 @@
 //! Computes for how long a gap stays open.
 
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use crate::tuning::MIN_NEWTON_GROWTH;
 
 /// A gap that decreases by at most `rate τ + second_derivative τ²/2` within a time `τ`. The second derivative
@@ -35,7 +35,7 @@ impl Gap {
         };
         // A pair in contact gets no free time, even if it recedes.
         if gap > 0.0 && tau > 0.0 {
-            tau * (1.0 - RATE_F64)
+            tau * (1.0 - RATE_ERROR_F64)
         } else {
             0.0
         }
@@ -47,7 +47,7 @@ impl Gap {
         let (gap, rate, second_derivative) = (self.gap, self.rate, self.second_derivative);
         let (square, lost) = (rate * rate, -2.0 * second_derivative * gap);
         // A sum that is lost to rounding or to underflow counts as zero.
-        let left = (square - lost) + RATE_F64 * (square + lost) + f64::MIN_POSITIVE;
+        let left = (square - lost) + RATE_ERROR_F64 * (square + lost) + f64::MIN_POSITIVE;
         let tau = if rate > 0.0 && left >= 0.0 {
             2.0 * gap / (rate + left.sqrt())
         } else {
@@ -55,7 +55,7 @@ impl Gap {
         };
         // Written so that NaN gives no time.
         if gap > 0.0 && tau > 0.0 && lost <= f64::MAX && square <= f64::MAX {
-            tau * (1.0 - RATE_F64)
+            tau * (1.0 - RATE_ERROR_F64)
         } else {
             0.0
         }

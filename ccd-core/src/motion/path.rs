@@ -14,11 +14,11 @@ use glam::{DMat3, DVec3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
     /// The coefficient of the cosine, `A = R₀ − C`.
-    cosine: DMat3,
+    cosine_coefficient: DMat3,
     /// The coefficient of the sine, `B = [u]× R₀`.
-    sine: DMat3,
+    sine_coefficient: DMat3,
     /// The constant part, `C = u uᵀ R₀`.
-    constant: DMat3,
+    constant_part: DMat3,
     /// The centre of rotation, in the body's frame.
     pub(crate) centre: DVec3,
     /// The centre's position at `s = 0`.
@@ -53,9 +53,9 @@ impl Path {
         };
         let velocity = motion.velocity() * duration;
         Path {
-            cosine,
-            sine,
-            constant,
+            cosine_coefficient: cosine,
+            sine_coefficient: sine,
+            constant_part: constant,
             centre: motion.centre(),
             start: (start.translation - origin) + start.rotation * motion.centre(),
             velocity,
@@ -68,7 +68,7 @@ impl Path {
     }
 
     /// Sets the acceleration of the centre, per unit of `s` squared.
-    pub(crate) fn accelerated(self, acceleration: DVec3) -> Self {
+    pub(crate) fn with_acceleration(self, acceleration: DVec3) -> Self {
         Path {
             acceleration,
             ..self
@@ -81,8 +81,8 @@ impl Path {
         let time = to - from;
         let (sin, cos) = sin_cos(self.rate * from);
         Path {
-            cosine: self.cosine * cos + self.sine * sin,
-            sine: self.sine * cos - self.cosine * sin,
+            cosine_coefficient: self.cosine_coefficient * cos + self.sine_coefficient * sin,
+            sine_coefficient: self.sine_coefficient * cos - self.cosine_coefficient * sin,
             start: self.centre_at(from),
             velocity: self.centre_velocity_at(from) * time,
             acceleration: self.acceleration * (time * time),
@@ -94,8 +94,12 @@ impl Path {
     }
 
     /// Returns the coefficients of the cosine, the sine and one in the rotation.
-    pub(crate) fn rotations(&self) -> [DMat3; 3] {
-        [self.cosine, self.sine, self.constant]
+    pub(crate) fn rotation_coefficients(&self) -> [DMat3; 3] {
+        [
+            self.cosine_coefficient,
+            self.sine_coefficient,
+            self.constant_part,
+        ]
     }
 
     /// Returns the body's frame at `s`.
@@ -103,9 +107,9 @@ impl Path {
     pub(crate) fn frame(&self, s: f64) -> Frame {
         let rotation = if self.rate > 0.0 {
             let (sin, cos) = sin_cos(self.rate * s);
-            self.cosine * cos + self.sine * sin + self.constant
+            self.cosine_coefficient * cos + self.sine_coefficient * sin + self.constant_part
         } else {
-            self.constant
+            self.constant_part
         };
         Frame {
             rotation,
@@ -115,7 +119,7 @@ impl Path {
 
     /// Returns the position of the body's point `x` at time 0.
     pub(crate) fn point_at_start(&self, x: DVec3) -> DVec3 {
-        self.start + (self.cosine + self.constant) * (x - self.centre)
+        self.start + (self.cosine_coefficient + self.constant_part) * (x - self.centre)
     }
 
     /// Returns the position of the centre of rotation at `s`.

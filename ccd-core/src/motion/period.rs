@@ -13,7 +13,7 @@
 
 use super::path::Path;
 use crate::math::vector::length;
-use crate::rounding::{RATE_F64, TURN_COUNT_WIDENING};
+use crate::rounding::{RATE_ERROR_F64, TURN_COUNT_WIDENING};
 use std::f64::consts::TAU;
 
 /// A time after which all distances of two bodies repeat, or nearly.
@@ -51,7 +51,7 @@ impl Period {
                 let off = (slow.path.rate * length - TAU * of_slow).abs();
                 Period {
                     length,
-                    change: (off * slow.reach + speed * length) * (1.0 + RATE_F64),
+                    change: (off * slow.reach + speed * length) * (1.0 + RATE_ERROR_F64),
                 }
             })
             // Written so that NaN is no period.

@@ -41,13 +41,13 @@ impl Pose {
         check_finite("position", translation.is_finite())?;
         check_finite("quaternion", rotation.is_finite())?;
         match unit(rotation) {
-            Some(rotation) => Ok(Pose::from_unit(translation, rotation)),
+            Some(rotation) => Ok(Pose::from_unit_quaternion(translation, rotation)),
             None => Err(InputError::ZeroQuaternion),
         }
     }
 
     /// Creates a pose from a translation and a unit quaternion.
-    pub(crate) fn from_unit(translation: DVec3, rotation: DQuat) -> Self {
+    pub(crate) fn from_unit_quaternion(translation: DVec3, rotation: DQuat) -> Self {
         Pose {
             translation,
             rotation,
@@ -83,7 +83,7 @@ impl Pose {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn compose(&self, inner: &Pose) -> Pose {
-        Pose::from_unit(
+        Pose::from_unit_quaternion(
             self.transform_point(inner.translation),
             (self.rotation * inner.rotation).normalize(),
         )
@@ -92,12 +92,12 @@ impl Pose {
     /// Returns the inverse pose: the pose of the world in the body's frame.
     pub fn inverse(&self) -> Pose {
         let rotation = self.rotation.conjugate();
-        Pose::from_unit(rotation * -self.translation, rotation)
+        Pose::from_unit_quaternion(rotation * -self.translation, rotation)
     }
 
     /// Returns the pose translated by a vector.
     pub(crate) fn translated(&self, by: DVec3) -> Pose {
-        Pose::from_unit(self.translation + by, self.rotation)
+        Pose::from_unit_quaternion(self.translation + by, self.rotation)
     }
 
     /// Converts a point from the body's frame to the world's.

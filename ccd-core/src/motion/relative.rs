@@ -69,18 +69,24 @@ impl RelativePath {
         let change = other.velocity - own.velocity;
         let acceleration = other.acceleration - own.acceleration;
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
-        let inverse = own.rotations().map(|part| part.transpose());
+        let inverse = own.rotation_coefficients().map(|part| part.transpose());
         let seen = if own.is_turning() && other.is_turning() {
             RelativeRotation::BothTurn {
                 inverse: RotatingQuantity::new(own.rate, inverse),
-                other: RotatingQuantity::new(other.rate, other.rotations()),
+                other: RotatingQuantity::new(other.rate, other.rotation_coefficients()),
                 offset: row(offset),
                 change: row(change),
                 acceleration: acceleration.map(row),
                 spin: row(other.spin),
             }
         } else {
-            RelativeRotation::one_body_turns(own, other, inverse, [offset, change], acceleration)
+            RelativeRotation::for_one_turning_body(
+                own,
+                other,
+                inverse,
+                [offset, change],
+                acceleration,
+            )
         };
         RelativePath {
             seen,
@@ -102,7 +108,7 @@ impl RelativePath {
                 let angle = sin_cos(rotation.rate * s);
                 let acceleration = acceleration.map(|change| change.vector(level, angle));
                 let [travel, change] =
-                    displacement_and_rate(change.vector(level, angle), acceleration, s);
+                    displacement_and_velocity(change.vector(level, angle), acceleration, s);
                 RelativeState {
                     rotation: rotation.matrix(level, angle),
                     offset: offset.vector(level, angle) + travel,
@@ -123,7 +129,7 @@ impl RelativePath {
                 let other = other.matrix(level, sin_cos(other.rate * s));
                 let acceleration = acceleration.map(|change| PackedVector::load(level, &change));
                 let [travel, change] =
-                    displacement_and_rate(PackedVector::load(level, change), acceleration, s);
+                    displacement_and_velocity(PackedVector::load(level, change), acceleration, s);
                 RelativeState {
                     rotation: inverse * other,
                     offset: inverse * (PackedVector::load(level, offset) + travel),
@@ -151,14 +157,14 @@ impl RelativePath {
 impl RelativeRotation {
     /// Prepares the relative motion if at most one of the bodies turns. The rotation of the other one has only the
     /// constant part.
-    fn one_body_turns(
+    fn for_one_turning_body(
         own: &Path,
         other: &Path,
         inverse: [DMat3; 3],
         offset: [DVec3; 2],
         acceleration: Option<DVec3>,
     ) -> Self {
-        let others = other.rotations();
+        let others = other.rotation_coefficients();
         let rate = if other.is_turning() {
             other.rate
         } else {
@@ -212,7 +218,7 @@ impl RotatingQuantity<Row> {
 
 /// Returns the displacement until `s`, and the velocity at `s`, for a constant acceleration.
 #[inline(always)]
-fn displacement_and_rate<L: Simd>(
+fn displacement_and_velocity<L: Simd>(
     change: PackedVector<L>,
     acceleration: Option<PackedVector<L>>,
     s: f64,

@@ -2,7 +2,7 @@
 
 use crate::math::order::lesser;
 use crate::math::vector::length;
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use glam::DVec3;
 use std::f64::consts::{FRAC_2_PI, PI, TAU};
 
@@ -34,7 +34,7 @@ impl Track {
 
     /// Returns a lower bound of the point's height on `[0, horizon]` from rotation alone, without `linear_rate` and
     /// `linear_acceleration`. `end` is the rotation at `horizon`.
-    pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
+    pub(crate) fn least_rotational_height(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;
         // Written so that NaN is a full turn.
@@ -44,7 +44,7 @@ impl Track {
             -self.p - swing
         };
         // The angle at the end is rounded, too.
-        self.height + (turned - RATE_F64 * swing * (1.0 + turn))
+        self.height + (turned - RATE_ERROR_F64 * swing * (1.0 + turn))
     }
 
     /// Returns whether the point passes the lowest point of its circle before the end of a rotation by less than 2π.
@@ -203,7 +203,7 @@ impl RotatingVector {
 }
 
 /// π/2 as a sum of three numbers; products of the first two with an integer below 2²⁰ are exact.
-const HALF_PI: [f64; 3] = [
+const HALF_PI_PARTS: [f64; 3] = [
     f64::from_bits(0x3ff9_21fb_5440_0000),
     f64::from_bits(0x3dd0_b461_1a60_0000),
     f64::from_bits(0x3ba3_198a_2e03_7073),
@@ -211,7 +211,7 @@ const HALF_PI: [f64; 3] = [
 
 /// Taylor coefficients of `(sin r − r)/r³` and of `(cos r − 1 + r²/2)/r⁴` in r². On |r| ≤ π/4 the
 /// first omitted terms are below 2⁻⁵⁶.
-const SINE: [f64; 7] = [
+const SINE_COEFFICIENTS: [f64; 7] = [
     -1.0 / 6.0,
     1.0 / 120.0,
     -1.0 / 5_040.0,
@@ -220,7 +220,7 @@ const SINE: [f64; 7] = [
     1.0 / 6_227_020_800.0,
     -1.0 / 1_307_674_368_000.0,
 ];
-const COSINE: [f64; 7] = [
+const COSINE_COEFFICIENTS: [f64; 7] = [
     1.0 / 24.0,
     -1.0 / 720.0,
     1.0 / 40_320.0,
@@ -240,7 +240,8 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     let turns = (angle * FRAC_2_PI + 0.5) as i32;
     let quarter = f64::from(turns);
     // The first difference is exact, and the sum off by 2⁻⁶⁷ at most; the last step adds a relative 2⁻⁵³.
-    let r = (angle - quarter * HALF_PI[0]) - (quarter * HALF_PI[1] + quarter * HALF_PI[2]);
+    let r = (angle - quarter * HALF_PI_PARTS[0])
+        - (quarter * HALF_PI_PARTS[1] + quarter * HALF_PI_PARTS[2]);
     let square = r * r;
     let fourth = square * square;
     // The sum has few dependent steps, since a visit waits for its result.
@@ -248,8 +249,8 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
         let low = (a + b * square) + (c + d * square) * fourth;
         low + ((e + f * square) + g * fourth) * (fourth * fourth)
     };
-    let sine = r + r * square * sum(&SINE);
-    let cosine = 1.0 - (0.5 * square - fourth * sum(&COSINE));
+    let sine = r + r * square * sum(&SINE_COEFFICIENTS);
+    let cosine = 1.0 - (0.5 * square - fourth * sum(&COSINE_COEFFICIENTS));
     match turns & 3 {
         0 => (sine, cosine),
         1 => (cosine, -sine),

@@ -5,7 +5,7 @@ use super::pose::Pose;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::math::vector::length;
-use crate::rounding::RETIMED_POSE_F64;
+use crate::rounding::RETIMED_POSE_ERROR_F64;
 use glam::DVec3;
 
 /// A motion of any kind. Between any two times it is near a [`Motion`], up to a known deviation.
@@ -136,8 +136,8 @@ impl Stretch {
         let speed = length(motion.velocity()) + length(self.acceleration) * time.abs();
         let place = length(motion.start().translation()) + 2.0 * length(motion.centre());
         DeviationBound {
-            shift: RETIMED_POSE_F64 * (place + speed * time.abs()),
-            turn: RETIMED_POSE_F64 * (1.0 + turned),
+            shift: RETIMED_POSE_ERROR_F64 * (place + speed * time.abs()),
+            turn: RETIMED_POSE_ERROR_F64 * (1.0 + turned),
         }
     }
 }
@@ -281,8 +281,8 @@ impl Acceleration {
     /// Returns a bound of the deviation from the tangent after a time that changes of the acceleration cause.
     fn deviation_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
-        let rounding = RETIMED_POSE_F64 * (time * (time * length(self.vector)));
-        time * (time * (time * self.jerk)) / 6.0 * (1.0 + RETIMED_POSE_F64) + rounding
+        let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.vector)));
+        time * (time * (time * self.jerk)) / 6.0 * (1.0 + RETIMED_POSE_ERROR_F64) + rounding
     }
 }
 
@@ -290,8 +290,9 @@ impl AccelerationBounds {
     /// Returns a bound of the deviation from a tangent after a time that the accelerations cause.
     fn deviation_after(self, time: f64) -> DeviationBound {
         // The time and the products are rounded. The square of a short time may be zero, so none is computed.
-        let deviation =
-            |acceleration: f64| 0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_F64);
+        let deviation = |acceleration: f64| {
+            0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_ERROR_F64)
+        };
         DeviationBound {
             shift: deviation(self.linear),
             turn: deviation(self.angular),

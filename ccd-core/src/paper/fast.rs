@@ -8,7 +8,7 @@ mod reach;
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{Solve, answer, in_rounds};
+use crate::engine::answer::{EngineSchedule, answer, search_in_rounds};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
@@ -17,7 +17,7 @@ use crate::motion::bound::VelocityBound;
 use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
-use hull_pair::HullPair;
+use hull_pair::HullTreePair;
 use reach::AxisDistances;
 use std::ops::ControlFlow;
 
@@ -50,7 +50,7 @@ use std::ops::ControlFlow;
 pub struct Fast<O: DistanceOracle> {
     bound: VelocityBound,
     front: Front<O::Cache>,
-    reaches: AxisDistances,
+    axis_distances: AxisDistances,
     without_trees: BestFirst<O>,
     scratch: Scratch,
 }
@@ -61,7 +61,7 @@ impl<O: DistanceOracle> Fast<O> {
         Fast {
             bound,
             front: Front::default(),
-            reaches: AxisDistances::default(),
+            axis_distances: AxisDistances::default(),
             without_trees: BestFirst::default(),
             scratch: None,
         }
@@ -74,7 +74,7 @@ impl<O: DistanceOracle> Default for Fast<O> {
     }
 }
 
-impl<O: DistanceOracle> Solve<O> for Fast<O> {
+impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
     fn takes_accelerations(&self) -> bool {
         false
     }
@@ -84,13 +84,13 @@ impl<O: DistanceOracle> Solve<O> for Fast<O> {
     }
 
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let Some(hulls) = HullPair::for_problem(problem) else {
+        let Some(hulls) = HullTreePair::for_problem(problem) else {
             return self.without_trees.solve(problem, oracle);
         };
-        self.reaches.invalidate();
+        self.axis_distances.invalidate();
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
-            in_rounds(problem, meter, |problem, meter| {
+            search_in_rounds(problem, meter, |problem, meter| {
                 self.advance(problem, hulls, oracle, meter)
             })
         });
@@ -104,7 +104,7 @@ impl<O: DistanceOracle> Fast<O> {
     fn advance(
         &mut self,
         problem: &Problem<'_>,
-        hulls: HullPair<'_>,
+        hulls: HullTreePair<'_>,
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
@@ -118,8 +118,8 @@ impl<O: DistanceOracle> Fast<O> {
                 hulls,
                 bound: self.bound,
                 front: &mut self.front,
-                reaches: &mut self.reaches,
-                proven: &proven,
+                reaches: &mut self.axis_distances,
+                proven_facts: &proven,
                 oracle,
                 meter,
             };
@@ -130,7 +130,7 @@ impl<O: DistanceOracle> Fast<O> {
                 ControlFlow::Continue(next) => next,
                 ControlFlow::Break(outcome) => return outcome,
             };
-            if let Some(outcome) = proven.past_start(problem) {
+            if let Some(outcome) = proven.record_past_start(problem) {
                 return outcome;
             }
             if !(next > s) {

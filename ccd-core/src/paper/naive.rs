@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::engine::answer::answer;
 use crate::engine::capacity::empty;
 use crate::engine::meter::Meter;
@@ -49,7 +49,7 @@ impl<O: DistanceOracle> Default for Naive<O> {
     }
 }
 
-impl<O: DistanceOracle> Solve<O> for Naive<O> {
+impl<O: DistanceOracle> EngineSchedule<O> for Naive<O> {
     fn takes_accelerations(&self) -> bool {
         false
     }
@@ -103,7 +103,7 @@ impl<O: DistanceOracle> Naive<O> {
                     ControlFlow::Break(outcome) => return outcome,
                 }
             }
-            if let Some(outcome) = proven.past_start(problem) {
+            if let Some(outcome) = proven.record_past_start(problem) {
                 return outcome;
             }
             s = next;

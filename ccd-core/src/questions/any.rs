@@ -2,9 +2,9 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{answer_in_any_order, in_rounds};
+use crate::engine::answer::{answer_in_any_order, search_in_rounds};
 use crate::engine::meter::Meter;
-use crate::engine::pieces::pair::Step;
+use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{AdvanceResult, Question, Search};
 use crate::engine::start::overlap_outcome;
@@ -41,7 +41,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut scratch = self.scratch.take();
         let answer =
             answer_in_any_order(problem, oracle, &mut scratch, |problem, oracle, meter| {
-                in_rounds(problem, meter, |problem, meter| {
+                search_in_rounds(problem, meter, |problem, meter| {
                     self.stack.clear();
                     let outcome = self.contact_outcome(problem, oracle, meter);
                     let stats = &mut meter.stats;
@@ -72,7 +72,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 let unresolved = Outcome::unresolved(time, known.limit);
                 // Surfaces that are apart at the start do not exclude that one body is inside the other.
                 if time > problem.time(0.0) {
-                    any.proven.past_start(problem).unwrap_or(unresolved)
+                    any.proven.record_past_start(problem).unwrap_or(unresolved)
                 } else {
                     unresolved
                 }
@@ -126,15 +126,15 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch {
     ) -> ControlFlow<Outcome, f64> {
         let AdvanceResult { clock: s, step, .. } = advance;
         ControlFlow::Break(match step {
-            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
             // A pair that keeps its distance gives no bound for the other pairs.
-            Step::Contact(contact) => Outcome::Contact {
+            PairStep::Contact(contact) => Outcome::Contact {
                 time: problem.time(s),
                 contact: contact.cap_lower_bound(0.0),
             },
-            Step::Overlap(contact) => overlap_outcome(contact),
-            Step::Stalled => return self.give_up_pair(s, Limit::Stalled),
-            Step::GaveUp => return self.give_up_pair(s, Limit::OracleGaveUp),
+            PairStep::Overlap(contact) => overlap_outcome(contact),
+            PairStep::Stalled => return self.give_up_pair(s, Limit::Stalled),
+            PairStep::GaveUp => return self.give_up_pair(s, Limit::OracleGaveUp),
         })
     }
 

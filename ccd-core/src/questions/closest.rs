@@ -14,7 +14,7 @@ use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::Search;
-use crate::engine::start::at_start;
+use crate::engine::start::outcome_at_start;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::problem::Problem;
@@ -59,12 +59,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Some(distance) => self.decide_clearance(problem, distance, oracle),
             None => self.approach_of_bodies(problem, oracle),
         };
-        answer.to_shapes(problem.excess())
+        answer.widened_by_excess(problem.excess())
     }
 
     /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
     pub(crate) fn approach_of_bodies(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let answer = self.search_below(problem, f64::INFINITY, oracle, or_overlap);
+        let answer = self.search_distances_below(problem, f64::INFINITY, oracle, found_or_overlap);
         let found = answer.found;
         Answer {
             outcome: found.unwrap_or_else(|FartherThanCutoff { lower }| {
@@ -100,11 +100,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
         beyond: f64,
         oracle: &mut O,
     ) -> SearchResult<Result<Outcome, FartherThanCutoff>> {
-        self.search_below(problem, beyond, oracle, |_, _, _, found| found)
+        self.search_distances_below(problem, beyond, oracle, |_, _, _, found| found)
     }
 
     /// Searches for distances below `beyond`, and completes the outcome by `last_look`.
-    fn search_below(
+    fn search_distances_below(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
@@ -117,7 +117,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let found = match Sample::for_problem(&problem) {
                 Some(sample) => {
                     let found = self.search_least_distance(&sample.part, beyond, oracle, meter);
-                    at_all_times(&sample, found)
+                    outcome_for_all_periods(&sample, found)
                 }
                 None => self.search_least_distance(&problem, beyond, oracle, meter),
             };
@@ -187,7 +187,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let common = NodeContext::new(&below);
             let mut look = TighterBounds::new(&below);
             while nearing.upper() == upper {
-                if let Some(rung) = nearing.ladder.next_if_due(search.meter.stats.work(), upper) {
+                if let Some(rung) = nearing
+                    .ladder
+                    .next_rung_if_due(search.meter.stats.work(), upper)
+                {
                     if let ControlFlow::Break(found) =
                         nearing.climb(problem, rung, search.oracle, search.meter)
                     {
@@ -205,7 +208,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// Converts the outcome for a sample of the periods to one for the whole time.
-fn at_all_times(
+fn outcome_for_all_periods(
     sample: &Sample<'_>,
     found: Result<Outcome, FartherThanCutoff>,
 ) -> Result<Outcome, FartherThanCutoff> {
@@ -230,16 +233,16 @@ fn at_all_times(
 }
 
 /// Returns the answer that the bodies meet, or that they overlap if they do so at the start.
-fn or_overlap<O: DistanceOracle>(
+fn found_or_overlap<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
     found: Outcome,
 ) -> Outcome {
-    if !meets_later(&found, problem.tolerance) {
+    if !meet_after_start(&found, problem.tolerance) {
         return found;
     }
-    match at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
+    match outcome_at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
         Some(overlapping @ Outcome::Overlapping { .. }) => overlapping,
         _ => found,
     }
@@ -252,7 +255,7 @@ fn distance_at_rest<O: DistanceOracle>(
     oracle: &mut O,
     meter: &mut Meter,
 ) -> Result<Outcome, FartherThanCutoff> {
-    Ok(match at_start(problem, beyond, oracle, meter) {
+    Ok(match outcome_at_start(problem, beyond, oracle, meter) {
         Some(Outcome::Touching { contact }) => Outcome::LeastDistance {
             lower: greater(0.0, contact.separation.lower),
             time: 0.0,
@@ -282,7 +285,7 @@ fn unresolved_outcome(lower: f64, limit: Limit) -> Outcome {
 }
 
 /// Returns whether the bodies come within the tolerance after the start, and not at the start.
-pub(crate) fn meets_later(found: &Outcome, tolerance: f64) -> bool {
+pub(crate) fn meet_after_start(found: &Outcome, tolerance: f64) -> bool {
     match *found {
         Outcome::LeastDistance { time, contact, .. } => {
             time > 0.0 && contact.separation.upper <= tolerance

@@ -48,7 +48,7 @@ pub struct FirstContact<'a, O: DistanceOracle>(Kind<'a, O>);
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum Kind<'a, O: DistanceOracle> {
     /// A search about constant velocities, which is done in steps.
-    InSteps(Steps<'a, O>),
+    InSteps(SteppedSearch<'a, O>),
     /// A search along trajectories, which is done at once.
     AtOnce {
         query: Query<'a>,
@@ -58,10 +58,10 @@ enum Kind<'a, O: DistanceOracle> {
 }
 
 /// A search in steps, about two bodies with constant velocities.
-struct Steps<'a, O: DistanceOracle> {
+struct SteppedSearch<'a, O: DistanceOracle> {
     problem: Problem<'a>,
     /// The problem that is searched now. It reports a contact at the start, or ignores it.
-    current: Problem<'a>,
+    current_problem: Problem<'a>,
     /// The rounds and the part that is searched now, if the motions repeat themselves.
     part: Option<(Rounds<'a>, Problem<'a>)>,
     /// The policy for a contact at the start that is still to be applied.
@@ -76,7 +76,7 @@ struct Steps<'a, O: DistanceOracle> {
 /// The state of the search without the waiting pairs.
 #[derive(Debug)]
 struct SearchState {
-    look: TighterBounds,
+    tighter_bounds: TighterBounds,
     proven: ProvenFacts,
 }
 
@@ -95,7 +95,7 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContact(match query.problem.take() {
-            Some(problem) => Kind::InSteps(Steps::new(problem, memory)),
+            Some(problem) => Kind::InSteps(SteppedSearch::new(problem, memory)),
             None => Kind::AtOnce {
                 query,
                 memory,
@@ -138,15 +138,15 @@ impl<'a, O: DistanceOracle> FirstContact<'a, O> {
     }
 }
 
-impl<'a, O: DistanceOracle> Steps<'a, O> {
+impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
     fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
         let mut meter = Meter::new(&problem);
         meter.scratch = memory.scratch.take();
         memory.queue.clear();
         let current = problem.reporting_start_contact();
-        Steps {
+        SteppedSearch {
             part: first_round(&current),
-            current,
+            current_problem: current,
             start: problem.start,
             problem,
             memory,
@@ -198,7 +198,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                 ControlFlow::Break(outcome) => outcome,
             };
             let stats = &mut self.meter.stats;
-            stats.peak_front = stats.peak_front.max(self.memory.queue.peak());
+            stats.peak_front = stats.peak_front.max(self.memory.queue.peak_length());
             self.memory.queue.clear();
             self.state = None;
             let outcome = match &mut self.part {
@@ -212,7 +212,7 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                 },
             };
             let parting = problem_after_start_contact(
-                &self.current,
+                &self.current_problem,
                 self.start,
                 &outcome,
                 oracle,
@@ -221,14 +221,14 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
             match parting {
                 Some(parting) => {
                     self.part = first_round(&parting);
-                    self.current = parting;
+                    self.current_problem = parting;
                     self.start = StartPolicy::Report;
                 }
                 None => {
                     let tolerance = if self.start == self.problem.start {
                         self.problem.tolerance
                     } else {
-                        achieved_tolerance(&self.current, &outcome)
+                        achieved_tolerance(&self.current_problem, &outcome)
                     };
                     return ControlFlow::Break((outcome, tolerance));
                 }
@@ -242,12 +242,15 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.part {
             Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
-            None => (&self.current, until.next_up()),
+            None => (&self.current_problem, until.next_up()),
         };
         let clock = problem.clock(until);
         let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
         let mut search = Search::new(&mut self.memory.queue, oracle, &mut self.meter);
-        let SearchState { look, proven } = match &mut self.state {
+        let SearchState {
+            tighter_bounds: look,
+            proven,
+        } = match &mut self.state {
             Some(state) => state,
             state => {
                 if let Some(free) = free_by_bounding_volumes(problem) {
@@ -263,7 +266,10 @@ impl<'a, O: DistanceOracle> Steps<'a, O> {
                     ));
                 }
                 let look = TighterBounds::new(problem);
-                state.insert(SearchState { look, proven })
+                state.insert(SearchState {
+                    tighter_bounds: look,
+                    proven,
+                })
             }
         };
         let reached = search.until(problem, look, proven, until);

@@ -25,19 +25,19 @@ use glam::DVec3;
 
 /// The largest errors found, as shares of their bounds.
 #[derive(Debug, Default)]
-struct Worst {
+struct WorstErrorShares {
     place: f64,
     gap: f64,
     distance: f64,
     /// The number of problems a million units from the body's or the world's origin.
     far: usize,
-    turns: usize,
+    turning_count: usize,
 }
 
 #[test]
 fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     let mut rng = rng(5);
-    let mut worst = Worst::default();
+    let mut worst = WorstErrorShares::default();
     for _ in 0..4_000 {
         let count = rng.random_range(1..4);
         let size = magnitude(&mut rng, -6.0, 6.0);
@@ -50,7 +50,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let duration = magnitude(&mut rng, -3.0, 3.0);
         let motions = [(); 2].map(|()| motion(&mut rng, world, size, duration));
         worst.far += usize::from(far > 1e5 || bodies[0].tree().span() > 1e5);
-        worst.turns += usize::from(motions[0].spin().length() * duration > 100.0);
+        worst.turning_count += usize::from(motions[0].spin().length() * duration > 100.0);
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem = Problem::about(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
         for _ in 0..4 {
@@ -58,7 +58,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
             sample(&mut rng, &problem, &motions, duration, s, &mut worst);
         }
     }
-    assert!(worst.far > 500 && worst.turns > 500, "{worst:?}");
+    assert!(worst.far > 500 && worst.turning_count > 500, "{worst:?}");
     assert!(worst.place < 1.0, "{worst:?}");
     assert!(worst.gap < 1.0, "{worst:?}");
     assert!(worst.distance < 1.0, "{worst:?}");
@@ -130,7 +130,7 @@ fn sample(
     motions: &[Motion; 2],
     duration: f64,
     s: f64,
-    worst: &mut Worst,
+    worst: &mut WorstErrorShares,
 ) {
     let of = shares_of_comparison(rng, problem, motions, duration, s);
     worst.place = greater(worst.place, of.place);

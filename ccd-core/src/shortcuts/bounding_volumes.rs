@@ -5,13 +5,13 @@
 //! ends.
 
 use super::Shortcut;
-use super::placed::{Approach, Placed, straight};
+use super::placed::{ApproachRateBounds, PlacedNode, straight};
 use crate::answer::Outcome;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::RATE_F64;
-use crate::tuning::BOX_PROJECTIONS;
+use crate::rounding::RATE_ERROR_F64;
+use crate::tuning::BOX_PROJECTION_COUNT;
 use glam::DVec3;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
@@ -47,7 +47,9 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
 /// Returns how far the vector between the balls' centres may be off a linear function of time, because of
 /// accelerations.
 fn deviation_from_line(problem: &Problem<'_>) -> f64 {
-    0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
+    0.125
+        * length(problem.b.path.acceleration - problem.a.path.acceleration)
+        * (1.0 + RATE_ERROR_F64)
 }
 
 /// Returns the clock at which the bounding balls are nearest to each other.
@@ -108,12 +110,12 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
     if whole(&problem.a) && whole(&problem.b) {
         return false;
     }
-    let [a, b] = [&problem.a, &problem.b].map(|side| Placed::body_box(side, 0.0));
+    let [a, b] = [&problem.a, &problem.b].map(|side| PlacedNode::body_box(side, 0.0));
     // Repeated projection from one box to the other converges to the nearest points.
     let (mut on_a, mut on_b) = (a.centre, b.centre);
-    for _ in 0..BOX_PROJECTIONS {
-        on_a = a.project(on_b);
-        on_b = b.project(on_a);
+    for _ in 0..BOX_PROJECTION_COUNT {
+        on_a = a.nearest_point(on_b);
+        on_b = b.nearest_point(on_a);
     }
     let nearest = unit(on_b - on_a);
     let passing = unit(offset_at_closest_approach(problem, [&a, &b]));
@@ -127,7 +129,7 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
 }
 
 /// Returns the vector between the centres when they are nearest, if they keep their velocities at the start.
-fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
+fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2]) -> DVec3 {
     let way = b.centre - a.centre;
     let velocity =
         problem.b.path.velocity_at(b.centre, 0.0) - problem.a.path.velocity_at(a.centre, 0.0);
@@ -137,7 +139,7 @@ fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DV
 }
 
 /// Returns whether a fixed plane perpendicular to a unit vector keeps the boxes apart.
-fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3) -> bool {
+fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3) -> bool {
     let gap = n.dot(b.centre - a.centre) - a.extent_along(n) - b.extent_along(-n);
     let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;
     // Written so that NaN proves nothing. Most planes fail at the first two conditions, which cost the least: no bound
@@ -146,7 +148,7 @@ fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3) -> b
     let of_centres = straight(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
     excess > 0.0
         && of_centres <= excess
-        && Approach::along(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
+        && ApproachRateBounds::along(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::engine::meter::Meter;
 use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::GAP_PER_RADIUS_F32;
+use crate::rounding::GAP_ERROR_PER_RADIUS_F32;
 use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROUNDING_FOR_F64, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for the pairs of a query, as far as they are useful.
@@ -24,7 +24,8 @@ pub(crate) struct TighterBounds {
 impl TighterBounds {
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         let radius = |side: &BodyWithPath<'_>| f64::from(side.body.tree().radius());
-        let rounding = f64::from(GAP_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
+        let rounding =
+            f64::from(GAP_ERROR_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
         TighterBounds {
             is_f32_coarse: problem.uses(Shortcut::FlatNodes)
                 && rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap(),
@@ -51,7 +52,7 @@ impl TighterBounds {
 
     /// Marks the pairs of a new split that are proven apart to the end as finished.
     #[inline(always)]
-    pub(crate) fn finish_proven(
+    pub(crate) fn finish_proven_pairs(
         &mut self,
         problem: &Problem<'_>,
         split: &Split,
@@ -96,5 +97,5 @@ fn advance_flat_pair(
     let free = flat_nodes::free_time(problem, siblings.least_pair(), s);
     // One step down undoes the rounding of the sum. Written so that NaN is no clock.
     let clock = (s + free).next_down();
-    (clock > s).then(|| (clock, siblings.remove_least(clock)))
+    (clock > s).then(|| (clock, siblings.remove_least_pair(clock)))
 }

@@ -3,12 +3,12 @@
 //! In f32 the rounding of the gap between two large plates is that of their size. For a finer tolerance all of their
 //! nodes would be split before a single pair of pieces is near enough. Their slabs are known in f64.
 
-use super::placed::{Approach, Placed};
+use super::placed::{ApproachRateBounds, PlacedNode};
 use crate::body::tree::{NodeId, NodeOrTriangle, Slab};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::{GAP_PER_RADIUS_F32, RATE_F64};
+use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
 use crate::tuning::{CLOSED_GAP, MIN_ROUNDING_FOR_F64, ROTATION_GAP_SHARE};
 use glam::DVec3;
 
@@ -19,14 +19,14 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
         return 0.0;
     }
-    let [Some(a), Some(b)] = sides.map(|(side, id)| Flat::new(side, id, s)) else {
+    let [Some(a), Some(b)] = sides.map(|(side, id)| FlatNode::new(side, id, s)) else {
         return 0.0;
     };
-    let rounding = f64::from(GAP_PER_RADIUS_F32) * (a.node.radius + b.node.radius);
+    let rounding = f64::from(GAP_ERROR_PER_RADIUS_F32) * (a.node.radius + b.node.radius);
     if !(rounding > MIN_ROUNDING_FOR_F64 * problem.node_gap()) {
         return 0.0;
     }
-    let along = |n: DVec3| free_along(problem, &a, &b, n, s);
+    let along = |n: DVec3| free_time_along(problem, &a, &b, n, s);
     greater(along(a.normal), along(b.normal))
 }
 
@@ -39,17 +39,17 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
 }
 
 /// A flat node at the pose of a clock, in the problem's coordinates.
-struct Flat {
-    node: Placed,
+struct FlatNode {
+    node: PlacedNode,
     /// Half the thickness; `None` for a triangle, whose corners are known.
     half: Option<f64>,
     /// The unit normal of the node's plane.
     normal: DVec3,
 }
 
-impl Flat {
+impl FlatNode {
     fn new(side: &BodyWithPath<'_>, id: NodeId, s: f64) -> Option<Self> {
-        let node = Placed::new(side, id, s);
+        let node = PlacedNode::new(side, id, s);
         let tree = side.body.tree();
         let (normal, half) = match tree.get(id) {
             NodeOrTriangle::Node(_) => {
@@ -61,7 +61,7 @@ impl Flat {
                 (unit((b - a).cross(c - a))?, None)
             }
         };
-        Some(Flat {
+        Some(FlatNode {
             normal: node.rotated(normal),
             node,
             half,
@@ -74,7 +74,7 @@ impl Flat {
             Some(half) => {
                 let along = self.normal.dot(n).abs();
                 let across = length(n.cross(self.normal));
-                half * along + self.node.radius * (across + RATE_F64)
+                half * along + self.node.radius * (across + RATE_ERROR_F64)
             }
             None => self.node.extent_along(n),
         }
@@ -82,7 +82,7 @@ impl Flat {
 }
 
 /// Returns the time for which a fixed plane perpendicular to `n` keeps the nodes apart; `n` may have either sign.
-fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f64 {
+fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.node_gap();
@@ -91,7 +91,7 @@ fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f6
     if !(gap > CLOSED_GAP * problem.tolerance) {
         return 0.0;
     }
-    let approach = Approach::along(problem, [&a.node, &b.node], n, s);
+    let approach = ApproachRateBounds::along(problem, [&a.node, &b.node], n, s);
     let free = approach.free_time(gap);
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.

@@ -8,11 +8,11 @@ use crate::motion::gap::Gap;
 use crate::motion::path::Path;
 use crate::motion::pose::Frame;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::{BOX_AXES_F32, RATE_F64};
+use crate::rounding::{BOX_EXTENT_ERROR_F32, RATE_ERROR_F64};
 use glam::{DVec3, Vec3};
 
 /// A node's box or a triangle at the pose of a clock.
-pub(crate) struct Placed {
+pub(crate) struct PlacedNode {
     frame: Frame,
     shape: Shape,
     /// The centre in the problem's coordinates, in which all arguments and results are.
@@ -33,13 +33,13 @@ enum Shape {
     Triangle([DVec3; 3]),
 }
 
-impl Placed {
+impl PlacedNode {
     /// Places the bounding box of a whole body at clock `s`.
     #[inline]
     pub(crate) fn body_box(side: &BodyWithPath<'_>, s: f64) -> Self {
         let frame = side.path.frame(s);
         let whole = side.body.tree().body_box();
-        Placed {
+        PlacedNode {
             frame,
             shape: Shape::Box {
                 axes: [0, 1, 2].map(|k| whole.axes.col(k)),
@@ -55,12 +55,12 @@ impl Placed {
     pub(crate) fn new(side: &BodyWithPath<'_>, id: NodeId, s: f64) -> Self {
         let frame = side.path.frame(s);
         match side.body.tree().get(id) {
-            NodeOrTriangle::Node(node) => Placed {
+            NodeOrTriangle::Node(node) => PlacedNode {
                 frame,
                 shape: Shape::Box {
                     axes: node.axes.map(Vec3::as_dvec3),
                     half: node.half.map(f64::from),
-                    slack: f64::from(node.rounding) + BOX_AXES_F32 * f64::from(node.radius),
+                    slack: f64::from(node.rounding) + BOX_EXTENT_ERROR_F32 * f64::from(node.radius),
                 },
                 centre: frame.point(node.centre),
                 radius: f64::from(node.radius),
@@ -70,7 +70,7 @@ impl Placed {
                 let [a, b, c] = corners.map(|x| frame.point(x));
                 let centre = (a + b + c) / 3.0;
                 let corners = [a - centre, b - centre, c - centre];
-                Placed {
+                PlacedNode {
                     frame,
                     shape: Shape::Triangle(corners),
                     centre,
@@ -95,7 +95,7 @@ impl Placed {
 
     /// Returns the point of the box that is nearest to a point, up to rounding; the centre of a triangle.
     #[inline]
-    pub(crate) fn project(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn nearest_point(&self, point: DVec3) -> DVec3 {
         let Shape::Box { axes, half, slack } = &self.shape else {
             return self.centre;
         };
@@ -140,7 +140,7 @@ impl Placed {
 }
 
 /// Upper bounds of the rate at which a node of A and a node of B approach.
-pub(crate) struct Approach {
+pub(crate) struct ApproachRateBounds {
     /// The rate at which the nodes' centres approach each other.
     pub(crate) straight: f64,
     /// An upper bound of the rate at which any two points of the nodes approach.
@@ -149,9 +149,9 @@ pub(crate) struct Approach {
     second_derivative: f64,
 }
 
-impl Approach {
+impl ApproachRateBounds {
     /// Computes the bounds along a unit vector from A to B, from clock `s` on.
-    pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> Self {
+    pub(crate) fn along(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3, s: f64) -> Self {
         let straight = straight(problem, [a, b], n, s);
         let (mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
@@ -159,16 +159,18 @@ impl Approach {
             let arm = node.centre - path.centre_at(s);
             let across = n.cross(path.spin);
             // n·(ω×w) = w·(n×ω) of points at w from the centre.
-            turning += greater(0.0, node.extent_along(across)) + RATE_F64 * path.rate * radius;
-            let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
-            let across = length(across) + RATE_F64 * path.rate;
-            second_derivative += across * path.rate * from_axis * (1.0 + RATE_F64);
-            second_derivative += n.dot(path.acceleration) + RATE_F64 * length(path.acceleration);
+            turning +=
+                greater(0.0, node.extent_along(across)) + RATE_ERROR_F64 * path.rate * radius;
+            let from_axis = length(path.axis.cross(arm)) + radius + RATE_ERROR_F64 * length(arm);
+            let across = length(across) + RATE_ERROR_F64 * path.rate;
+            second_derivative += across * path.rate * from_axis * (1.0 + RATE_ERROR_F64);
+            second_derivative +=
+                n.dot(path.acceleration) + RATE_ERROR_F64 * length(path.acceleration);
             speed += path.speed() + path.rate * (length(arm) + radius);
         }
-        Approach {
+        ApproachRateBounds {
             straight,
-            rate: straight + turning + 2.0 * RATE_F64 * speed,
+            rate: straight + turning + 2.0 * RATE_ERROR_F64 * speed,
             second_derivative,
         }
     }
@@ -185,7 +187,7 @@ impl Approach {
 }
 
 /// Returns the rate at which the nodes' centres approach each other along `n`.
-pub(crate) fn straight(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> f64 {
+pub(crate) fn straight(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3, s: f64) -> f64 {
     let rate = |path: &Path, centre: DVec3, n: DVec3| n.dot(path.velocity_at(centre, s));
     rate(&problem.a.path, a.centre, n) + rate(&problem.b.path, b.centre, -n)
 }

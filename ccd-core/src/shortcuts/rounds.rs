@@ -40,16 +40,16 @@ pub(crate) struct Rounds<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Round {
     /// The first period is searched, and represents all others.
-    Repeated(f64),
+    FirstPeriod(f64),
     /// All periods are searched.
-    Each(f64),
+    AllPeriods(f64),
 }
 
 impl<'a> Rounds<'a> {
     /// Creates the rounds if the motions have periods short enough for a gain; `None` otherwise.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
-        if problem.turns_many_times() && free_by_bounding_volumes(problem).is_none() {
+        if problem.turns_at_least_twice() && free_by_bounding_volumes(problem).is_none() {
             Rounds::for_many_turns(problem)
         } else {
             None
@@ -102,7 +102,7 @@ impl<'a> Rounds<'a> {
             period,
             rounding,
             from: 0.0,
-            round: Round::Each(1.0),
+            round: Round::AllPeriods(1.0),
             patience: 1.0,
             gap: f64::INFINITY,
         };
@@ -118,8 +118,8 @@ impl<'a> Rounds<'a> {
         let room = (tolerance - 2.0 * self.distance_change()) - 4.0 * self.rounding;
         let left = greater(room, PERIOD_CHANGE_SHARE * tolerance);
         let to = match self.round {
-            Round::Repeated(_) => lesser(1.0, self.from + self.period.length_rounded_up()),
-            Round::Each(_) => self.end_clock(),
+            Round::FirstPeriod(_) => lesser(1.0, self.from + self.period.length_rounded_up()),
+            Round::AllPeriods(_) => self.end_clock(),
         };
         self.whole.between_clocks(
             [self.from, to],
@@ -168,11 +168,11 @@ impl<'a> Rounds<'a> {
             return ControlFlow::Break(Outcome::Free { proven_gap });
         }
         match self.round {
-            Round::Repeated(count) => {
+            Round::FirstPeriod(count) => {
                 self.patience = 1.0;
                 self.start_round(2.0 * count);
             }
-            Round::Each(count) => {
+            Round::AllPeriods(count) => {
                 self.patience = 2.0 * count;
                 self.start_round(2.0);
             }
@@ -186,12 +186,12 @@ impl<'a> Rounds<'a> {
         let contact = widened(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
-            Round::Repeated(count) if !(upper <= within) => {
+            Round::FirstPeriod(count) if !(upper <= within) => {
                 // More periods than this would give the same contact.
                 let fewer = (upper - within) / self.period.change;
                 match lesser(0.5 * count, fewer).floor() {
                     fewer if fewer >= 2.0 => self.start_round(fewer),
-                    _ => self.round = Round::Each(self.patience),
+                    _ => self.round = Round::AllPeriods(self.patience),
                 }
                 ControlFlow::Continue(())
             }
@@ -203,14 +203,14 @@ impl<'a> Rounds<'a> {
     fn start_round(&mut self, count: f64) {
         let left = ((1.0 - self.from) / self.period.length).ceil();
         self.round = match lesser(count, left) {
-            count if count >= 2.0 => Round::Repeated(count),
-            _ => Round::Each(self.patience),
+            count if count >= 2.0 => Round::FirstPeriod(count),
+            _ => Round::AllPeriods(self.patience),
         };
     }
 
     /// Returns the clock at which the round ends.
     fn end_clock(&self) -> f64 {
-        let (Round::Repeated(count) | Round::Each(count)) = self.round;
+        let (Round::FirstPeriod(count) | Round::AllPeriods(count)) = self.round;
         let end = self.from + count * self.period.length;
         // A rest of the time that is only rounding is covered, too.
         if end + 0.5 * TURN_COUNT_WIDENING * self.period.length < 1.0 {
@@ -223,8 +223,8 @@ impl<'a> Rounds<'a> {
     /// Returns a bound of the difference between distances in the round and those in the searched part.
     fn distance_change(&self) -> f64 {
         match self.round {
-            Round::Repeated(count) => count * self.period.change,
-            Round::Each(_) => 0.0,
+            Round::FirstPeriod(count) => count * self.period.change,
+            Round::AllPeriods(_) => 0.0,
         }
     }
 
@@ -249,7 +249,7 @@ impl<'a> Sample<'a> {
     /// Returns the first period if all others are equal to it, up to a part of the tolerance; `None` otherwise.
     #[inline]
     pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
-        if problem.turns_many_times() {
+        if problem.turns_at_least_twice() {
             Sample::for_many_turns(problem)
         } else {
             None
@@ -262,7 +262,7 @@ impl<'a> Sample<'a> {
         let (change, rounding) = (rounds.distance_change(), rounds.rounding);
         // Written so that NaN is too much.
         let stands_for_all =
-            matches!(rounds.round, Round::Repeated(_)) && rounds.end_clock() >= 1.0;
+            matches!(rounds.round, Round::FirstPeriod(_)) && rounds.end_clock() >= 1.0;
         (stands_for_all && change <= PERIOD_CHANGE_SHARE * problem.tolerance).then(|| Sample {
             part: rounds.between_clocks().for_distances(),
             change,

@@ -12,14 +12,14 @@
 mod outline;
 mod profile;
 
-use super::placed::Placed;
-use super::screw::profile::{Profile, ScrewAxis, ScrewPath, keep_apart};
+use super::placed::PlacedNode;
+use super::screw::profile::{Profile, ScrewAxis, ScrewPath, profiles_keep_apart};
 use crate::body::tree::{GroupHeader, NodeChildren, NodeId, NodeOrTriangle};
 use crate::engine::capacity::empty;
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
-use crate::rounding::{ADVANCE_F64, RATE_F64};
+use crate::rounding::{ADVANCE_ERROR_F64, RATE_ERROR_F64};
 use crate::tuning::{CLOSED_GAP, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -27,7 +27,7 @@ use std::ops::Range;
 /// The screw motion of one body relative to the other, to prove pairs of nodes apart.
 #[derive(Debug)]
 pub(crate) struct Screw {
-    turning: WhichBody,
+    turning_body: WhichBody,
     axis: ScrewAxis,
     /// The whole path along the screw, and the distance to keep on it. The distance includes the drift of the axis.
     path: ScrewPath,
@@ -70,7 +70,7 @@ impl Screw {
             0.0
         };
         // The advance is off by a few units in the last place, which counts as drift too.
-        let drift = length(velocity - along * unit) + ADVANCE_F64 * length(velocity);
+        let drift = length(velocity - along * unit) + ADVANCE_ERROR_F64 * length(velocity);
         // Bodies with the same acceleration do not accelerate relative to each other.
         let acceleration = side.path.acceleration - other.path.acceleration;
         let drift = drift + 0.5 * length(acceleration);
@@ -83,12 +83,12 @@ impl Screw {
         profiles.0[0].clear(&problem.a);
         profiles.0[1].clear(&problem.b);
         Some(Screw {
-            turning,
+            turning_body: turning,
             axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
             path: ScrewPath {
                 pitch: TAU * (along / side.path.rate),
                 angles: [0.0, side.path.rate],
-                needed_gap: kept + drift * (1.0 + RATE_F64),
+                needed_gap: kept + drift * (1.0 + RATE_ERROR_F64),
             },
         })
     }
@@ -129,7 +129,7 @@ impl Screw {
     ) -> Option<bool> {
         let a = of_a.profile_of(&problem.a, a, &self.axis)?;
         let b = of_b.profile_of(&problem.b, b, &self.axis)?;
-        let (turning, still) = match self.turning {
+        let (turning, still) = match self.turning_body {
             WhichBody::A => (a, b),
             WhichBody::B => (b, a),
         };
@@ -138,7 +138,7 @@ impl Screw {
             angles: [s * end, end],
             ..self.path
         };
-        Some(keep_apart(turning, still, &self.axis, &way))
+        Some(profiles_keep_apart(turning, still, &self.axis, &way))
     }
 }
 
@@ -174,7 +174,7 @@ impl BodyProfiles {
 /// Computes the profile of a node at its pose at the start. A profile of a few triangles is smaller than that of their
 /// box.
 fn profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
-    let place = |id: NodeId| Placed::new(side, id, 0.0);
+    let place = |id: NodeId| PlacedNode::new(side, id, 0.0);
     match triangles(side, id) {
         Some(few) => Profile::union_of(few.map(place), axis),
         None => Profile::new(&place(id), axis),
@@ -188,7 +188,7 @@ fn triangles(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
         NodeOrTriangle::Triangle(_) => Some(id..id + 1),
         NodeOrTriangle::Node(node) => match node.below {
             NodeChildren::Triangles(group) => {
-                let &GroupHeader { first, count, .. } = tree.triangle_members(group);
+                let &GroupHeader { first, count, .. } = tree.triangle_group_header(group);
                 Some(first..first + count)
             }
             _ => None,

@@ -8,12 +8,12 @@
 //! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
 //! H) + 2|ḋ|) + |d̈|`. Where the centres accelerate, that is part of `d̈`.
 
-use crate::engine::nodes::axis::Axis;
+use crate::engine::nodes::axis::AxesX8;
 use crate::engine::nodes::clock;
 use crate::engine::nodes::eight_pairs::{EightPairs, second_derivative_bound};
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::simd::{Vec3x8, splat};
-use crate::rounding::{LEAST_SECOND_DERIVATIVE_F32, RATE_F32, SECOND_DERIVATIVE_FACTOR_F32};
+use crate::rounding::{LEAST_SECOND_DERIVATIVE_F32, RATE_ERROR_F32, SECOND_DERIVATIVE_FACTOR_F32};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
@@ -33,15 +33,15 @@ struct TurningNode<L: Simd> {
 impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     /// Returns the times for which planes that turn with the split body keep the pairs apart.
     #[inline(always)]
-    pub(crate) fn free_with_split(&self, axis: Axis<L>) -> f32x8<L> {
+    pub(crate) fn free_with_split(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other);
         let level = axis.n.level();
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity = velocity + motion.split.velocity(at) - self.other_turning;
+        let velocity = velocity + motion.split.velocity(at) - self.other_rotational_velocity;
         let across = motion.split.cross_angular_velocity(axis.n);
         let own = motion.other.cross_angular_velocity(axis.n);
-        self.attached_free_time(
+        self.turning_plane_free_time(
             axis,
             second_derivative_bound(across, motion.split.rate, splat(level, 1.0)),
             motion.split.rate,
@@ -56,7 +56,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
 
     /// Returns the times for which planes that turn with the other body keep the pairs apart.
     #[inline(always)]
-    pub(crate) fn free_with_other(&self, axis: Axis<L>) -> f32x8<L> {
+    pub(crate) fn free_with_other(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
         let level = axis.n.level();
         let at = children.centre(level);
@@ -64,7 +64,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
         let across = motion.other.cross_angular_velocity(axis.n);
         let own = motion.split.cross_angular_velocity(axis.n);
-        self.attached_free_time(
+        self.turning_plane_free_time(
             axis,
             second_derivative_bound(across, motion.other.rate, splat(level, 1.0)),
             motion.other.rate,
@@ -78,9 +78,9 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     }
 
     #[inline(always)]
-    fn attached_free_time(
+    fn turning_plane_free_time(
         &self,
-        axis: Axis<L>,
+        axis: AxesX8<L>,
         across: f32x8<L>,
         spin: f32,
         sweep: &TurningNode<L>,
@@ -96,10 +96,10 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let second_derivative =
             across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_angular_speed + change;
         // Each sweep happens at the distance of its node from the turning body's centre.
-        let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
+        let rate_slack = sweep.distance * (RATE_ERROR_F32 * spin) + motion.rate_slack;
         let free = clock::free_time(
             axis.gap - motion.slack,
-            motion.closed,
+            motion.closed_gap,
             sweep.rate + rate_slack,
             second_derivative * SECOND_DERIVATIVE_FACTOR_F32 + LEAST_SECOND_DERIVATIVE_F32,
         );

@@ -15,7 +15,7 @@ use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::BodyWithPath;
-use crate::rounding::{RATE_F64, turning_axis_rounding};
+use crate::rounding::{RATE_ERROR_F64, turning_axis_rounding};
 use crate::tuning::{MAX_NEWTON_STEPS, MAX_TURNING_PLANE_TIME};
 use glam::DVec3;
 use std::cell::Cell;
@@ -71,21 +71,21 @@ pub(crate) struct TurningPiece<'p> {
     /// The derivative `V'` of `V`, which is constant.
     acceleration: DVec3,
     /// The direction of the angular velocity `ω_s` of the piece's own body.
-    own_axis: DVec3,
+    own_rotation_axis: DVec3,
     own_angular_speed: f64,
     /// The relative angular velocity `Δ`.
     relative: DVec3,
     piece: Piece<'p>,
     frame: &'p Frame,
     /// The point at the end of `D`, in the frame of the piece's body.
-    reference: DVec3,
+    reference_point: DVec3,
     radius: f64,
     /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
     reach: f64,
     /// A bound of the displacement of points by rounding, for both bodies together.
     rounding_displacement: f64,
     /// The number of evaluations of the plane against a point.
-    pub(crate) looks: Cell<u64>,
+    pub(crate) evaluations: Cell<u64>,
 }
 
 /// The terms of heights and rates after some time. A point with the vector `arm` in its body's frame has the height
@@ -94,7 +94,7 @@ struct HeightTerms {
     height: f64,
     axis: DVec3,
     rate: f64,
-    closing: DVec3,
+    rate_axis: DVec3,
 }
 
 impl<'p> TurningPiece<'p> {
@@ -126,16 +126,16 @@ impl<'p> TurningPiece<'p> {
             velocity,
             speed,
             acceleration,
-            own_axis: own.axis,
+            own_rotation_axis: own.axis,
             own_angular_speed: own.rate,
             relative: path.spin - own.spin,
             piece: other.piece,
             frame: other.frame,
-            reference,
+            reference_point: reference,
             radius,
             reach: offset.length() + speed + radius,
             rounding_displacement: rounding,
-            looks: Cell::new(0),
+            evaluations: Cell::new(0),
         }
     }
 
@@ -145,8 +145,8 @@ impl<'p> TurningPiece<'p> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least_start_height();
         first_crossing(horizon, MAX_NEWTON_STEPS, |tau| {
-            self.looks
-                .set(self.looks.get() + self.piece.evaluations_per_search());
+            self.evaluations
+                .set(self.evaluations.get() + self.piece.evaluations_per_search());
             let turned = self.turned(tau);
             let second_derivative = self.second_derivative(tau);
             let free = |axis: f64, closing: f64| {
@@ -160,11 +160,11 @@ impl<'p> TurningPiece<'p> {
             let least = match self.piece.bounding_ball() {
                 Some(_) => free(
                     self.least_height_along(turned.axis),
-                    self.least_height_along(turned.closing),
+                    self.least_height_along(turned.rate_axis),
                 ),
                 None => self
                     .arms()
-                    .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
+                    .map(|arm| free(turned.axis.dot(arm), turned.rate_axis.dot(arm)))
                     .fold(f64::INFINITY, lesser),
             };
             // The bound of the second derivative holds for that long only.
@@ -194,7 +194,7 @@ impl<'p> TurningPiece<'p> {
     fn least_height_along(&self, direction: DVec3) -> f64 {
         if self.piece.bounding_ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
-            return direction.dot(lowest - self.reference);
+            return direction.dot(lowest - self.reference_point);
         }
         let heights = self.arms().map(|arm| direction.dot(arm));
         heights.fold(f64::INFINITY, lesser)
@@ -202,7 +202,7 @@ impl<'p> TurningPiece<'p> {
 
     /// Returns the vectors from the point `reference` to the piece's points.
     fn arms(&self) -> impl Iterator<Item = DVec3> {
-        let reference = self.reference;
+        let reference = self.reference_point;
         self.piece.points.iter().map(move |&y| y - reference)
     }
 
@@ -214,14 +214,14 @@ impl<'p> TurningPiece<'p> {
         let turning = self.normal.derivative_at(angle) * self.angular_speed;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
-            let turned = RotatingVector::new(-self.own_axis, v).at(own);
+            let turned = RotatingVector::new(-self.own_rotation_axis, v).at(own);
             self.frame.inverse_vector(turned)
         };
         HeightTerms {
             height: axis.dot(offset),
             axis: back(axis),
             rate: turning.dot(offset) + axis.dot(velocity),
-            closing: back(self.relative.cross(axis)),
+            rate_axis: back(self.relative.cross(axis)),
         }
     }
 
@@ -238,14 +238,14 @@ impl<'p> TurningPiece<'p> {
     fn second_derivative(&self, tau: f64) -> f64 {
         let (offset, _) = self.offset_and_velocity_after(tau);
         let arm = self.unit.cross(offset).length() + self.speed * f64::from(MAX_TURNING_PLANE_TIME);
-        let across = self.angular_speed * (self.normal.derivative_length() + RATE_F64);
+        let across = self.angular_speed * (self.normal.derivative_length() + RATE_ERROR_F64);
         let relative =
-            self.relative.length() + RATE_F64 * (self.angular_speed + self.own_angular_speed);
+            self.relative.length() + RATE_ERROR_F64 * (self.angular_speed + self.own_angular_speed);
         let second_derivative = across
-            * (self.angular_speed * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+            * (self.angular_speed * (arm + RATE_ERROR_F64 * self.reach) + 2.0 * self.speed)
             + relative * (across + self.own_angular_speed) * self.radius
             + self.acceleration.length();
-        second_derivative * (1.0 + RATE_F64)
+        second_derivative * (1.0 + RATE_ERROR_F64)
     }
 }
 

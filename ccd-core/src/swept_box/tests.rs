@@ -2,7 +2,7 @@
 //! larger than necessary.
 
 use super::*;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::math::order::greater;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::ExhaustiveOracle;
@@ -23,7 +23,7 @@ fn points_stay_in_their_box() {
     let mut rng = rng(1);
     let (mut tightest, mut turning) = (f64::INFINITY, 0);
     for _ in 0..2_000 {
-        let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
+        let kind = [Kind::Any, Kind::Sliding, Kind::NearRim][rng.random_range(0..3)];
         let scene = scene(&mut rng, kind, 8);
         for (k, swept) in boxes(&scene).iter().enumerate() {
             let path = Path::new(&scene.motions[k], DVec3::ZERO, 1.0);
@@ -105,7 +105,7 @@ fn bodies_whose_boxes_are_apart_are_free() {
     let mut rng = rng(2);
     let (mut apart, mut others, mut contacts) = (0, 0, 0);
     for number in 0..4_000 {
-        let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
+        let kind = [Kind::Any, Kind::Sliding, Kind::NearRim][rng.random_range(0..3)];
         let mut scene = scene(&mut rng, kind, 8);
         scene.config.margin = match rng.random_range(0..3) {
             0 => scene.config.tolerance * magnitude(&mut rng, -2.0, 5.0),
@@ -154,7 +154,7 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
             .map(|(side, motion)| {
                 let path = Path::new(motion, DVec3::ZERO, 1.0);
                 let way = length(path.centre_at(0.0)) + path.speed() + scene.config.margin;
-                share_of_rounding(side.span(), path.rate, way)
+                body_distance_rounding(side.span(), path.rate, way)
             })
             .sum();
         assert!(shares * (1.0 + 1e-12) >= problem.rounding);

@@ -237,14 +237,14 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
 
 /// The given poses of a body at both ends of a motion, with quaternions of any length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ends {
+pub(crate) struct EndPoses {
     pub(crate) positions: [DVec3; 2],
     pub(crate) turned: [DQuat; 2],
     /// The centre of rotation in the body's frame, which moves on a straight line.
     pub(crate) centre: DVec3,
 }
 
-impl Ends {
+impl EndPoses {
     /// Returns the world position of a body's point after a share of the duration.
     pub(crate) fn place(&self, share: Double, point: DVec3) -> Double3 {
         let centre = Double3::from(self.centre);

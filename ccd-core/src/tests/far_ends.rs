@@ -1,12 +1,12 @@
 //! Tests motions between poses far from the world's origin. Answers hold for the motion between the given poses, not
 //! for the rounded one.
 
-use super::double::{Double, Double3, Ends};
+use super::double::{Double, Double3, EndPoses};
 use super::oracle::ExhaustiveOracle;
 use super::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng, rotation};
 use crate::answer::Outcome;
 use crate::body::Body;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
@@ -16,7 +16,7 @@ use crate::settings::Settings;
 use glam::DVec3;
 
 /// Draws poses at both ends near a point in the world, with quaternions of any length, sometimes equal.
-pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
+pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> EndPoses {
     let at = |rng: &mut R| world + point_in_ball(rng, size);
     let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
     let end = match rng.random_range(0..3) {
@@ -25,7 +25,7 @@ pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
         _ => rotation(rng) * magnitude(rng, -3.0, 3.0),
     };
     let off = size * magnitude(rng, -3.0, 3.0);
-    Ends {
+    EndPoses {
         positions: [at(rng), at(rng)],
         turned: [start, end],
         centre: [DVec3::ZERO, point_in_ball(rng, off)][rng.random_range(0..2)],
@@ -33,14 +33,14 @@ pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
 }
 
 /// Creates the engine's motion between two poses.
-pub(crate) fn between(ends: &Ends, duration: f64) -> Motion {
+pub(crate) fn between(ends: &EndPoses, duration: f64) -> Motion {
     let [start, end] = [0, 1].map(|k| Pose::new(ends.positions[k], ends.turned[k]).unwrap());
     Motion::between(start, end, ends.centre, duration).unwrap()
 }
 
 /// Two balls, each with its centre off its body's origin.
 struct Scene {
-    ends: [Ends; 2],
+    ends: [EndPoses; 2],
     centres: [DVec3; 2],
     radii: f64,
 }

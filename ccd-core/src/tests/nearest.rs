@@ -47,10 +47,10 @@ pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
         if let Some(weights) = foot(a, b[i]) {
             offer(weights, corner(i));
         }
-        if let Some((s, weights)) = pierce(b, a[i], a[(i + 1) % 3]) {
+        if let Some((s, weights)) = piercing_point(b, a[i], a[(i + 1) % 3]) {
             offer(on_edge(i, s), weights);
         }
-        if let Some((s, weights)) = pierce(a, b[i], b[(i + 1) % 3]) {
+        if let Some((s, weights)) = piercing_point(a, b[i], b[(i + 1) % 3]) {
             offer(weights, on_edge(i, s));
         }
     }
@@ -101,7 +101,7 @@ fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
 }
 
 /// Returns the point where a segment meets a triangle, as a parameter and weights.
-fn pierce(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
+fn piercing_point(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));
     if !(from * to <= 0.0 && from != to) {

@@ -21,7 +21,7 @@ impl DistanceOracle for ExhaustiveOracle {
         let found = nearest(&a, &b_in_a);
         let way = point(&b_in_a, found.b) - point(&a, found.a);
         Ok(Claim {
-            axis: widest(pair, way, &a, &b_in_a),
+            axis: widest_gap_axis(pair, way, &a, &b_in_a),
             a: combination(found.a, pair.a.points.len()),
             b: combination(found.b, pair.b.points.len()),
         })
@@ -30,7 +30,7 @@ impl DistanceOracle for ExhaustiveOracle {
 
 /// Returns the axis of widest gap among these: the vector between the nearest points, its components perpendicular to
 /// an edge, the normals, and the products of edges.
-fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
+fn widest_gap_axis(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);
     let mut axes = vec![way, normal(a), normal(b)];

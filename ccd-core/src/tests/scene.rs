@@ -90,7 +90,7 @@ pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
 }
 
 /// Draws the corners of a box with half extents of up to 1: long, flat, or any.
-pub(crate) fn long_box(tape: &mut RandomCase) -> Vec<DVec3> {
+pub(crate) fn random_box_corners(tape: &mut RandomCase) -> Vec<DVec3> {
     let frame = glam::DMat3::from_quat(rotation(tape));
     let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
     let corner = |k: usize| {
@@ -131,7 +131,7 @@ pub(crate) fn soup(
 }
 
 /// Draws two triangles of any shape, or two plump ones that often cross.
-pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
+pub(crate) fn two_random_triangles(rng: &mut Pcg64) -> [Triangle; 2] {
     if rng.random_bool(0.5) {
         return [(); 2].map(|()| [(); 3].map(|()| point_in_ball(rng, 1.0)));
     }
@@ -257,14 +257,14 @@ pub(crate) enum Kind {
     /// The bodies slide past each other at a thousand sizes per duration, without turning.
     Sliding,
     /// A big body turns, and a tiny one is near it.
-    Rim,
+    NearRim,
 }
 
 /// Draws a scene of up to `most` triangles per body.
 pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let size = magnitude(rng, -6.0, 6.0);
     let ratio = match kind {
-        Kind::Rim => magnitude(rng, 1.0, 5.0),
+        Kind::NearRim => magnitude(rng, 1.0, 5.0),
         Kind::Receding => magnitude(rng, 0.0, 0.5),
         _ if rng.random_bool(0.5) => 1.0,
         _ => magnitude(rng, 0.0, 4.0),
@@ -348,7 +348,7 @@ fn set_moving(
                 passage.velocity = across * size * 1e3;
             }
         }
-        Kind::Rim => {
+        Kind::NearRim => {
             if large {
                 passage.spin = direction(rng) * rng.random_range(0.1..20.0);
                 passage.centre = passage.middle + point_in_ball(rng, size);

@@ -5,7 +5,7 @@ use super::oracle::ExhaustiveOracle;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, point_in_ball, rng};
 use crate::answer::{Outcome, Unresolved};
 use crate::body::Body;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::math::order::lesser;
 use crate::math::vector::unit;
 use crate::motion::Motion;

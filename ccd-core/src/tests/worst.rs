@@ -38,7 +38,7 @@ pub(crate) struct Found {
 const PATIENCE: [u64; 2] = [200, 10];
 
 /// The number of random cases at the start of a climb, which continues from the worst of them.
-const DRAWN: u64 = 24;
+const RANDOM_CASE_COUNT: u64 = 24;
 
 impl Worst {
     /// Creates a search of this many cases, multiplied by `CCD_TEST_CASES`.
@@ -66,7 +66,7 @@ impl Worst {
         let (mut here, mut worst, mut number) = (nothing(), nothing(), 0);
         let (mut drawn, mut stale, mut judged) = (0, 0, 0u64);
         for case in 1..=count {
-            let words = if drawn < DRAWN {
+            let words = if drawn < RANDOM_CASE_COUNT {
                 Vec::new()
             } else {
                 dice.mutated_words(&here.1)
@@ -95,7 +95,7 @@ impl Worst {
                 // Every other climb continues from the worst case of all.
                 let anew = dice.next() & 1 == 0;
                 here = if anew { nothing() } else { worst.clone() };
-                (drawn, stale) = (if anew { 0 } else { DRAWN }, 0);
+                (drawn, stale) = (if anew { 0 } else { RANDOM_CASE_COUNT }, 0);
             }
         }
         let (name, share) = (self.name, worst.0);
@@ -151,7 +151,7 @@ impl RandomCase {
     /// Draws a number of any sign and mantissa, with a binary exponent in a range; sometimes 0.
     pub(crate) fn any(&mut self, exponents: RangeInclusive<i32>) -> f64 {
         let word = self.word();
-        let (field, mantissa) = (word >> 52 & 0x7ff, word & MANTISSA);
+        let (field, mantissa) = (word >> 52 & 0x7ff, word & MANTISSA_MASK);
         if field < 32 {
             return 0.0;
         }
@@ -194,7 +194,7 @@ impl RandomCase {
     }
 }
 
-const MANTISSA: u64 = (1 << 52) - 1;
+const MANTISSA_MASK: u64 = (1 << 52) - 1;
 const ONE: u64 = 1023 << 52;
 
 /// The Splitmix random number generator, which suffices for a search.
@@ -226,19 +226,19 @@ impl SplitMix64 {
 
     /// Returns a word to replace `word` with.
     fn other(&mut self, word: u64, all: &[u64]) -> u64 {
-        let digits = self.next() & MANTISSA;
+        let digits = self.next() & MANTISSA_MASK;
         // The change is a few units in the last place if the word is a number.
         let few = digits % 16;
         match self.below(10) {
             0 => self.next(),
-            1 => word & !MANTISSA | digits,
+            1 => word & !MANTISSA_MASK | digits,
             2 => word ^ 1 << self.below(64),
             3 => word ^ 1 << self.below(52),
             4 => word.wrapping_add(few),
             5 => word.wrapping_sub(few),
             // The number is just above a power of two, or just below one.
-            6 => word & !MANTISSA | few,
-            7 => word | MANTISSA ^ few,
+            6 => word & !MANTISSA_MASK | few,
+            7 => word | MANTISSA_MASK ^ few,
             // The number is equal or opposite to another one, up to a few last digits: sums of such numbers cancel.
             8 => {
                 let sign = (self.next() & 1) << 63;

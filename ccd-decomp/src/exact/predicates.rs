@@ -56,19 +56,19 @@ impl Projection {
 /// Returns whether a triangle is degenerate. Coordinates may be arbitrarily near to 0. Each axis is first scaled by a
 /// power of two until its largest coordinate is about 1, which does not change the answer. Exact, unless coordinates
 /// along one axis differ by a factor of more than 1e90.
-pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
+pub(crate) fn has_zero_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
-    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_up_to_one));
+    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(unit_upscale_factor));
     is_degenerate(triangle.map(|p| p * scale))
 }
 
 /// Returns the power of two that scales a number below 1 to about 1; 1 for any other number.
-fn scale_up_to_one(x: f64) -> f64 {
-    if x < 1.0 { scale_to_one(x) } else { 1.0 }
+fn unit_upscale_factor(x: f64) -> f64 {
+    if x < 1.0 { unit_scale_factor(x) } else { 1.0 }
 }
 
 /// Returns the power of two that scales a positive number to about 1; 1 for any other number.
-fn scale_to_one(x: f64) -> f64 {
+fn unit_scale_factor(x: f64) -> f64 {
     const EXPONENT: u64 = f64::INFINITY.to_bits();
     if x > 0.0 && x.is_finite() {
         greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip()
@@ -81,7 +81,7 @@ fn scale_to_one(x: f64) -> f64 {
 /// until its largest element is about 1, which does not change the sign. Exact, unless elements of one column
 /// differ by a factor of more than 1e90.
 pub(crate) fn determinant_sign(columns: [DVec3; 3]) -> Ordering {
-    let [x, y, z] = columns.map(|column| column * scale_to_one(column.abs().max_element()));
+    let [x, y, z] = columns.map(|column| column * unit_scale_factor(column.abs().max_element()));
     side([DVec3::ZERO, x, y], z)
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn first_out_of_range(points: &[DVec3]) -> Option<usize> {
 }
 
 /// Compares points by x, then y, then z. On a plane or a line this is the order along some direction.
-pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
+pub(crate) fn compare_lexicographically(p: DVec3, q: DVec3) -> Ordering {
     let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
     by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
 }

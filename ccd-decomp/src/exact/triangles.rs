@@ -19,7 +19,7 @@ pub(crate) fn meet_outside_shared_corners(
         1 => [0, 1].into_iter().any(|which| {
             let k = (0..3).find(|&k| is_shared(which, k)).unwrap_or(0);
             let far = [(k + 1) % 3, (k + 2) % 3].map(|k| triangles[which][k]);
-            segment_meets(far, triangles[1 - which])
+            segment_meets_triangle(far, triangles[1 - which])
         }),
         2 => are_folded(corners, triangles),
         // One triangle, from either side.
@@ -37,7 +37,8 @@ pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
         && !beyond(1)
         && (0..3).any(|k| {
             let edge = |which: usize| [triangles[which][k], triangles[which][(k + 1) % 3]];
-            segment_meets(edge(0), triangles[1]) || segment_meets(edge(1), triangles[0])
+            segment_meets_triangle(edge(0), triangles[1])
+                || segment_meets_triangle(edge(1), triangles[0])
         })
 }
 
@@ -55,10 +56,10 @@ fn are_folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
 }
 
 /// Returns whether a segment meets a triangle; touching counts.
-fn segment_meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+fn segment_meets_triangle([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle;
     match (side(triangle, p), side(triangle, q)) {
-        (Ordering::Equal, Ordering::Equal) => segment_meets_in_plane([p, q], triangle),
+        (Ordering::Equal, Ordering::Equal) => coplanar_segment_meets_triangle([p, q], triangle),
         (s, t) if s == t => false,
         _ => {
             // The tetrahedra of the segment with each edge have one orientation if it crosses inside.
@@ -69,7 +70,7 @@ fn segment_meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
 }
 
 /// Returns whether a segment in the triangle's plane meets the triangle; touching counts.
-fn segment_meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+fn coplanar_segment_meets_triangle([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let Some(projection) = Projection::new(triangle) else {
         return true;
     };

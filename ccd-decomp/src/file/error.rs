@@ -26,9 +26,9 @@ pub enum StoreFault {
     /// The file has a version of the format that this build does not read.
     #[error(
         "is of version {version} of the format, and version {} is what is read; {PREPARE_ADVICE}",
-        VERSION
+        FORMAT_VERSION
     )]
-    OtherVersion {
+    UnsupportedVersion {
         /// The version that the file states.
         version: u32,
     },
@@ -52,10 +52,10 @@ const PREPARE_ADVICE: &str = "prepare it again from its mesh: ccd decompose MESH
 
 /// The version of the format that is written and read. Files of older versions are prepared again from their meshes,
 /// instead of a second reader.
-pub(super) const VERSION: u32 = 2;
+pub(super) const FORMAT_VERSION: u32 = 2;
 
 impl StoreFault {
-    pub(super) fn invalid(problem: &dyn fmt::Display) -> Self {
+    pub(super) fn invalid_content(problem: &dyn fmt::Display) -> Self {
         StoreFault::Invalid {
             problem: problem.to_string(),
         }

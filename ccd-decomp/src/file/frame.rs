@@ -8,7 +8,7 @@
 //! | as many | the payload |
 //! | 4 | CRC-32 of all before |
 
-use super::error::{StoreFault, VERSION};
+use super::error::{FORMAT_VERSION, StoreFault};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
@@ -16,13 +16,13 @@ use std::io::{self, Read, Write};
 /// ends or strips the eighth bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
-const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
+const HEADER_BYTES: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 
 /// Writes a payload between the header and the checksum that [`read`] verifies.
 pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
-    let mut header = Vec::with_capacity(HEADER);
+    let mut header = Vec::with_capacity(HEADER_BYTES);
     header.extend(MAGIC);
-    header.extend(VERSION.to_le_bytes());
+    header.extend(FORMAT_VERSION.to_le_bytes());
     header.extend((payload.len() as u64).to_le_bytes());
     writer.write_all(&header)?;
     writer.write_all(payload)?;
@@ -35,10 +35,10 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
 /// # Complexity
 /// Linear in the bytes present, for any announced length.
 pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
-    let mut header = read_up_to(&mut reader, HEADER as u64)?;
+    let mut header = read_up_to(&mut reader, HEADER_BYTES as u64)?;
     if !header.starts_with(&MAGIC) {
         // More bytes identify an LFS pointer. A file shorter than the magic number is more likely foreign.
-        header.extend(read_up_to(&mut reader, HEADER as u64)?);
+        header.extend(read_up_to(&mut reader, HEADER_BYTES as u64)?);
         return Err(if is_lfs_pointer(&header) {
             StoreFault::LfsPointer
         } else {
@@ -47,8 +47,8 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     }
     let mut fields = &header[MAGIC.len()..];
     let version = u32::from_le_bytes(split_array(&mut fields)?);
-    if version != VERSION {
-        return Err(StoreFault::OtherVersion { version });
+    if version != FORMAT_VERSION {
+        return Err(StoreFault::UnsupportedVersion { version });
     }
     let length = u64::from_le_bytes(split_array(&mut fields)?);
     let payload = read_up_to(&mut reader, length)?;

@@ -17,7 +17,7 @@ fn model(file: &str, detail: Detail) -> Model {
     prepare(&mesh, detail).unwrap()
 }
 
-fn stored(model: &Model) -> Vec<u8> {
+fn stored_bytes(model: &Model) -> Vec<u8> {
     let mut bytes = Vec::new();
     model.write(&mut bytes).unwrap();
     bytes
@@ -40,7 +40,7 @@ static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
         model(TETRAHEDRON, Detail::Hull),
         model(TETRAHEDRON, Detail::Vhacd { hulls: 2 }),
     ];
-    models.iter().map(stored).collect()
+    models.iter().map(stored_bytes).collect()
 });
 
 #[rstest]
@@ -50,9 +50,9 @@ static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 #[case(TETRAHEDRON, Detail::Hull)]
 fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
     let model = model(file, detail);
-    let bytes = stored(&model);
+    let bytes = stored_bytes(&model);
     let again = Model::read(&bytes[..]).unwrap();
-    assert_eq!(stored(&again), bytes);
+    assert_eq!(stored_bytes(&again), bytes);
     assert_eq!(again.report, model.report);
     assert_eq!(again.pieces.points(), model.pieces.points());
     assert_eq!(again.hierarchy.nodes(), model.hierarchy.nodes());
@@ -70,7 +70,7 @@ fn a_hull_tree_is_stored_with_its_body() {
     let model = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))
         .with_hull_tree()
         .unwrap();
-    let again = Model::read(&stored(&model)[..]).unwrap();
+    let again = Model::read(&stored_bytes(&model)[..]).unwrap();
     let nodes = |model: &Model| model.hull_tree.as_ref().unwrap().to_nodes();
     assert!(nodes(&model).len() >= 3);
     assert_eq!(nodes(&again), nodes(&model));
@@ -85,7 +85,7 @@ fn files_are_named_in_errors() {
     let model = model(DENTED_OBJ, Detail::Triangles);
     model.save(&path).unwrap();
     assert_eq!(Model::load(&path).unwrap().report, model.report);
-    std::fs::write(&path, &stored(&model)[..40]).unwrap();
+    std::fs::write(&path, &stored_bytes(&model)[..40]).unwrap();
     let message = Model::load(&path).unwrap_err().to_string();
     assert!(message.contains("part.ccd: is cut short"), "{message}");
     assert!(message.contains("ccd decompose MESH --out"), "{message}");
@@ -125,11 +125,11 @@ fn a_foreign_file_is_reported() {
 
 #[test]
 fn another_version_is_reported_before_damage() {
-    let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
+    let mut bytes = stored_bytes(&model(DENTED_OBJ, Detail::Triangles));
     bytes[8] = 0xff;
     assert!(matches!(
         fault(&bytes),
-        StoreFault::OtherVersion { version: 0xff }
+        StoreFault::UnsupportedVersion { version: 0xff }
     ));
     let message = fault(&bytes).to_string();
     assert!(
@@ -161,14 +161,14 @@ fn a_file_cut_anywhere_is_an_error() {
 
 #[test]
 fn a_file_with_more_behind_it_is_damaged() {
-    let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
+    let mut bytes = stored_bytes(&model(DENTED_OBJ, Detail::Triangles));
     bytes.push(0);
     assert!(matches!(fault(&bytes), StoreFault::ChecksumMismatch));
 }
 
 #[test]
 fn every_bit_counts() {
-    let bytes = stored(&model(TETRAHEDRON, Detail::Triangles));
+    let bytes = stored_bytes(&model(TETRAHEDRON, Detail::Triangles));
     for at in 0..bytes.len() {
         for bit in 0..8 {
             let mut changed = bytes.clone();
@@ -180,7 +180,7 @@ fn every_bit_counts() {
 
 #[test]
 fn a_length_that_no_memory_holds_is_a_cut_file() {
-    let mut bytes = stored(&model(DENTED_OBJ, Detail::Triangles));
+    let mut bytes = stored_bytes(&model(DENTED_OBJ, Detail::Triangles));
     bytes[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
     assert!(matches!(fault(&bytes), StoreFault::Truncated));
 }
@@ -192,11 +192,14 @@ fn parts_that_do_not_belong_together_are_reported() {
         model(DENTED_OBJ, Detail::Triangles),
     );
     small.hierarchy = large.hierarchy;
-    assert!(matches!(fault(&stored(&small)), StoreFault::Invalid { .. }));
+    assert!(matches!(
+        fault(&stored_bytes(&small)),
+        StoreFault::Invalid { .. }
+    ));
     let mut miscounted = model(DENTED_OBJ, Detail::Triangles);
     miscounted.report.pieces += 1;
     assert!(matches!(
-        fault(&stored(&miscounted)),
+        fault(&stored_bytes(&miscounted)),
         StoreFault::Invalid { .. }
     ));
 }
@@ -289,7 +292,10 @@ fn threads_save_side_by_side() {
                     // Names that differ only in their endings, and a name that all share.
                     let own = folder.join(format!("body.v{thread}"));
                     model.save(&own).unwrap();
-                    assert_eq!(stored(&Model::load(&own).unwrap()), stored(model));
+                    assert_eq!(
+                        stored_bytes(&Model::load(&own).unwrap()),
+                        stored_bytes(model)
+                    );
                     let shared = folder.join("shared.ccd");
                     model.save(&shared).unwrap();
                     assert!(Model::load(&shared).is_ok());
@@ -313,7 +319,10 @@ fn links_are_followed_and_devices_stay_what_they_are() {
     symlink(&target, &link).unwrap();
     body.save(&link).unwrap();
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
-    assert_eq!(stored(&Model::load(&target).unwrap()), stored(&body));
+    assert_eq!(
+        stored_bytes(&Model::load(&target).unwrap()),
+        stored_bytes(&body)
+    );
 
     // A link to a device: if it were replaced, the device itself would stay.
     let device = folder.join("device.ccd");
@@ -332,7 +341,7 @@ fn remarks_are_stored() {
     let plain = model(TETRAHEDRON, Detail::Triangles);
     let text = [TETRAHEDRON, "l 1 2\nvc 1\n"].concat();
     let remarked = model(&text, Detail::Triangles);
-    let again = Model::read(&stored(&remarked)[..]).unwrap();
+    let again = Model::read(&stored_bytes(&remarked)[..]).unwrap();
     assert_eq!(again.report, remarked.report);
     assert_eq!(again.report.repairs.remarks.iter().count(), 2);
     assert!(
@@ -343,5 +352,5 @@ fn remarks_are_stored() {
         "{}",
         again.report
     );
-    assert!(stored(&remarked).len() > stored(&plain).len());
+    assert!(stored_bytes(&remarked).len() > stored_bytes(&plain).len());
 }

@@ -10,7 +10,7 @@ fn triangles() -> impl Strategy<Value = Vec<[u32; 3]>> {
 }
 
 /// Returns all half-edges, sorted by their ends: lower end, upper end, half-edge, whether it starts at the upper end.
-fn sorted(triangles: &[[u32; 3]]) -> Vec<([u32; 2], HalfEdge, bool)> {
+fn sorted_half_edges(triangles: &[[u32; 3]]) -> Vec<([u32; 2], HalfEdge, bool)> {
     let mut all = Vec::new();
     for (t, [a, b, c]) in (0..).zip(triangles.iter().copied()) {
         for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
@@ -29,7 +29,7 @@ proptest! {
             prop_assert!(!uses.is_empty());
             listed.extend(uses.iter().map(|u| (ends, u.half_edge, u.is_backward)));
         }
-        let mut expected = sorted(&triangles);
+        let mut expected = sorted_half_edges(&triangles);
         expected.retain(|&([v, w], ..)| v != w);
         prop_assert_eq!(listed, expected);
     }
@@ -41,7 +41,7 @@ proptest! {
             let mirror: Vec<_> = triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
             triangles.extend(mirror);
         }
-        let all = sorted(&triangles);
+        let all = sorted_half_edges(&triangles);
         let pairs = all.chunk_by(|one, next| one.0 == next.0);
         let mut expected = Some(vec![0; all.len()]);
         for pair in pairs {

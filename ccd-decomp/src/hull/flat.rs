@@ -1,14 +1,14 @@
 //! Exact hulls of coplanar points.
 
 use super::hull_from_facets;
-use crate::exact::predicates::{Projection, is_degenerate, lexicographic};
+use crate::exact::predicates::{Projection, compare_lexicographically, is_degenerate};
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, PolygonList};
 use std::cmp::Ordering;
 
 /// Computes the hull of distinct coplanar points: a front and a back polygon, or the ends of points on a line.
 pub(super) fn hull(points: &[DVec3]) -> Hull {
-    let by_order = |p: &DVec3, q: &DVec3| lexicographic(*p, *q);
+    let by_order = |p: &DVec3, q: &DVec3| compare_lexicographically(*p, *q);
     let ends = [
         points.iter().copied().min_by(by_order),
         points.iter().copied().max_by(by_order),
@@ -47,7 +47,7 @@ fn plane_through([a, b]: [DVec3; 2], points: &[DVec3]) -> Option<Projection> {
 fn facets(points: &[DVec3], projection: Projection) -> PolygonList {
     let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)));
+    order.sort_unstable_by(|&v, &w| compare_lexicographically(at(v), at(w)));
     let chain = |order: &mut dyn Iterator<Item = u32>| {
         let mut chain: Vec<u32> = Vec::new();
         for next in order {

@@ -35,17 +35,21 @@ pub(crate) fn for_each_polygon(
             continue;
         };
         match group {
-            [_] => visit(&rotated_to_smallest(first), group),
+            [_] => visit(&with_smallest_corner_first(first), group),
             _ => {
                 let rim = chain_edges(boundary_edges(triangles, &twins, group, &group_of));
-                visit(&strict_corners(points, &rim, plane), group);
+                visit(&strictly_convex_corners(points, &rim, plane), group);
             }
         }
     }
 }
 
 /// Returns the corners of a convex polygon without those at which it is straight.
-pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -> Vec<u32> {
+pub(crate) fn strictly_convex_corners(
+    points: &[DVec3],
+    rim: &[u32],
+    plane: Projection,
+) -> Vec<u32> {
     let at = |k: usize| points[rim[k % rim.len()] as usize];
     (0..rim.len())
         .filter(|&k| plane.turn(at(k + rim.len() - 1), at(k), at(k + 1)) != Ordering::Equal)
@@ -54,7 +58,7 @@ pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -
 }
 
 /// Rotates a triangle so that its smallest corner comes first.
-pub(crate) fn rotated_to_smallest([a, b, c]: [u32; 3]) -> [u32; 3] {
+pub(crate) fn with_smallest_corner_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a <= b && a <= c {
         [a, b, c]
     } else if b <= c {

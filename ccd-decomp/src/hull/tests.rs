@@ -140,7 +140,7 @@ fn ball(count: usize, seed: u64) -> Vec<DVec3> {
         .collect()
 }
 
-fn grid(n: i32) -> Vec<DVec3> {
+fn grid_points(n: i32) -> Vec<DVec3> {
     let points = (0..n * n * n).map(|k| [k % n, k / n % n, k / n / n].map(f64::from));
     points.map(DVec3::from_array).collect()
 }
@@ -163,17 +163,17 @@ fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
 #[rstest]
 #[case::cloud(cloud(14, 1))]
 #[case::ball(ball(16, 2))]
-#[case::grid(grid(3))]
+#[case::grid(grid_points(3))]
 #[case::cylinder(cylinder(8, 3))]
-#[case::shaken_grid(perturbed_points(grid(3), 1e-16, 3))]
-#[case::flat_grid(grid(4)[..16].to_vec())]
+#[case::shaken_grid(perturbed_points(grid_points(3), 1e-16, 3))]
+#[case::flat_grid(grid_points(4)[..16].to_vec())]
 #[case::flat_cloud(cloud(12, 8).into_iter().map(|p| p.with_z(p.x)).collect())]
 #[case::needle(cloud(14, 4).into_iter().map(|p| p * DVec3::new(1e6, 1.0, 1e-6)).collect())]
 #[case::far_off(cloud(14, 5).into_iter().map(|p| p + DVec3::splat(1e7)).collect())]
 #[case::duplicates([cloud(9, 6), cloud(9, 6), cloud(9, 6)].concat())]
 #[case::nearly_flat(cloud(14, 7).into_iter().map(|p| p * DVec3::new(1.0, 1.0, 1e-15)).collect())]
 #[case::tetrahedron(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])]
-fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
+fn hull_agrees_with_brute_force(#[case] points: Vec<DVec3>) {
     let hull = checked_hull(&points);
     let twin = BruteForceHull::from_points(&points);
     assert_eq!(hull.points, twin.corners);
@@ -186,12 +186,12 @@ fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
 #[rstest]
 #[case::cloud(cloud(20_000, 1), 100)]
 #[case::some(cloud(60, 1), 20)]
-#[case::hardly_planar(perturbed_points(grid(4), 1e-15, 0), 8)]
+#[case::hardly_planar(perturbed_points(grid_points(4), 1e-15, 0), 8)]
 #[case::ball(ball(3000, 2), 3000)]
-#[case::grid(grid(12), 8)]
+#[case::grid(grid_points(12), 8)]
 #[case::cylinder(cylinder(100, 30), 200)]
-#[case::turned_grid(turned(grid(8)), 8)]
-fn large(#[case] points: Vec<DVec3>, #[case] least: usize) {
+#[case::turned_grid(turned(grid_points(8)), 8)]
+fn hull_has_at_least_the_expected_corners(#[case] points: Vec<DVec3>, #[case] least: usize) {
     let hull = checked_hull(&points);
     assert!(hull.points.len() >= least, "{}", hull.points.len());
 }
@@ -203,7 +203,7 @@ fn turned(points: Vec<DVec3>) -> Vec<DVec3> {
 
 #[test]
 fn a_box_of_many_points_has_six_facets() {
-    let hull = checked_hull(&grid(5));
+    let hull = checked_hull(&grid_points(5));
     assert_eq!(hull.facets.len(), 6);
     assert!(hull.facets.iter().all(|f| f.len() == 4));
     assert_eq!(hull.points.len(), 8);
@@ -211,7 +211,7 @@ fn a_box_of_many_points_has_six_facets() {
 
 #[test]
 fn a_plane_is_seen_from_both_sides() {
-    let points: Vec<DVec3> = grid(5)[..25].to_vec();
+    let points: Vec<DVec3> = grid_points(5)[..25].to_vec();
     let hull = checked_hull(&points);
     assert_eq!(hull.points, [0, 4, 20, 24].map(|v| points[v]));
     assert_eq!(hull.facets.len(), 2);

@@ -49,7 +49,7 @@ impl AffineMap {
 
     /// Returns whether the map reverses orientation, because its determinant is negative. The sign is exact for
     /// elements from 1e-45 to 1e45.
-    pub fn mirrors(&self) -> bool {
+    pub fn reverses_orientation(&self) -> bool {
         let matrix = self.0.matrix3;
         determinant_sign([matrix.x_axis, matrix.y_axis, matrix.z_axis]).is_lt()
     }

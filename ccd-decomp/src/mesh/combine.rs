@@ -11,7 +11,7 @@ use ccd_core::glam::DVec3;
 impl TriangleMesh {
     /// Returns the image of the mesh under an affine map. Vertices and faces keep their numbers.
     ///
-    /// A map that [mirrors](AffineMap::mirrors) reverses all triangles, so that a solid stays one. A map that flattens
+    /// A map that [reverses_orientation](AffineMap::reverses_orientation) reverses all triangles, so that a solid stays one. A map that flattens
     /// may make faces without area, or several faces of the same points: they are repaired as in a file.
     ///
     /// # Guarantee
@@ -38,7 +38,7 @@ impl TriangleMesh {
         let vertices: Vec<DVec3> = images.collect();
         check_vertices(&vertices, &[])?;
         let mut faces = self.faces.clone();
-        if map.mirrors() {
+        if map.reverses_orientation() {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
         Ok(TriangleMesh::from_triangles(
@@ -56,7 +56,7 @@ impl TriangleMesh {
     /// there; those that overlap are the sum of their solids.
     ///
     /// # Errors
-    /// [`MeshFault::NoVertices`] for no mesh, [`MeshFault::TooMany`].
+    /// [`MeshFault::NoVertices`] for no mesh, [`MeshFault::TooManyElements`].
     ///
     /// ```
     /// use ccd_core::Pose;

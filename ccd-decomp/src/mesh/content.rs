@@ -26,7 +26,7 @@ pub(crate) struct Content {
 #[derive(Debug)]
 pub(crate) enum Layout {
     /// A list of vertices and faces. Each part of the file is a group of these faces.
-    List(Polygons, Groups),
+    FaceList(Polygons, Groups),
     /// An assembly of shapes and their placements. One shape may be placed several times.
     Assembly(Assembly),
 }
@@ -35,7 +35,7 @@ impl Content {
     /// Returns the number of parts of the file.
     pub(crate) fn parts(&self) -> usize {
         match &self.layout {
-            Layout::List(_, groups) => groups.names.len(),
+            Layout::FaceList(_, groups) => groups.names.len(),
             Layout::Assembly(assembly) => assembly.parts.len(),
         }
     }
@@ -43,7 +43,7 @@ impl Content {
     /// Returns the name of a part, if it has one.
     pub(crate) fn name(&self, part: usize) -> Option<&str> {
         match &self.layout {
-            Layout::List(_, groups) => groups.names[part].as_deref(),
+            Layout::FaceList(_, groups) => groups.names[part].as_deref(),
             Layout::Assembly(assembly) => assembly.parts[part].name.as_deref(),
         }
     }
@@ -51,9 +51,9 @@ impl Content {
     /// Returns the faces of some parts, each separately. Vertices and faces of a part are numbered from 0.
     pub(crate) fn separate_parts(&self, parts: Range<usize>) -> Result<Vec<Polygons>, MeshFault> {
         let mut separate: Vec<Polygons> = match &self.layout {
-            Layout::List(polygons, groups) => groups.copies(polygons, parts)?,
+            Layout::FaceList(polygons, groups) => groups.copy_groups(polygons, parts)?,
             Layout::Assembly(assembly) => {
-                assembly.check_size(parts.clone())?;
+                assembly.check_expansion_cost(parts.clone())?;
                 let alone = parts.map(|part| assembly.expand(part..part + 1));
                 alone.collect::<Result<_, _>>()?
             }
@@ -68,7 +68,7 @@ impl Content {
     /// by part.
     pub(crate) fn all_faces(self) -> Result<Polygons, MeshFault> {
         let faces = match self.layout {
-            Layout::List(polygons, _) => polygons,
+            Layout::FaceList(polygons, _) => polygons,
             Layout::Assembly(assembly) => assembly.expand(0..assembly.parts.len())?,
         };
         let remarks = self.remarks;
@@ -82,7 +82,7 @@ impl From<Polygons> for Content {
         Content {
             unit: None,
             remarks: std::mem::take(&mut polygons.remarks),
-            layout: Layout::List(polygons, Groups::single()),
+            layout: Layout::FaceList(polygons, Groups::single_group()),
         }
     }
 }

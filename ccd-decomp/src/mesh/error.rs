@@ -37,7 +37,7 @@ pub enum MeshFault {
     Step,
     /// The format is known, but this build has no reader for it.
     #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
-    NotBuilt {
+    MissingFeature {
         /// The name of the format.
         format: &'static str,
         /// The Cargo feature of this crate that enables the reader.
@@ -109,10 +109,10 @@ pub enum MeshFault {
         problem: String,
     },
     /// The file ends before the elements that it announces.
-    #[error("ends before {missing} is complete; copy or export it again")]
+    #[error("ends before {missing_element} is complete; copy or export it again")]
     Truncated {
         /// The first element that is missing from the file.
-        missing: String,
+        missing_element: String,
     },
     /// A coordinate is NaN or infinite.
     #[error("{}vertex {vertex} is NaN or infinite; give it finite coordinates", line_prefix(*.line))]
@@ -156,7 +156,7 @@ pub enum MeshFault {
     },
     /// There are more elements than an index can address.
     #[error("{count} {what} are too many; split the mesh into several")]
-    TooMany {
+    TooManyElements {
         /// The kind of elements, in the plural, such as `vertices`.
         what: &'static str,
         /// The number of elements in the file.
@@ -167,7 +167,7 @@ pub enum MeshFault {
 impl MeshFault {
     /// Creates a syntax error, with long quotes of the file truncated.
     pub(crate) fn syntax(line: Option<usize>, mut problem: String) -> Self {
-        if let Some((end, _)) = problem.char_indices().nth(QUOTED) {
+        if let Some((end, _)) = problem.char_indices().nth(MAX_SYNTAX_MESSAGE_CHARS) {
             problem.truncate(end);
             problem.push('…');
         }
@@ -175,7 +175,7 @@ impl MeshFault {
     }
 
     /// Creates the error of content that does not follow a format without lines.
-    pub(crate) fn malformed(problem: impl Into<String>) -> Self {
+    pub(crate) fn malformed_content(problem: impl Into<String>) -> Self {
         MeshFault::syntax(None, problem.into())
     }
 
@@ -189,9 +189,11 @@ impl MeshFault {
     }
 
     /// Creates the error of a file that ends before an element is complete.
-    pub(crate) fn truncated(missing: impl Into<String>) -> Self {
+    pub(crate) fn truncated_file(missing: impl Into<String>) -> Self {
         let missing = missing.into();
-        MeshFault::Truncated { missing }
+        MeshFault::Truncated {
+            missing_element: missing,
+        }
     }
 
     /// Wraps the fault with the name of the element that has it.
@@ -204,7 +206,7 @@ impl MeshFault {
 }
 
 /// The maximum length of a syntax message, in characters.
-const QUOTED: usize = 200;
+const MAX_SYNTAX_MESSAGE_CHARS: usize = 200;
 
 fn extension_advice(extension: &str) -> String {
     let problem = match extension {

@@ -96,7 +96,9 @@ impl Format {
     pub(crate) fn references(self, bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
-            (Format::Gltf, bytes) if !is_lfs_pointer(bytes) && !is_step(&text::utf8(bytes)) => {
+            (Format::Gltf, bytes)
+                if !is_lfs_pointer(bytes) && !is_step_file(&text::to_utf8(bytes)) =>
+            {
                 gltf::references(bytes)
             }
             _ => Ok(Vec::new()),
@@ -106,11 +108,11 @@ impl Format {
     /// Parses a file's content as this format; pointers of Git LFS and STEP files are recognised and refused first.
     /// `linked` holds the contents of the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
-        let unmarked = text::utf8(bytes);
+        let unmarked = text::to_utf8(bytes);
         if is_lfs_pointer(&unmarked) {
             return Err(MeshFault::LfsPointer);
         }
-        if is_step(&unmarked) {
+        if is_step_file(&unmarked) {
             return Err(MeshFault::Step);
         }
         match self {
@@ -131,13 +133,13 @@ impl Format {
 }
 
 /// Returns whether the bytes begin like a STEP file.
-fn is_step(bytes: &[u8]) -> bool {
+fn is_step_file(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }
 
 #[cfg(not(all(feature = "gltf", feature = "3mf")))]
 fn not_built(_: &LinkedFiles, format: &'static str, feature: &'static str) -> MeshFault {
-    MeshFault::NotBuilt { format, feature }
+    MeshFault::MissingFeature { format, feature }
 }
 
 #[cfg(test)]

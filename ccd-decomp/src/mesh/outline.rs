@@ -1,6 +1,6 @@
 //! Triangulates polygons that a triangle fan about the first corner does not cover exactly.
 
-use crate::exact::predicates::is_without_area;
+use crate::exact::predicates::has_zero_area;
 use ccd_core::glam::DVec3;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
@@ -78,7 +78,7 @@ fn triangulate_constrained(
 fn insertion_order(places: &[Point2<f64>]) -> Option<Vec<usize>> {
     let point = |k: usize| DVec3::new(places[k].x, places[k].y, 0.0);
     let second = (1..places.len()).find(|&k| places[k] != places[0])?;
-    let spans = |&k: &usize| !is_without_area([point(0), point(second), point(k)]);
+    let spans = |&k: &usize| !has_zero_area([point(0), point(second), point(k)]);
     let third = (1..places.len()).find(spans)?;
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by_cached_key(|&k| {

@@ -4,7 +4,7 @@ use super::error::MeshFault;
 use super::outline;
 use super::remark::Remarks;
 use super::repair::Repairs;
-use crate::exact::predicates::{first_out_of_range, is_without_area};
+use crate::exact::predicates::{first_out_of_range, has_zero_area};
 use ccd_core::glam::DVec3;
 
 /// The vertices and faces of a file, not yet checked.
@@ -125,7 +125,7 @@ pub(super) fn check_count(what: &'static str, count: usize) -> Result<(), MeshFa
     if count < u32::MAX as usize / 12 {
         Ok(())
     } else {
-        Err(MeshFault::TooMany { what, count })
+        Err(MeshFault::TooManyElements { what, count })
     }
 }
 
@@ -145,7 +145,7 @@ pub(super) fn check_vertices(vertices: &[DVec3], lines: &[usize]) -> Result<(), 
 /// Returns whether a triangle of a fan is degenerate.
 fn has_degenerate_triangle(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     fan.iter()
-        .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
+        .any(|face| has_zero_area(face.map(|v| vertices[v as usize])))
 }
 
 /// Returns whether a triangle of a fan is oriented against the sum of the fan's normals.

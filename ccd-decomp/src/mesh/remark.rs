@@ -39,7 +39,7 @@ impl Remarks {
         match self.0.iter_mut().find(|remark| remark.what == what) {
             _ if count == 0 => {}
             Some(remark) => remark.count += count,
-            None if full && what != OTHERS => self.add(OTHERS, count, line),
+            None if full && what != OTHER_KINDS => self.add(OTHER_KINDS, count, line),
             None => self.0.push(Remark {
                 what: what.to_owned(),
                 count,
@@ -63,7 +63,7 @@ impl Remarks {
 }
 
 /// The kind that stands for all kinds beyond [`KINDS`].
-const OTHERS: &str = "others passed over";
+const OTHER_KINDS: &str = "others passed over";
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,7 +1,7 @@
 //! Faults of a mesh: which faces are dropped, and the report.
 
 use super::remark::Remarks;
-use crate::hull::polygons::rotated_to_smallest;
+use crate::hull::polygons::with_smallest_corner_first;
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -25,7 +25,7 @@ pub struct Repairs {
     /// corners are the same point. Collapsed faces elsewhere are kept.
     pub collapsed_faces: Tally<u32>,
     /// Faces without area. They are kept, because a segment or point can be touched, too.
-    pub zero_area: Tally<u32>,
+    pub zero_area_faces: Tally<u32>,
     /// Vertices that no face uses.
     pub unreferenced_vertices: Tally<u32>,
     /// Remarks about content of the file that was skipped or changed.
@@ -44,7 +44,7 @@ impl Repairs {
     /// them again.
     pub(crate) fn before_triangulation(&self) -> Self {
         Repairs {
-            zero_area: Tally::default(),
+            zero_area_faces: Tally::default(),
             ..self.clone()
         }
     }
@@ -57,7 +57,7 @@ impl Repairs {
             overhanging_fans: overhanging,
             duplicate_faces: duplicates,
             collapsed_faces: collapsed,
-            zero_area,
+            zero_area_faces: zero_area,
             unreferenced_vertices: unreferenced,
             remarks,
         } = self;
@@ -65,12 +65,12 @@ impl Repairs {
         overhanging.append(&other.overhanging_fans, face);
         duplicates.append(&other.duplicate_faces, face);
         collapsed.append(&other.collapsed_faces, face);
-        zero_area.append(&other.zero_area, face);
+        zero_area.append(&other.zero_area_faces, face);
         unreferenced.append(&other.unreferenced_vertices, vertex);
         remarks.append(&other.remarks);
     }
 
-    pub(crate) fn note_unreferenced(&mut self, vertices: usize, corners: &[i64]) {
+    pub(crate) fn note_unreferenced_vertices(&mut self, vertices: usize, corners: &[i64]) {
         let mut referenced = vec![false; vertices];
         for &corner in corners {
             referenced[corner as usize] = true;
@@ -91,7 +91,7 @@ impl fmt::Display for Repairs {
             ),
             (&self.duplicate_faces, "duplicate faces dropped"),
             (&self.collapsed_faces, "collapsed faces dropped"),
-            (&self.zero_area, "faces without area kept"),
+            (&self.zero_area_faces, "faces without area kept"),
             (&self.unreferenced_vertices, "vertices unused"),
         ];
         let notes = notes.iter().filter(|(tally, _)| !tally.is_empty());
@@ -111,7 +111,12 @@ pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     let mut keyed: Vec<([u32; 3], u32)> = faces
         .iter()
         .zip(0..)
-        .map(|(face, k)| (rotated_to_smallest(face.map(|v| positions[v as usize])), k))
+        .map(|(face, k)| {
+            (
+                with_smallest_corner_first(face.map(|v| positions[v as usize])),
+                k,
+            )
+        })
         .collect();
     keyed.sort_unstable();
     let mut duplicate = vec![false; faces.len()];

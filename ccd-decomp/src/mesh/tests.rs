@@ -47,7 +47,7 @@ fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
     let kept = mesh(&[[3, 3, 3], [0, 1, 5], [1, 3, 3], [3, 1, 1], [2, 2, 2]]);
     assert_eq!(kept.face_ids(), [1, 2, 4]);
     assert_eq!(kept.repairs().collapsed_faces.first(), [0, 3]);
-    assert_eq!(kept.repairs().zero_area.count(), 3);
+    assert_eq!(kept.repairs().zero_area_faces.count(), 3);
     assert_eq!(mesh(&[[0, 4, 0]]).faces(), [[0, 4, 0]]);
 }
 
@@ -55,7 +55,7 @@ fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
 fn a_face_without_area_is_kept_and_reported() {
     let mesh = mesh(&[[0, 5, 1], [0, 1, 2]]);
     assert_eq!(mesh.faces().len(), 2);
-    assert_eq!(mesh.repairs().zero_area.first(), [0]);
+    assert_eq!(mesh.repairs().zero_area_faces.first(), [0]);
     assert_eq!(mesh.repairs().unreferenced_vertices.first(), [3, 4]);
 }
 
@@ -74,7 +74,11 @@ fn the_finest_face_has_an_area() {
             [0, 6, 1],
         ];
         let mesh = TriangleMesh::new(vertices, &faces).unwrap();
-        assert_eq!(mesh.repairs().zero_area.first(), [1, 2, 5], "{unit:e}");
+        assert_eq!(
+            mesh.repairs().zero_area_faces.first(),
+            [1, 2, 5],
+            "{unit:e}"
+        );
     }
 }
 
@@ -97,7 +101,7 @@ fn a_polygon_with_straight_corners_is_filled() {
     let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
     assert_eq!(mesh.faces().len(), 5);
     assert_eq!(mesh.faces()[3..], [[3, 4, 0], [3, 0, 2]]);
-    assert!(mesh.repairs().zero_area.is_empty());
+    assert!(mesh.repairs().zero_area_faces.is_empty());
 }
 
 #[test]

@@ -48,17 +48,17 @@ impl Unit {
 
     /// Returns the symbol of the unit in ASCII: `um`, `mm`, `cm`, `m`, `in`, `ft`.
     pub fn symbol(self) -> &'static str {
-        self.facts().0
+        self.definition().0
     }
 
     /// Returns the name of the unit in a 3MF.
     #[cfg(feature = "3mf")]
     pub(crate) fn name_in_3mf(self) -> &'static str {
-        self.facts().1
+        self.definition().1
     }
 
     /// Returns the symbol of the unit, its name in a 3MF, and its length in micrometres, a whole number for all units.
-    fn facts(self) -> (&'static str, &'static str, u32) {
+    fn definition(self) -> (&'static str, &'static str, u32) {
         match self {
             Unit::Micrometre => ("um", "micron", 1),
             Unit::Millimetre => ("mm", "millimeter", 1_000),
@@ -103,7 +103,7 @@ impl Conversion {
     };
 
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
-        let [from, to] = [from, to].map(|unit| unit.facts().2);
+        let [from, to] = [from, to].map(|unit| unit.definition().2);
         let common = greatest_common_divisor(from, to);
         Conversion {
             numerator: f64::from(from / common),

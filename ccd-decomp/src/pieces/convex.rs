@@ -26,7 +26,7 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
         .max()
         .map_or(0, |last| last + 1);
     if parts > 1 {
-        return Err(DecomposeError::NotInOnePart { parts });
+        return Err(DecomposeError::NotConnected { parts });
     }
     let mut facets = Vec::new();
     for_each_polygon(

@@ -81,12 +81,12 @@ pub(crate) fn decompose_polygons(
         polygons: flats,
         order,
         work,
-        in_patch: vec![false; flats.len()],
-        last_tried_by: vec![u32::MAX; flats.len()],
+        is_in_patch: vec![false; flats.len()],
+        last_tested_patch: vec![u32::MAX; flats.len()],
     };
     let mut patches = Vec::new();
     for seed in seed_order(manifold, flats, order) {
-        if !grower.in_patch[seed as usize] {
+        if !grower.is_in_patch[seed as usize] {
             let region = grower.grow_patch(seed, patches.len() as u32);
             work.check()?;
             patches.push(Patch::new(manifold, flats, &region));
@@ -101,15 +101,15 @@ struct PatchGrower<'a, 'm> {
     order: PatchOrder,
     work: &'a Work,
     /// By polygon, whether it belongs to a patch.
-    in_patch: Vec<bool>,
+    is_in_patch: Vec<bool>,
     /// By polygon, the last patch that it was tested with. A refusal is final, because the hull only grows.
-    last_tried_by: Vec<u32>,
+    last_tested_patch: Vec<u32>,
 }
 
 impl PatchGrower<'_, '_> {
     fn grow_patch(&mut self, seed: u32, patch: u32) -> GrowingPatch {
         let mut region = GrowingPatch::new(self.polygons, seed);
-        self.in_patch[seed as usize] = true;
+        self.is_in_patch[seed as usize] = true;
         let mut frontier = VecDeque::new();
         self.push_neighbours(&mut frontier, seed);
         // A flat patch takes no coplanar polygon, because the union need not be convex. These are tried again once the
@@ -117,10 +117,10 @@ impl PatchGrower<'_, '_> {
         let mut in_plane = Vec::new();
         // Polygons are pushed when another one joins, and each joins once.
         while let Some(next) = self.order.pop(&mut frontier) {
-            let tried = &mut self.last_tried_by[next as usize];
-            if self.in_patch[next as usize]
+            let tried = &mut self.last_tested_patch[next as usize];
+            if self.is_in_patch[next as usize]
                 || *tried == patch
-                || region.flats.len() >= MAX_PATCH_POLYGONS
+                || region.polygons.len() >= MAX_PATCH_POLYGONS
             {
                 continue;
             }
@@ -128,12 +128,12 @@ impl PatchGrower<'_, '_> {
             self.work.spend(region.hull.facets().len());
             match region.join(self.manifold, self.polygons, next, self.work) {
                 JoinResult::Refused => {}
-                JoinResult::InPlane => in_plane.push(next),
+                JoinResult::Coplanar => in_plane.push(next),
                 JoinResult::Joined => {
-                    self.in_patch[next as usize] = true;
+                    self.is_in_patch[next as usize] = true;
                     self.push_neighbours(&mut frontier, next);
                     for waiting in in_plane.drain(..) {
-                        self.last_tried_by[waiting as usize] = u32::MAX;
+                        self.last_tested_patch[waiting as usize] = u32::MAX;
                         frontier.push_back(waiting);
                     }
                 }
@@ -146,7 +146,7 @@ impl PatchGrower<'_, '_> {
     fn push_neighbours(&self, frontier: &mut VecDeque<u32>, flat: u32) {
         for &edge in &self.polygons.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {
-                frontier.push_back(self.polygons.of_face(self.manifold.twin(edge) / 3));
+                frontier.push_back(self.polygons.polygon_of_face(self.manifold.twin(edge) / 3));
             }
         }
     }

@@ -23,7 +23,7 @@ use crate::solid::topology::Topology;
 use crate::tolerance;
 use ccd_core::{Facet, FacetOrigin, Hull, Polytope};
 use target::Target;
-use voxels::Voxels;
+use voxels::VoxelGrid;
 
 /// Hulls that together cover a solid, or a surface if the mesh is open.
 ///
@@ -50,7 +50,7 @@ pub enum VhacdError {
     NoHulls,
     /// A coordinate is too near to 0 for exact predicates.
     #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
-    TooFine {
+    CoordinateTooSmall {
         /// The number of the vertex in the mesh.
         vertex: u32,
     },
@@ -62,12 +62,12 @@ pub enum VhacdError {
     Hull(HullError),
     /// The certified bound on the excess of the hulls is too large to be useful.
     #[error(
-        "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
+        "the hulls may stick out by {excess_bound:.3e}, more than {limit:.3e}, a quarter of the \
          diagonal; mend the mesh, or use triangles"
     )]
     TooCoarse {
         /// The certified bound, in the mesh's unit of length.
-        sticks_out: f64,
+        excess_bound: f64,
         /// The largest accepted bound, in the mesh's unit of length.
         limit: f64,
     },
@@ -91,13 +91,13 @@ pub(crate) fn approximate(
         return Err(VhacdError::NoHulls);
     }
     if let Some(vertex) = crate::exact::predicates::too_fine(mesh.vertices()) {
-        return Err(VhacdError::TooFine {
+        return Err(VhacdError::CoordinateTooSmall {
             vertex: vertex as u32,
         });
     }
     let target = Target::new(mesh, topology);
     let is_convex = is_convex(mesh, topology);
-    let voxels = Voxels::new(&target, hulls).filter(|_| hulls > 1 && !is_convex);
+    let voxels = VoxelGrid::new(&target, hulls).filter(|_| hulls > 1 && !is_convex);
     let parts = match voxels {
         Some(voxels) => {
             let labels = labels::label_voxels(&target, &voxels, hulls);
@@ -118,7 +118,10 @@ pub(crate) fn approximate(
     let limit = tolerance::MAX_RELATIVE_EXCESS * target.half_diagonal() + 2.0 * uncovered;
     // Written so that NaN fails.
     if !(sticks_out <= limit) {
-        return Err(VhacdError::TooCoarse { sticks_out, limit });
+        return Err(VhacdError::TooCoarse {
+            excess_bound: sticks_out,
+            limit,
+        });
     }
     Ok(Approximation {
         polytopes: parts.into_iter().map(|p| polytope(p, uncovered)).collect(),

@@ -23,16 +23,16 @@ pub(super) fn choose(
 ) -> (Parts, PieceReason) {
     let manifold = match Manifold::without_intersection_check(mesh, topology) {
         Ok(manifold) => manifold,
-        Err(error) => return only_triangles(error),
+        Err(error) => return triangle_parts(error),
     };
     let convex = convex_polytope(&manifold);
-    let mut merger = RegionMerger::merge_all(&manifold);
-    let estimate = merger.largest_planar_region().estimate();
+    let mut merger = RegionMerger::merge_all_regions(&manifold);
+    let estimate = merger.largest_planar_region().estimate_query_times();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, PieceReason::TrianglesFaster(estimate));
     }
     if let Err(error) = check_solid(&manifold, work) {
-        return only_triangles(error);
+        return triangle_parts(error);
     }
     if let Ok(polytope) = convex {
         return (Parts::Hull(Box::new(polytope)), PieceReason::Convex);
@@ -43,13 +43,13 @@ pub(super) fn choose(
             Parts::Patches(decomposition),
             PieceReason::PatchesFaster(estimate),
         ),
-        Err(error) => only_triangles(error),
+        Err(error) => triangle_parts(error),
     }
 }
 
-fn only_triangles(error: DecomposeError) -> (Parts, PieceReason) {
+fn triangle_parts(error: DecomposeError) -> (Parts, PieceReason) {
     let why = match error {
-        DecomposeError::TooLong => PieceReason::WorkBudgetExceeded,
+        DecomposeError::WorkBudgetExceeded => PieceReason::WorkBudgetExceeded,
         error => PieceReason::OnlyTrianglesExact(error),
     };
     (Parts::Triangles, why)
@@ -57,7 +57,7 @@ fn only_triangles(error: DecomposeError) -> (Parts, PieceReason) {
 
 impl PlanarRegion {
     /// Estimates the time of a query whose largest planar part rests on another body in some queries.
-    fn estimate(self) -> QueryTimes {
+    fn estimate_query_times(self) -> QueryTimes {
         let cost = |of: PieceCost, count: usize| {
             of.typical_time + RESTING_QUERY_SHARE * of.resting_time * count as f64
         };

@@ -93,7 +93,7 @@ impl Model {
     ///
     /// # Errors
     /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
-    pub fn into_prepared(self) -> Result<PreparedBody, PrepareError> {
+    pub fn into_prepared_body(self) -> Result<PreparedBody, PrepareError> {
         Ok(PreparedBody {
             body: self.body()?,
             report: self.report,
@@ -104,7 +104,7 @@ impl Model {
 
 impl PreparedBody {
     /// Wraps a body that was not made from a mesh.
-    pub(crate) fn primitive(body: Body) -> Self {
+    pub(crate) fn from_primitive(body: Body) -> Self {
         PreparedBody {
             report: Report::new(PiecesKind::Primitive, PieceReason::Requested, body.volume()),
             body,
@@ -114,12 +114,12 @@ impl PreparedBody {
 
     /// Creates the body of a cylinder or a cone. `excess` is the upper bound on how far its polytope extends beyond
     /// the shape.
-    pub(crate) fn from_round(
+    pub(crate) fn from_solid_of_revolution(
         round: &SolidOfRevolution,
         excess: Option<f64>,
     ) -> Result<Self, InputError> {
         let enclosure = round.enclose(excess.unwrap_or(round.usual_excess()))?;
-        let mut prepared = PreparedBody::primitive(enclosure.body()?);
+        let mut prepared = PreparedBody::from_primitive(enclosure.body()?);
         prepared.report.sticks_out = enclosure.excess();
         Ok(prepared)
     }

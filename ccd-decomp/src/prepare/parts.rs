@@ -22,7 +22,7 @@ pub(super) enum Parts {
 pub(super) struct Choice {
     pub(super) volume: Volume,
     pub(super) parts: Parts,
-    pub(super) why: PieceReason,
+    pub(super) reason: PieceReason,
     pub(super) topology: Topology,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
     pub(super) turned: Option<TriangleMesh>,
@@ -40,7 +40,7 @@ impl Choice {
         triangles: Option<PieceTree>,
     ) -> Result<Model, PrepareError> {
         let volume = self.volume;
-        let mut report = Report::new(PiecesKind::Triangles, self.why, volume);
+        let mut report = Report::new(PiecesKind::Triangles, self.reason, volume);
         let triangles = || match (triangles, &self.turned) {
             (Some(triangles), None) => Ok(triangles),
             (_, turned) => triangle_tree(turned.as_ref().unwrap_or(mesh)),

@@ -177,7 +177,7 @@ impl fmt::Display for PieceReason {
                 write!(f, "only triangles are exact: {error}")
             }
             PieceReason::WorkBudgetExceeded => {
-                let why = DecomposeError::TooLong;
+                let why = DecomposeError::WorkBudgetExceeded;
                 write!(
                     f,
                     "other pieces take longer to make than is spent unasked: {why}"

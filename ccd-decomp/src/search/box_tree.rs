@@ -5,7 +5,7 @@ use super::oriented_box::OrientedBox;
 use super::planes::SeparationTests;
 use super::region::Region;
 use crate::bounds::Bounds;
-use crate::tolerance::BOXES_BEFORE_ORIENTED;
+use crate::tolerance::BOXES_BEFORE_ORIENTED_TESTS;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -74,17 +74,17 @@ impl BoxTree {
                 return true;
             }
             met.set(met.get() + 1);
-            met.get() > BOXES_BEFORE_ORIENTED
+            met.get() > BOXES_BEFORE_ORIENTED_TESTS
                 && apart
                     .get_or_init(|| SeparationTests::for_shape(&region.shape))
                     .separates(oriented)
         };
-        self.all_except_far(is_far, work, |element| holds(element.face))
+        self.all_near_elements(is_far, work, |element| holds(element.face))
     }
 
     /// Calls `holds` for all elements, except those in boxes for which `is_far` is true. Stops when `holds`
     /// returns false or the work is spent.
-    pub(super) fn all_except_far(
+    pub(super) fn all_near_elements(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,
@@ -130,14 +130,14 @@ impl BoxTree {
 }
 
 /// The number of elements above which subtrees are built in parallel.
-const PARALLEL_ELEMENTS: usize = 4096;
+const MIN_PARALLEL_ELEMENTS: usize = 4096;
 
 /// Appends the subtree over `elements` to `nodes`, and reorders `elements` so that those of each node are consecutive;
 /// `first` is the index of `elements[0]` in the list of the whole tree.
 ///
 /// Each level halves the count: the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
-    let oriented = OrientedBox::around(elements);
+    let oriented = OrientedBox::around_elements(elements);
     let at = nodes.len();
     let split = elements.len() / 2;
     let is_leaf = elements.len() <= LEAF;
@@ -158,7 +158,7 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
             let order = height(a).total_cmp(&height(b));
             order.then(a.face.cmp(&b.face))
         });
-        let is_shared = elements.len() > PARALLEL_ELEMENTS;
+        let is_shared = elements.len() > MIN_PARALLEL_ELEMENTS;
         let (left, right) = elements.split_at_mut(split);
         let all_of = |elements: &mut [Element], first: usize| {
             let mut nodes = Vec::new();

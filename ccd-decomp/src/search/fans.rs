@@ -111,6 +111,6 @@ impl Fan {
             planes.iter().any(|plane| plane.has_in_front(oriented))
         };
         self.rim
-            .all_except_far(is_far, work, |element| holds(element.face))
+            .all_near_elements(is_far, work, |element| holds(element.face))
     }
 }

@@ -44,7 +44,7 @@ impl Plane {
 }
 
 /// The maximum number of facets of a hull whose planes are tested with boxes.
-const TESTED_FACETS: usize = 16;
+const MAX_TESTED_FACETS: usize = 16;
 
 /// Returns planes that have the shape on or behind them and the hub on or in front of them, exactly. A triangle of
 /// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
@@ -102,7 +102,7 @@ impl<'a> SeparationTests<'a> {
             Shape::Segment(ends) => SeparationTests::Points(ends),
             Shape::Triangle(corners) => SeparationTests::Points(corners),
             Shape::Inside(Hull { facets, .. }) => {
-                let tested = facets.iter().take(TESTED_FACETS);
+                let tested = facets.iter().take(MAX_TESTED_FACETS);
                 SeparationTests::Planes(
                     tested
                         .map(|&facet| Plane::through_triangle(facet))

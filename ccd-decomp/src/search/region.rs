@@ -19,7 +19,7 @@ pub(super) enum Shape {
 }
 
 /// The maximum number of facets that separation tests use.
-const MAX_FACETS: usize = 64;
+const MAX_SEPARATION_FACETS: usize = 64;
 
 #[derive(Clone, Debug)]
 pub(super) struct Hull {
@@ -48,9 +48,9 @@ impl Region {
         // A triangle near a hull but outside is most likely in front of a large facet.
         let area = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).length_squared();
         let larger = |f: &[DVec3; 3], g: &[DVec3; 3]| area(g).total_cmp(&area(f));
-        if facets.len() > MAX_FACETS {
-            facets.select_nth_unstable_by(MAX_FACETS, larger);
-            facets.truncate(MAX_FACETS);
+        if facets.len() > MAX_SEPARATION_FACETS {
+            facets.select_nth_unstable_by(MAX_SEPARATION_FACETS, larger);
+            facets.truncate(MAX_SEPARATION_FACETS);
         }
         facets.sort_by(larger);
         let shape = Shape::Inside(Hull { corners, facets });

@@ -4,7 +4,7 @@ use crate::exact::predicates::{is_degenerate, side};
 use crate::exact::rays::crossing;
 use crate::exact::triangles::triangles_meet;
 use crate::hull::exact_hull::ExactHull;
-use crate::test_meshes::star;
+use crate::test_meshes::star_bipyramid;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::Triangle;
@@ -27,7 +27,7 @@ fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
 #[test]
 fn slivers_are_near_few_others() {
     for corners in [64, 512, 4096] {
-        let mesh = star(corners, 0.5);
+        let mesh = star_bipyramid(corners, 0.5);
         let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
         let triangle = |face: usize| mesh.faces()[face].map(|v| mesh.vertices()[v as usize]);
         let most = (0..mesh.faces().len()).step_by(37).map(|face| {
@@ -43,7 +43,7 @@ fn slivers_are_near_few_others() {
 /// Tests that an omitted triangle shares no point with the query, exactly and over all pairs.
 #[test]
 fn nothing_that_meets_is_left_out() {
-    let mesh = star(64, 0.5);
+    let mesh = star_bipyramid(64, 0.5);
     // Rotated and moved, so that slivers of the two intersect.
     let turn = ccd_core::glam::DQuat::from_rotation_x(0.7);
     let moved = |p: DVec3| turn * p + DVec3::new(0.3, 0.2, 0.1);
@@ -66,7 +66,7 @@ fn nothing_that_meets_is_left_out() {
 /// Tests that a hub that only touches a triangle, inside it or on its edge, is found with its whole fan.
 #[test]
 fn a_hub_that_touches_is_not_left_out() {
-    let mesh = star(64, 0.5);
+    let mesh = star_bipyramid(64, 0.5);
     let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
     let [a, b] = [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 1.0)];
     let amid = [a, DVec3::new(1.0, -1.0, 1.0), DVec3::new(0.0, 2.0, 1.0)];
@@ -183,7 +183,7 @@ fn the_nearest_triangle_is_found() {
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::enclosing([p, q]);
             let mut within = Vec::new();
-            let all = search.all_meeting_box(&bounds, &Work::unbounded(), |face| {
+            let all = search.all_triangles_meeting_box(&bounds, &Work::unbounded(), |face| {
                 within.push(face);
                 true
             });

@@ -58,13 +58,13 @@ pub enum DecomposeError {
     },
     /// The solid has several parts, and is therefore not convex.
     #[error("{parts} parts, each of which may be convex; use patches or triangles")]
-    NotInOnePart {
+    NotConnected {
         /// The number of parts of the solid.
         parts: u32,
     },
     /// The work budget was spent before the checks were complete.
     #[error("use patches or a hull to have them however long it takes, or triangles")]
-    TooLong,
+    WorkBudgetExceeded,
     /// A coordinate is too near to 0 for exact predicates.
     #[error(
         "vertex {vertex} has a coordinate nearer to 0 than {LEAST_NONZERO_COORDINATE:e}; make it 0"
@@ -77,7 +77,7 @@ pub enum DecomposeError {
 
 impl From<WorkBudgetExhausted> for DecomposeError {
     fn from(WorkBudgetExhausted: WorkBudgetExhausted) -> Self {
-        DecomposeError::TooLong
+        DecomposeError::WorkBudgetExceeded
     }
 }
 

@@ -4,7 +4,7 @@ use super::manifold::{Dihedral, Manifold};
 use crate::disjoint_sets::{DisjointSets, members};
 use crate::exact::predicates::Projection;
 use crate::half_edges::HalfEdge;
-use crate::hull::polygons::strict_corners;
+use crate::hull::polygons::strictly_convex_corners;
 use crate::tolerance::{DIRECTION_BINS, LENGTH_BINS};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};
@@ -15,7 +15,7 @@ use std::cmp::{Ordering, Reverse};
 pub(crate) struct ConvexPolygons {
     flats: Vec<Flat>,
     /// By face, the number of its polygon.
-    flat_of: Vec<u32>,
+    polygon_of_face: Vec<u32>,
 }
 
 /// A convex polygon of a mesh's surface: exactly coplanar faces without holes.
@@ -32,7 +32,7 @@ pub(crate) struct Flat {
 impl ConvexPolygons {
     /// Merges adjacent coplanar faces, as [`RegionMerger`] does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        RegionMerger::merge_all(manifold).into_polygons()
+        RegionMerger::merge_all_regions(manifold).into_polygons()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -45,8 +45,8 @@ impl ConvexPolygons {
 
     /// Returns the number of the polygon that contains a face.
     #[inline]
-    pub(crate) fn of_face(&self, face: u32) -> u32 {
-        self.flat_of[face as usize]
+    pub(crate) fn polygon_of_face(&self, face: u32) -> u32 {
+        self.polygon_of_face[face as usize]
     }
 }
 
@@ -76,7 +76,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
     ///
     /// The mesh may intersect itself: merged polygons are on opposite sides of the removed line, so that every group
     /// covers a convex polygon once.
-    pub(crate) fn merge_all(manifold: &'a Manifold<'m>) -> Self {
+    pub(crate) fn merge_all_regions(manifold: &'a Manifold<'m>) -> Self {
         let mut merger = RegionMerger::new(manifold);
         let mut edges = merger.flat_edges();
         for &edge in &edges {
@@ -85,7 +85,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         // Each round leaves fewer edges.
         loop {
             let before = edges.len();
-            edges.retain(|&edge| !merger.merge_over(edge));
+            edges.retain(|&edge| !merger.merge_across_edge(edge));
             if edges.len() == before {
                 break;
             }
@@ -138,23 +138,24 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         edges
     }
 
-    fn region(&mut self, half_edge: HalfEdge) -> u32 {
+    fn region_of_half_edge(&mut self, half_edge: HalfEdge) -> u32 {
         self.regions.root(half_edge / 3)
     }
 
     /// Merges the regions on both sides of an edge if the union is convex. Returns whether they are now one region.
-    fn merge_over(&mut self, edge: HalfEdge) -> bool {
-        let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region(h));
+    fn merge_across_edge(&mut self, edge: HalfEdge) -> bool {
+        let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region_of_half_edge(h));
         if one == other {
             return true;
         }
         // The common run of edges, seen from the first region. It is never a whole rim: it lies on one line.
         let Some(first) =
-            self.last_beside_region(edge, |merger, h| merger.previous[h as usize], other)
+            self.last_half_edge_beside_region(edge, |merger, h| merger.previous[h as usize], other)
         else {
             return false;
         };
-        let Some(last) = self.last_beside_region(edge, |merger, h| merger.next[h as usize], other)
+        let Some(last) =
+            self.last_half_edge_beside_region(edge, |merger, h| merger.next[h as usize], other)
         else {
             return false;
         };
@@ -179,7 +180,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
 
     /// Follows the boundary of a region to the last half-edge that borders another given region. Returns `None` if
     /// the whole boundary borders it.
-    fn last_beside_region(
+    fn last_half_edge_beside_region(
         &mut self,
         edge: HalfEdge,
         step: impl Fn(&Self, HalfEdge) -> HalfEdge,
@@ -191,7 +192,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             if next == edge {
                 return None;
             }
-            if self.region(self.manifold.twin(next)) != beyond {
+            if self.region_of_half_edge(self.manifold.twin(next)) != beyond {
                 return Some(last);
             }
             last = next;
@@ -232,9 +233,14 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             let plane = Projection::new(self.manifold.triangle(flat.faces[0]));
             let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
             let points = self.manifold.mesh().vertices();
-            flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));
+            flat.corners = plane.map_or(starts.clone(), |p| {
+                strictly_convex_corners(points, &starts, p)
+            });
         }
-        ConvexPolygons { flats, flat_of }
+        ConvexPolygons {
+            flats,
+            polygon_of_face: flat_of,
+        }
     }
 }
 

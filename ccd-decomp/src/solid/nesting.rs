@@ -32,7 +32,7 @@ pub(crate) struct Nesting {
     /// The wrongly oriented shells, if other shells are right: one face of each, by the file's number.
     pub(crate) wrong_shells: Tally<u32>,
     /// The shells that may bound a solid or a cavity: one face of each, by the file's number.
-    pub(crate) unclear: Tally<u32>,
+    pub(crate) unclear_shells: Tally<u32>,
 }
 
 impl Nesting {
@@ -65,7 +65,7 @@ struct Shells<'m> {
 struct Surroundings {
     shells: Vec<u32>,
     /// Whether a surrounding shell intersects this one.
-    crossed: bool,
+    is_crossed: bool,
 }
 
 impl<'m> Shells<'m> {
@@ -101,7 +101,10 @@ impl<'m> Shells<'m> {
         let mut sides = vec![1; around.len()];
         let mut unclear = Tally::default();
         for shell in order {
-            let Surroundings { shells, crossed } = &around[shell];
+            let Surroundings {
+                shells,
+                is_crossed: crossed,
+            } = &around[shell];
             let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
             let outermost = shells.iter().map(|&k| k as usize);
             let outermost = outermost.min_by_key(|&k| around[k].shells.len());
@@ -112,19 +115,19 @@ impl<'m> Shells<'m> {
                 _ => 1,
             };
             if is_unknown[shell] || *crossed && windings > 0 && as_around != Some(1) {
-                unclear.add(self.name_in_reports(shell));
+                unclear.add(self.representative_face(shell));
             }
         }
         let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
         let mut nesting = Nesting {
-            unclear,
+            unclear_shells: unclear,
             ..Nesting::default()
         };
         let has_volume = |&shell: &usize| orientations[shell] != 0;
         // A mesh that is entirely inside out is consistent.
         if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
             for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
-                nesting.wrong_shells.add(self.name_in_reports(shell));
+                nesting.wrong_shells.add(self.representative_face(shell));
                 nesting.turned.extend(&self.faces_of_shell[shell]);
             }
         }
@@ -132,7 +135,7 @@ impl<'m> Shells<'m> {
     }
 
     /// Returns the first face of a shell, by the file's number. Reports name the shell by it.
-    fn name_in_reports(&self, shell: usize) -> u32 {
+    fn representative_face(&self, shell: usize) -> u32 {
         self.mesh.face_ids()[self.faces_of_shell[shell][0] as usize]
     }
 
@@ -156,7 +159,10 @@ impl<'m> Shells<'m> {
         let crossing = self.shells_crossing(shell);
         shells.retain(|other| !crossing.contains(other));
         let crossed = !crossing.is_empty();
-        Some(Surroundings { shells, crossed })
+        Some(Surroundings {
+            shells,
+            is_crossed: crossed,
+        })
     }
 
     /// Returns the other shells whose winding number about a shell is not 0; `None` if every ray meets an edge or
@@ -166,7 +172,7 @@ impl<'m> Shells<'m> {
         let corner = self.mesh.triangle(faces[0])[0];
         let is_own = |other: u32| other == shell;
         let at = Bounds::enclosing([corner]);
-        if self.bounds.all_meeting(&at, is_own) {
+        if self.bounds.all_boxes_meeting(&at, is_own) {
             return Some(Vec::new());
         }
         let size = self.boxes.farthest_distance(corner);

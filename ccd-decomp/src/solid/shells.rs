@@ -32,7 +32,7 @@ pub(crate) fn check_orientation(
         };
         let around = match faces_of[..] {
             [_] => Some(0),
-            _ => winding_of_others(manifold, &shell_of, faces, work),
+            _ => winding_number_of_other_shells(manifold, &shell_of, faces, work),
         };
         work.check()?;
         let Some(around) = around else {
@@ -60,7 +60,7 @@ pub(crate) fn shell_numbers(manifold: &Manifold<'_>) -> Vec<u32> {
 }
 
 /// Returns the winding number of all other shells about one shell; `None` if every ray meets an edge or vertex.
-fn winding_of_others(
+fn winding_number_of_other_shells(
     manifold: &Manifold<'_>,
     shell_of: &[u32],
     faces: &[u32],

@@ -82,7 +82,7 @@ impl Topology {
         }
         let nesting = Nesting::new(mesh, &edges);
         topology.wrong_shells = nesting.wrong_shells;
-        topology.unclear = nesting.unclear;
+        topology.unclear = nesting.unclear_shells;
         let turned =
             (!nesting.turned.is_empty()).then(|| mesh.with_reversed_faces(&nesting.turned));
         if let Some(turned) = &turned {

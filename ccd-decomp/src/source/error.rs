@@ -55,7 +55,7 @@ pub enum SourceError {
         "{shape:?} takes {expected} length{}, not {given}; {USAGE_EXAMPLES}",
         if *.expected == 1 { "" } else { "s" }
     )]
-    WrongCount {
+    WrongLengthCount {
         /// The name of the shape.
         shape: &'static str,
         /// The number of lengths that the shape takes.
@@ -65,7 +65,7 @@ pub enum SourceError {
     },
     /// A word after the file name is not an adjustment.
     #[error(transparent)]
-    Adjustment(#[from] UnknownAdjustment),
+    UnknownAdjustment(#[from] UnknownAdjustment),
     /// A stored body has adjustments, which apply only to meshes.
     #[error("{}: {PREPARED_ADVICE}", .file.display())]
     Prepared {

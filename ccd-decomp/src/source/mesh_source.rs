@@ -1,6 +1,6 @@
 //! Parses the descriptions of meshes, and of their parts, on a command line.
 
-use crate::file::is_stored;
+use crate::file::has_stored_body_extension;
 use crate::mesh::TriangleMesh;
 use crate::mesh::adjustments::{Adjustments, UnknownAdjustment};
 use crate::mesh::error::MeshError;
@@ -80,7 +80,7 @@ fn split_at_mark(text: &str) -> Option<(&str, char, &str)> {
         let file = Path::new(&text[..at]);
         // A folder may end like a mesh.
         let is_folder = mark == "@" && text[at..].contains(['/', '\\']);
-        let is_stored = mark == "@" && is_stored(file);
+        let is_stored = mark == "@" && has_stored_body_extension(file);
         !is_folder && (is_stored || Format::from_path(file).is_ok())
     })?;
     Some((&text[..at], mark.chars().next()?, &text[at + 1..]))
@@ -100,7 +100,7 @@ impl FromStr for MeshSource {
         } else {
             let mut name = rest;
             while let Some((before, word)) = name.rsplit_once('@')
-                && Adjustments::NONE.with_word(word).is_ok()
+                && Adjustments::NONE.with_adjustment_word(word).is_ok()
             {
                 name = before;
                 words.push(word);
@@ -112,7 +112,7 @@ impl FromStr for MeshSource {
         Ok(MeshSource {
             file: file.into(),
             part,
-            adjustments: words.try_fold(Adjustments::NONE, Adjustments::with_word)?,
+            adjustments: words.try_fold(Adjustments::NONE, Adjustments::with_adjustment_word)?,
         })
     }
 }

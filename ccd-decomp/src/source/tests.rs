@@ -22,14 +22,14 @@ use std::path::PathBuf;
 #[case("old.stl@mm/part.stl", mesh("old.stl@mm/part.stl", None, ""))]
 #[case("a.glb#lid@2@mirror=x", mesh("a.glb", Some("lid@2"), "@mirror=x"))]
 #[case("a.glb#lid@mn", mesh("a.glb", Some("lid@mn"), ""))]
-fn descriptions_of_bodies(#[case] text: &str, #[case] expected: BodySource) {
+fn descriptions_are_parsed(#[case] text: &str, #[case] expected: BodySource) {
     assert_eq!(text.parse(), Ok(expected));
 }
 
 /// Returns the description of a mesh with the given adjustments, as text.
 fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
     let mut words = adjusted.split('@').skip(1);
-    let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_word);
+    let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_adjustment_word);
     let adjustments = adjustments.unwrap();
     assert_eq!(adjustments.to_string(), adjusted);
     BodySource::Mesh(MeshSource {
@@ -57,28 +57,28 @@ fn unknown_words_after_a_file_are_reported(#[case] text: &str, #[case] message: 
 }
 
 /// A mesh file of a tetrahedron, by its path.
-struct Tetrahedron(PathBuf);
+struct TetrahedronFile(PathBuf);
 
-impl Tetrahedron {
+impl TetrahedronFile {
     fn named(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("{}-{name}", std::process::id()));
         let faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
         let text = format!("v 1 0 0\nv 3 0 0\nv 1 2 0\nv 1 0 2\n{faces}");
         std::fs::write(&path, text).unwrap();
-        Tetrahedron(path)
+        TetrahedronFile(path)
     }
 
     /// Loads the file with words appended to its name.
-    fn with(&self, words: &str) -> PreparedBody {
-        self.try_with(words).unwrap()
+    fn load_with_words(&self, words: &str) -> PreparedBody {
+        self.try_load_with_words(words).unwrap()
     }
 
-    fn try_with(&self, words: &str) -> Result<PreparedBody, BodyError> {
+    fn try_load_with_words(&self, words: &str) -> Result<PreparedBody, BodyError> {
         parse_body(&format!("{}{words}", self.0.display()), Detail::Auto)
     }
 }
 
-impl Drop for Tetrahedron {
+impl Drop for TetrahedronFile {
     fn drop(&mut self) {
         let _ = std::fs::remove_file(&self.0);
     }
@@ -96,19 +96,22 @@ fn x_range(prepared: &PreparedBody) -> [f64; 2] {
 
 #[test]
 fn files_are_taken_as_their_adjustments_say() {
-    let file = Tetrahedron::named("adjusted.obj");
-    assert_eq!(x_range(&file.with("")), [1.0, 3.0]);
-    assert_eq!(x_range(&file.with("@scale=0.1")), [0.1, 3.0 * 0.1]);
-    let mirrored = file.with("@mirror=x");
+    let file = TetrahedronFile::named("adjusted.obj");
+    assert_eq!(x_range(&file.load_with_words("")), [1.0, 3.0]);
+    assert_eq!(
+        x_range(&file.load_with_words("@scale=0.1")),
+        [0.1, 3.0 * 0.1]
+    );
+    let mirrored = file.load_with_words("@mirror=x");
     assert_eq!(x_range(&mirrored), [-3.0, -1.0]);
     // The triangles are reversed with the mirroring, so that no repair is needed.
     assert_eq!(
         mirrored.report.to_string(),
-        file.with("").report.to_string()
+        file.load_with_words("").report.to_string()
     );
     assert_eq!(mirrored.report.volume, Volume::Solid);
     assert!(mirrored.report.topology.unwrap().signed_volume > 0.0);
-    let stated = file.with("@in");
+    let stated = file.load_with_words("@in");
     assert_eq!(
         (x_range(&stated), stated.unit),
         ([1.0, 3.0], Some(Unit::Inch))
@@ -125,9 +128,9 @@ fn files_are_taken_as_their_adjustments_say() {
 
 #[test]
 fn a_closed_mesh_may_be_hollow() {
-    let file = Tetrahedron::named("hollow.obj");
-    assert_eq!(file.with("").report.volume, Volume::Solid);
-    let hollow = file.with("@surface");
+    let file = TetrahedronFile::named("hollow.obj");
+    assert_eq!(file.load_with_words("").report.volume, Volume::Solid);
+    let hollow = file.load_with_words("@surface");
     assert_eq!(
         (hollow.report.volume, hollow.report.pieces),
         (Volume::Surface, 4)
@@ -140,13 +143,13 @@ fn a_closed_mesh_may_be_hollow() {
 #[test]
 fn a_file_with_the_whole_text_as_its_name_is_that_file() {
     let (plain, at) = (
-        Tetrahedron::named("it.obj"),
-        Tetrahedron::named("it.obj@scale=2.obj"),
+        TetrahedronFile::named("it.obj"),
+        TetrahedronFile::named("it.obj@scale=2.obj"),
     );
-    assert_eq!(x_range(&at.with("")), [1.0, 3.0]);
+    assert_eq!(x_range(&at.load_with_words("")), [1.0, 3.0]);
     drop(at);
     assert!(matches!(
-        plain.try_with("@scale=2.obj"),
+        plain.try_load_with_words("@scale=2.obj"),
         Err(BodyError::Source(_))
     ));
 }
@@ -168,13 +171,13 @@ fn a_stored_body_stays_as_it_is() {
 #[rstest]
 #[case("", SourceError::Empty)]
 #[case("ball:1", SourceError::UnknownShape { shape: "ball".into() })]
-#[case("sphere", SourceError::WrongCount { shape: "sphere", expected: 1, given: 0 })]
-#[case("box:1,2", SourceError::WrongCount { shape: "box", expected: 3, given: 2 })]
+#[case("sphere", SourceError::WrongLengthCount { shape: "sphere", expected: 1, given: 0 })]
+#[case("box:1,2", SourceError::WrongLengthCount { shape: "box", expected: 3, given: 2 })]
 #[case("sphere:", SourceError::BadLength { shape: "sphere", length: String::new() })]
 #[case("sphere:-1", SourceError::BadLength { shape: "sphere", length: "-1".into() })]
 #[case("capsule:1,nan", SourceError::BadLength { shape: "capsule", length: "nan".into() })]
-#[case("cylinder:1", SourceError::WrongCount { shape: "cylinder", expected: 2, given: 1 })]
-#[case("cone:1,2,3,4", SourceError::WrongCount { shape: "cone", expected: 2, given: 4 })]
+#[case("cylinder:1", SourceError::WrongLengthCount { shape: "cylinder", expected: 2, given: 1 })]
+#[case("cone:1,2,3,4", SourceError::WrongLengthCount { shape: "cone", expected: 2, given: 4 })]
 #[case("box:1,2,inf", SourceError::BadLength { shape: "box", length: "inf".into() })]
 fn bad_descriptions_show_examples(#[case] text: &str, #[case] expected: SourceError) {
     let error = text.parse::<BodySource>().unwrap_err();

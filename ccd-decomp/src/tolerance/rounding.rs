@@ -14,7 +14,7 @@ pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 /// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
 /// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
 /// each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed because they are between two
-/// others on an edge are off by twice [`on_edge_distance`] more for each of three edges: 804u. 1024u are used. Voxels are
+/// others on an edge are off by twice [`edge_tolerance`] more for each of three edges: 804u. 1024u are used. Voxels are
 /// widened by this margin, so that neighbours overlap.
 pub(crate) fn clip_rounding(farthest: f64) -> f64 {
     1024.0 * UNIT_ROUNDOFF_F64 * farthest
@@ -22,7 +22,7 @@ pub(crate) fn clip_rounding(farthest: f64) -> f64 {
 
 /// Returns the distance from an edge within which a clipped point counts as on the edge. Coordinates are up to
 /// `farthest`, in the same unit. One cut moves a point by less than a third of it.
-pub(crate) fn on_edge_distance(farthest: f64) -> f64 {
+pub(crate) fn edge_tolerance(farthest: f64) -> f64 {
     64.0 * UNIT_ROUNDOFF_F64 * farthest
 }
 
@@ -52,12 +52,12 @@ pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
 
 /// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. The rounding error is 1e-15
 /// for well-shaped triangles, and less than a tenth of this for triangles that are just no [needles](NEEDLE).
-pub(crate) const NEAREST_SLACK: f64 = 1e-9;
+pub(crate) const NEAREST_DISTANCE_ERROR: f64 = 1e-9;
 
 /// The ratio of a triangle's height to its longest side below which it counts as a needle. The library's error grows
-/// with the inverse: it exceeds [`NEAREST_SLACK`] at 1e-6.
-pub(crate) const NEEDLE: f64 = 1e-4;
+/// with the inverse: it exceeds [`NEAREST_DISTANCE_ERROR`] at 1e-6.
+pub(crate) const MAX_NEEDLE_RATIO: f64 = 1e-4;
 
 /// The minimum sine of the angle at a corner of a facet whose plane is used. The error of the facet's normal is then
-/// at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`NEAREST_SLACK`].
+/// at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`NEAREST_DISTANCE_ERROR`].
 pub(crate) const MIN_CORNER_SINE: f64 = 1e-6;

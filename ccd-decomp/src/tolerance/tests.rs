@@ -9,7 +9,7 @@ const U: f64 = 1.0 / 9_007_199_254_740_992.0;
 #[test]
 fn allowances_are_those_of_their_derivations() {
     assert_eq!(clip_rounding(3.0), 3_072.0 * U);
-    assert_eq!(on_edge_distance(3.0), 192.0 * U);
+    assert_eq!(edge_tolerance(3.0), 192.0 * U);
     let direction = DVec3::new(1.0, -2.0, 3.0);
     assert_eq!(box_rounding(direction, 5.0), 3_840.0 * U);
     assert_eq!(box_rounding(direction, 0.0), f64::MIN_POSITIVE);

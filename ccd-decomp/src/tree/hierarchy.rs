@@ -10,9 +10,9 @@ use crate::tree::slot::Slot;
 use agglomerate::agglomerate;
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
-use nodes::{Below, Cuboid, Node};
+use nodes::{AabbF32, Below, Node};
 use rayon::prelude::*;
-use reinsert::reinsert;
+use reinsert::reinsert_subtrees;
 
 /// Builds a binary hierarchy over pieces. It splits them at medians into clusters, agglomerates each cluster, and
 /// reinserts the worst subtrees.
@@ -36,7 +36,7 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
         });
     }
     let mut nodes = split(&unit_leaves(pieces));
-    reinsert(&mut nodes);
+    reinsert_subtrees(&mut nodes);
     let node = |node: &Node| match node.below {
         Below::Piece(piece) => HierarchyNode::Leaf(piece),
         Below::Children(first) => HierarchyNode::Inner(first, first + 1),
@@ -76,7 +76,7 @@ fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
     let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
     let leaf = |(piece, bounds): (usize, &Bounds)| {
-        let cuboid = Cuboid {
+        let cuboid = AabbF32 {
             lo: unit(bounds.lo),
             hi: unit(bounds.hi),
         };
@@ -114,7 +114,7 @@ struct Centre {
 fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) {
     if centres.len() > MAX_CLUSTER_PIECES {
         let is_shared = centres.len() > PIECES_PER_TASK;
-        return halve(centres, slot, |[left, right]| {
+        return split_at_median(centres, slot, |[left, right]| {
             let build_left = || build_subtree(leaves, left.0, left.1);
             let build_right = || build_subtree(leaves, right.0, right.1);
             if is_shared {
@@ -141,13 +141,13 @@ fn build_subtree(leaves: &[Node], centres: &mut [Centre], slot: Slot<'_, Node>) 
 }
 
 /// Splits pieces at the median of their centres along the longest axis, builds both halves by `make`, and joins them.
-fn halve(
+fn split_at_median(
     centres: &mut [Centre],
     mut slot: Slot<'_, Node>,
     make: impl FnOnce([(&mut [Centre], Slot<'_, Node>); 2]),
 ) {
-    let spread = centres.iter().fold(Cuboid::EMPTY, |all, centre| {
-        all.union(Cuboid::of_point(centre.at.into()))
+    let spread = centres.iter().fold(AabbF32::EMPTY, |all, centre| {
+        all.union(AabbF32::of_point(centre.at.into()))
     });
     let axis = spread.extent().max_position();
     let half = centres.len() / 2;

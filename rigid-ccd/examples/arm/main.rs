@@ -20,7 +20,7 @@ use std::path::Path;
 use std::time::Instant;
 
 const CLEARANCE: f64 = 0.005;
-const OBSTACLES: usize = 20;
+const OBSTACLE_COUNT: usize = 20;
 
 /// Returns whether an edge of the planner's graph is free, on which each joint goes from one position to another.
 fn edge_is_free(
@@ -36,7 +36,7 @@ fn edge_is_free(
                 return Ok(false);
             }
         }
-        for &other in &scene.others[k] {
+        for &other in &scene.tested_links[k] {
             let (seen, other) = (moves.seen_from(other)?, &scene.links[other]);
             if !solver.is_free((link, &seen), (other, &Motion::STILL), 1.0)? {
                 return Ok(false);
@@ -70,7 +70,7 @@ fn steps_are_free(
                     return Ok(false);
                 }
             }
-            for &other in &scene.others[k] {
+            for &other in &scene.tested_links[k] {
                 if !solver.is_free(a, (&scene.links[other], poses[other]), 0.0)? {
                     return Ok(false);
                 }
@@ -117,7 +117,7 @@ fn main() -> anyhow::Result<()> {
     let most_steps = args.get(1).map_or(2_000, |&steps| steps as u32);
     let mut random = Pcg64::seed_from_u64(1);
     let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/arm/arm.urdf");
-    let scene = Scene::load(&urdf, OBSTACLES, &mut random)?;
+    let scene = Scene::load(&urdf, OBSTACLE_COUNT, &mut random)?;
     let config = Settings {
         margin: CLEARANCE,
         tolerance: 1e-3,
@@ -136,7 +136,7 @@ fn main() -> anyhow::Result<()> {
     let accepted = free.iter().filter(|&&free| free).count();
     writeln!(
         out,
-        "{count} edges, clearance {CLEARANCE} m, {OBSTACLES} obstacles"
+        "{count} edges, clearance {CLEARANCE} m, {OBSTACLE_COUNT} obstacles"
     )?;
     writeln!(out, "check            free  edges/s  wrongly accepted")?;
     let rate = count as f64 / taken;

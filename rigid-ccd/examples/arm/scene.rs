@@ -15,7 +15,7 @@ pub(crate) struct Scene {
     pub(crate) links: Vec<Body>,
     /// For each link, the links before it to test it against: all but its neighbour and those within 0.01 of it in the
     /// home position.
-    pub(crate) others: Vec<Vec<usize>>,
+    pub(crate) tested_links: Vec<Vec<usize>>,
     pub(crate) obstacles: Vec<(Body, Motion)>,
 }
 
@@ -31,7 +31,7 @@ impl Scene {
             .map(|k| body(&robot, k, urdf))
             .collect::<anyhow::Result<_>>()?;
         let mut scene = Scene {
-            others: vec![Vec::new(); links.len()],
+            tested_links: vec![Vec::new(); links.len()],
             chain,
             links,
             obstacles: Vec::new(),
@@ -55,13 +55,13 @@ impl Scene {
         Ok(scene)
     }
 
-    pub(crate) fn home(&self) -> Vec<f64> {
+    pub(crate) fn home_position(&self) -> Vec<f64> {
         vec![0.0; self.chain.joints().len()]
     }
 
     /// Finds the pairs of links that are apart in the home position; neighbouring links always touch.
     fn find_separate_links(&mut self) -> Result<(), Error> {
-        let (home, mut solver) = (self.home(), Solver::new());
+        let (home, mut solver) = (self.home_position(), Solver::new());
         for high in 0..self.links.len() {
             for low in 0..high.saturating_sub(1) {
                 let pose = |link| self.chain.pose(link, &home);
@@ -70,7 +70,7 @@ impl Scene {
                     (&self.links[low], pose(low)?),
                 ];
                 if solver.distance(a, b)?.outcome.lower() > 0.01 {
-                    self.others[high].push(low);
+                    self.tested_links[high].push(low);
                 }
             }
         }

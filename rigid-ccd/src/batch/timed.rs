@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// What is asked about each row, and how often its answer is repeated for timing.
 #[derive(Clone, Debug)]
-pub(crate) struct Timing {
+pub(crate) struct TimedQuestion {
     /// The question that every row answers.
     pub(crate) question: Question,
     /// The schedule and the distance backend.
@@ -18,10 +18,10 @@ pub(crate) struct Timing {
     /// The tolerance, the margin and the limits.
     pub(crate) settings: Settings,
     /// The number of times that each query is answered; the time is the median.
-    pub(crate) repeat: NonZeroUsize,
+    pub(crate) repetitions: NonZeroUsize,
 }
 
-impl Timing {
+impl TimedQuestion {
     /// Returns the row of the table of results for the answer or error of a query.
     pub(crate) fn row(
         &self,
@@ -33,18 +33,18 @@ impl Timing {
     }
 }
 
-impl Default for Timing {
+impl Default for TimedQuestion {
     fn default() -> Self {
-        Timing {
+        TimedQuestion {
             question: Question::default(),
             method: SolverKind::default(),
             settings: Settings::DEFAULT,
-            repeat: NonZeroUsize::MIN,
+            repetitions: NonZeroUsize::MIN,
         }
     }
 }
 
-/// Answers a query `repeat` times and returns the median time.
+/// Answers a query `repetitions` times and returns the median time.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.
@@ -54,17 +54,17 @@ impl Default for Timing {
 pub(crate) fn time(
     bodies: Bodies<'_>,
     course: &Movements,
-    timing: &Timing,
+    timing: &TimedQuestion,
     solver: &mut dyn Solve,
 ) -> Result<TimedAnswer, RowProblem> {
-    let mut micros = Vec::with_capacity(timing.repeat.get());
+    let mut micros = Vec::with_capacity(timing.repetitions.get());
     loop {
         let start = Instant::now();
         let query = bodies.query(timing.question, course, &timing.settings)?;
         let answer = solver.answer(timing.question, &query);
         let answer = answer.ok_or(RowProblem::NeedsBestFirst)??;
         micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if micros.len() == timing.repeat.get() {
+        if micros.len() == timing.repetitions.get() {
             let micros = median(&mut micros);
             return Ok(TimedAnswer { answer, micros });
         }

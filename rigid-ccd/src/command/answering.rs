@@ -4,7 +4,7 @@ use super::bad_rows::BadRows;
 use super::files::{Rows, input_name};
 use super::progress::Progress;
 use crate::ParallelSolver;
-use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, Timing, parallel_solver, time};
+use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, TimedQuestion, parallel_solver, time};
 use crate::table::courses::{CourseRow, Movements};
 use crate::table::motions::{RowPosition, RowProblem, TableError};
 use crate::table::results::ResultRow;
@@ -14,7 +14,7 @@ use std::time::Instant;
 /// The state of a command that answers the rows of a table in batches.
 pub(super) struct BatchRun<'a> {
     pub(super) bodies: Bodies<'a>,
-    pub(super) timing: Timing,
+    pub(super) timed_question: TimedQuestion,
     pub(super) solver: ParallelSolver<Box<dyn Solve>>,
     batch: BatchSize,
     pub(super) bad_rows: BadRows,
@@ -41,7 +41,7 @@ impl<'a> BatchRun<'a> {
     /// Starts to answer the table in a file, with one solver for each of `threads`.
     pub(super) fn new(
         bodies: Bodies<'a>,
-        timing: Timing,
+        timing: TimedQuestion,
         threads: Option<u16>,
         motions: &Path,
         progress: Progress,
@@ -52,7 +52,7 @@ impl<'a> BatchRun<'a> {
         BatchRun {
             bodies,
             batch: BatchSize::new(solver.threads()),
-            timing,
+            timed_question: timing,
             solver,
             bad_rows: BadRows::new(input_name(motions)),
             progress,
@@ -66,7 +66,7 @@ impl<'a> BatchRun<'a> {
             return None;
         }
         self.progress.answering(batch.len(), rows.bytes());
-        let (bodies, timing, progress) = (self.bodies, &self.timing, &self.progress);
+        let (bodies, timing, progress) = (self.bodies, &self.timed_question, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(&batch, |solver, row| {
             let answer = match row {
@@ -91,7 +91,7 @@ impl<'a> BatchRun<'a> {
     ) -> AnsweredRow<'b> {
         let (position, course, row) = match asked {
             Ok((position, course)) => {
-                let row = self.timing.row(self.bodies, course, answer);
+                let row = self.timed_question.row(self.bodies, course, answer);
                 (*position, Some(course), row)
             }
             Err(error) => {

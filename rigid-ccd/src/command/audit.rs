@@ -1,16 +1,16 @@
 //! `ccd audit`: certifies motions that another checker has called free, and lists those that are not.
 
 use super::answering::{AnsweredRow, BatchRun};
-use super::counts::Counts;
-use super::files::{Rows, input_name, open_courses, refuse_overwriting};
-use super::numbers::{not_negative, seconds, tolerance};
+use super::counts::StatusCounts;
+use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
+use super::numbers::{not_negative, parse_seconds, tolerance};
 use super::output::{CannotWrite, Output};
 use super::pair::{BodiesArgs, Pair};
 use super::progress::Progress;
 use super::table::Table;
 use super::view::title;
 use super::{Exit, print_error};
-use crate::batch::{Question, SolverKind, Timing};
+use crate::batch::{Question, SolverKind, TimedQuestion};
 use crate::picture::{Asked, Claim, PageError, Pages, PagesError};
 use crate::table::results::{COLUMNS, Line, Status, names};
 use anyhow::{Context, Result};
@@ -51,7 +51,7 @@ pub(super) struct AuditArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     budget: u64,
     /// Leave a query unresolved after this time, in seconds [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
     deadline: Option<Duration>,
     /// Number of threads; it changes no answer [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -88,7 +88,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
-    let (mut rows, length) = open_courses(&args.motions, Question::FirstContact.grouping())?;
+    let (mut rows, length) = open_movement_rows(&args.motions, Question::FirstContact.grouping())?;
     let out = Output::claim_table(&args.out)?;
     let pair = args.bodies.load(SolverKind::default(), args.quiet)?;
     let mut columns = names(&COLUMNS);
@@ -99,7 +99,7 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
         batch_run: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         out: Table::start(out, &columns)?,
         pages: pages(args, &pair)?,
-        counts: Counts::default(),
+        counts: StatusCounts::default(),
     };
     audit.all(&mut rows)?;
     let exit = audit.finish()?;
@@ -109,8 +109,8 @@ pub(super) fn run(args: &AuditArgs) -> Result<Exit> {
     Ok(exit)
 }
 
-fn timing(args: &AuditArgs) -> Timing {
-    Timing {
+fn timing(args: &AuditArgs) -> TimedQuestion {
+    TimedQuestion {
         settings: Settings {
             tolerance: args.tolerance,
             margin: args.margin,
@@ -118,7 +118,7 @@ fn timing(args: &AuditArgs) -> Timing {
             deadline: args.deadline,
             ..Settings::DEFAULT
         },
-        ..Timing::default()
+        ..TimedQuestion::default()
     }
 }
 
@@ -150,7 +150,7 @@ struct Audit<'a> {
     batch_run: BatchRun<'a>,
     out: Table,
     pages: Option<PageFolder<'a>>,
-    counts: Counts,
+    counts: StatusCounts,
 }
 
 impl Audit<'_> {
@@ -198,7 +198,7 @@ impl Audit<'_> {
         self.batch_run.bad_rows.print_total();
         let (rows, free) = (self.counts.rows(), self.counts.of(Status::Free));
         if !self.args.quiet {
-            let others = self.counts.nonzero();
+            let others = self.counts.nonzero_counts();
             let others: String = others
                 .filter(|(status, _)| *status != Status::Free)
                 .map(|(status, count)| format!(", {count} {}", status.name()))
@@ -218,7 +218,7 @@ impl Audit<'_> {
         }
         Ok(match (self.counts.of(Status::Error), rows - free) {
             (0, 0) => Exit::AllAnswered,
-            (0, _) => Exit::SomeNotFree,
+            (0, _) => Exit::SomeRowsNotFree,
             _ => Exit::SomeRowsBad,
         })
     }

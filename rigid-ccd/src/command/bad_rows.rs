@@ -25,7 +25,7 @@ impl BadRows {
         self.count += 1;
         if self.count <= MAX_PRINTED_ROWS {
             let message = format!("{}, {position}: {problem}", self.input);
-            progress.aside(|| print_error(&message));
+            progress.suspend(|| print_error(&message));
         }
     }
 

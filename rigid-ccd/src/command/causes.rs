@@ -1,7 +1,7 @@
 //! The message of an error: each cause once, without error numbers.
 
 /// Returns the messages of an error and its causes, from the outermost to the innermost.
-pub(super) fn message(error: &anyhow::Error) -> String {
+pub(super) fn message_with_causes(error: &anyhow::Error) -> String {
     let mut message = String::new();
     for cause in error.chain() {
         let cause = without_error_numbers(&cause.to_string());
@@ -18,18 +18,18 @@ pub(super) fn message(error: &anyhow::Error) -> String {
 }
 
 /// The text before the error number of the operating system.
-const ERROR_NUMBER: &str = " (os error ";
+const ERROR_NUMBER_PREFIX: &str = " (os error ";
 
 /// Removes the error numbers of the operating system, whose messages the text already has.
 fn without_error_numbers(text: &str) -> String {
-    let mut parts = text.split(ERROR_NUMBER);
+    let mut parts = text.split(ERROR_NUMBER_PREFIX);
     let mut out = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         let digits = part.trim_start_matches(|c: char| c.is_ascii_digit());
         match digits.strip_prefix(')') {
             Some(rest) if digits.len() < part.len() => out += rest,
             _ => {
-                out += ERROR_NUMBER;
+                out += ERROR_NUMBER_PREFIX;
                 out += part;
             }
         }

@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 /// The number of rows of each status, in the order of [`Status::ALL`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Counts([usize; Status::ALL.len()]);
+pub(super) struct StatusCounts([usize; Status::ALL.len()]);
 
-impl Counts {
+impl StatusCounts {
     /// Adds one row with the given status.
     pub(super) fn add(&mut self, status: Status) {
         self.0[status as usize] += 1;
@@ -24,7 +24,7 @@ impl Counts {
     }
 
     /// Returns the statuses with at least one row, each with its number of rows.
-    pub(super) fn nonzero(&self) -> impl Iterator<Item = (Status, usize)> {
+    pub(super) fn nonzero_counts(&self) -> impl Iterator<Item = (Status, usize)> {
         let all = Status::ALL.into_iter().zip(self.0);
         all.filter(|&(_, count)| count > 0)
     }

@@ -101,7 +101,7 @@ enum FormatArg {
 
 /// The kind of file that `--out` writes: pieces or a prepared body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Form {
+enum OutputKind {
     Pieces,
     Body,
 }
@@ -137,8 +137,8 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
 
 /// Opens the output file before the decomposition, which may take long, so that a file that cannot be written is
 /// reported at once.
-fn claim(out: &Path, mesh: &Path) -> Result<(Form, Output)> {
-    let form = Form::from_path(out)?;
+fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
+    let form = OutputKind::from_path(out)?;
     refuse_overwriting(("the mesh", mesh), ("--out", out))?;
     Ok((form, Output::claim(out)?))
 }
@@ -177,12 +177,12 @@ impl DecomposeArgs {
     }
 }
 
-impl Form {
+impl OutputKind {
     fn from_path(path: &Path) -> Result<Self> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
-            Some("obj") => Ok(Form::Pieces),
-            Some(STORED_EXTENSION) => Ok(Form::Body),
+            Some("obj") => Ok(OutputKind::Pieces),
+            Some(STORED_EXTENSION) => Ok(OutputKind::Body),
             _ => bail!(
                 "--out {}: use the extension .obj for the pieces, or .{STORED_EXTENSION} for the \
                  prepared body",
@@ -193,8 +193,8 @@ impl Form {
 
     fn write(self, model: &Model, out: Output) -> Result<(), CannotWrite> {
         out.write(|writer| match self {
-            Form::Pieces => write_obj_pieces(&model.pieces, writer),
-            Form::Body => model.write(writer).map_err(|error| match error.fault {
+            OutputKind::Pieces => write_obj_pieces(&model.pieces, writer),
+            OutputKind::Body => model.write(writer).map_err(|error| match error.fault {
                 StoreFault::Unwritable(error) => error,
                 fault => io::Error::other(fault),
             }),

@@ -1,6 +1,6 @@
 //! Input tables from files or standard input, and the names of files in messages.
 
-use super::output::{JOURNAL_EXTENSION, is_standard, is_standard_output};
+use super::output::{JOURNAL_EXTENSION, is_standard_output, is_standard_stream};
 use crate::table::courses::Courses;
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::MotionRows;
@@ -51,7 +51,7 @@ pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Opti
 pub(super) type Rows = Courses<CsvRecords<Source>>;
 
 /// Opens a table of motions or paths, and returns its length in bytes if known.
-pub(super) fn open_courses(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
+pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
     let (input, length) = open_table(path)?;
     let rows = Courses::new(input, grouping).with_context(|| input_name(path))?;
     Ok((rows, length))
@@ -60,7 +60,7 @@ pub(super) fn open_courses(path: &Path, grouping: Grouping) -> Result<(Rows, Opt
 fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
     let name = || input_name(path);
     let advice = "give --motions a CSV file, or - for standard input";
-    if is_standard(path) {
+    if is_standard_stream(path) {
         return Ok((Box::new(io::stdin().lock()), None));
     }
     let open = || -> io::Result<_> {
@@ -80,7 +80,7 @@ fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
 
 /// Returns the name that messages give to an input: its path, or standard input.
 pub fn input_name(path: &Path) -> String {
-    if is_standard(path) {
+    if is_standard_stream(path) {
         "standard input".to_owned()
     } else {
         path.display().to_string()

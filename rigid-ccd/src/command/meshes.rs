@@ -13,7 +13,7 @@ pub(super) struct MeshArgs {
     #[arg(long, value_name = "UNIT", value_parser = named_value_parser(UNITS), hide_possible_values = false)]
     unit: Option<Unit>,
     /// Multiply the coordinates of all mesh files by this; of one of them: part.stl@scale=0.001
-    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FACTOR", value_parser = parse_scale_factor, allow_hyphen_values = true)]
     scale: Option<f64>,
     /// Mirror all mesh files across an axis; one of them: part.stl@mirror=x
     #[arg(long, value_name = "AXIS", value_parser = named_value_parser(AXES))]
@@ -25,7 +25,7 @@ pub(super) struct MeshArgs {
     pub(super) pieces: PiecesArgs,
 }
 
-fn factor(text: &str) -> Result<f64, String> {
+fn parse_scale_factor(text: &str) -> Result<f64, String> {
     let factor: f64 = text.parse().map_err(|_| "it is no number".to_owned())?;
     let allowed = Adjustments::NONE.scaled(factor);
     allowed.map(|_| factor).map_err(|error| error.to_string())

@@ -61,7 +61,7 @@ pub(super) const ORDERS: &Named<PatchOrder> = &[
 ];
 
 /// The treatments of bodies in contact at the start, for `--start`.
-pub(super) const STARTS: &Named<StartPolicy> = &[
+pub(super) const START_POLICIES: &Named<StartPolicy> = &[
     (
         "report",
         StartPolicy::Report,

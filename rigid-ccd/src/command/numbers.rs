@@ -25,7 +25,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 }
 
 /// Parses a duration in seconds.
-pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn parse_seconds(text: &str) -> Result<Duration, String> {
     number(text)
         .and_then(|value| Duration::try_from_secs_f64(value).ok())
         .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())

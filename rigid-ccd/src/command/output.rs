@@ -98,11 +98,11 @@ impl Output {
 
 /// Returns whether a path stands for standard output, even if that is redirected to a file, which is then not replaced.
 pub(super) fn is_standard_output(path: &Path) -> bool {
-    is_standard(path) || path == Path::new("/dev/stdout")
+    is_standard_stream(path) || path == Path::new("/dev/stdout")
 }
 
 /// Returns whether a path is `-`, which stands for standard input or output.
-pub(super) fn is_standard(path: &Path) -> bool {
+pub(super) fn is_standard_stream(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 

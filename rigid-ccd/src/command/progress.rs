@@ -1,7 +1,7 @@
 //! Shows the progress of long work on standard error.
 
 use super::program_name;
-use crate::text::Printable;
+use crate::text::PrintableText;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::sync::Arc;
@@ -60,7 +60,7 @@ impl Progress {
             progress.bar.set_length(length);
         }
         let (bar, steps) = (progress.bar.clone(), Arc::clone(&progress.steps));
-        bar.set_style(style(total, Arc::clone(&steps)));
+        bar.set_style(progress_style(total, Arc::clone(&steps)));
         let (working, done) = mpsc::channel();
         let show = move || {
             let still_working = |time| done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
@@ -146,11 +146,11 @@ impl Progress {
 
     /// Replaces the message beside the bar.
     pub fn set_message(&self, message: &str) {
-        self.bar.set_message(Printable(message).to_string());
+        self.bar.set_message(PrintableText(message).to_string());
     }
 
     /// Hides the bar while something else is written to standard error.
-    pub fn aside(&self, write: impl FnOnce()) {
+    pub fn suspend(&self, write: impl FnOnce()) {
         self.bar.suspend(write);
     }
 }
@@ -166,7 +166,7 @@ impl Drop for Progress {
     }
 }
 
-fn style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
+fn progress_style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
     let template = match total {
         Total::Steps(_) => "{bar:30} {pos}/{len} {wide_msg}",
         Total::Bytes(_) => "{bar:30} {percent} % {rows}",

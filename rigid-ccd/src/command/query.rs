@@ -12,11 +12,11 @@ mod summary;
 pub(super) use args::QueryArgs;
 
 use super::answering::BatchRun;
-use super::files::{Rows, input_name, open_courses, refuse_overwriting};
+use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows};
 use super::{Exit, print_error};
-use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, Timing};
+use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion};
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
 use crate::picture::{Asked, Claim};
@@ -26,19 +26,19 @@ use ccd_core::{Settings, StartPolicy};
 use clap::ArgMatches;
 use journal::{CONTENT_PREFIX, Checkpoint, RecordedOptions};
 use outputs::{ClaimedFiles, OpenedTables};
-use run::Run;
+use run::QueryRun;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
-    check_paths(args)?;
+    check_file_paths(args)?;
     check_bound(args)?;
     check_question(args)?;
     refuse_unproven_check(args)?;
-    let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
-    check_rows(args, &rows)?;
+    let (mut rows, length) = open_movement_rows(&args.motions, args.ask.grouping())?;
+    check_options_for_paths(args, &rows)?;
     let places = ClaimedFiles::claim(args)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
@@ -58,7 +58,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
         print_error("--bound published: times are not certified, contacts may be late or missed");
     }
     let progress = Progress::of_rows(length, args.quiet);
-    let mut run = Run {
+    let mut run = QueryRun {
         args,
         answering: BatchRun::new(pair.bodies(), timing, args.threads, &args.motions, progress),
         outputs,
@@ -66,9 +66,9 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
             .html
             .as_ref()
             .map(|_| ChosenRows::new(args.html_ids.clone())),
-        summary: Summary::new(args.tolerance).with_earlier(start.counts),
+        summary: Summary::new(args.tolerance).with_earlier_counts(start.counts),
     };
-    let end = run.answer_all(&mut rows, start)?;
+    let end = run.answer_rows(&mut rows, start)?;
     run.outputs.finish(end)?;
     drop(run.answering.progress);
     run.answering.bad_rows.print_total();
@@ -80,7 +80,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<Exit> {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
-    Ok(match (exit(args, end), shown) {
+    Ok(match (run_outcome(args, end), shown) {
         (Exit::AllAnswered, shown) | (_, shown @ Exit::SomeRowsBad) => shown,
         (bad, _) => bad,
     })
@@ -94,7 +94,7 @@ fn write_page(args: &QueryArgs, pair: &Pair, page: Option<(ChosenRows, Output)>)
     let subject = RowsPage {
         title: &title(&args.bodies),
         pair,
-        asked: page_context(args),
+        context: page_context(args),
     };
     write_rows(subject, chosen, html, args.quiet)
 }
@@ -105,7 +105,7 @@ fn page_context(args: &QueryArgs) -> Asked {
         (Some(BoundKind::Published), _) => Claim::Published,
         (_, Question::IsFree) => Claim::Any,
         (_, Question::Distance) => Claim::MeasurementTime,
-        _ if leaves_start_contacts(args) => Claim::FirstAfterParting,
+        _ if ignores_start_contacts(args) => Claim::FirstContactAfterParting,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {
             Claim::First
         }
@@ -118,7 +118,7 @@ fn page_context(args: &QueryArgs) -> Asked {
 }
 
 /// Refuses an output that is also an input or another output.
-fn check_paths(args: &QueryArgs) -> Result<()> {
+fn check_file_paths(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files()?);
     let mut written = vec![("--out", &args.out)];
@@ -168,7 +168,7 @@ fn check_question(args: &QueryArgs) -> Result<()> {
     if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
         bail!("--ask {ask} needs --schedule best-first");
     }
-    if leaves_start_contacts(args) && !ask.is_for_one_contact() {
+    if ignores_start_contacts(args) && !ask.is_for_one_contact() {
         bail!("--start leave needs --ask first-contact or is-free");
     }
     Ok(())
@@ -192,20 +192,20 @@ fn refuse_unproven_check(args: &QueryArgs) -> Result<()> {
 }
 
 /// Refuses options for tables of motions if the table contains paths.
-fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
-    if rows.are_of_paths() && args.schedule != ScheduleKind::BestFirst {
+fn check_options_for_paths(args: &QueryArgs, rows: &Rows) -> Result<()> {
+    if rows.is_path_table() && args.schedule != ScheduleKind::BestFirst {
         bail!(
             "--schedule {} needs a table of motions, not of paths",
             args.schedule
         );
     }
-    if rows.are_of_paths() && leaves_start_contacts(args) {
+    if rows.is_path_table() && ignores_start_contacts(args) {
         bail!("--start leave needs a table of motions, not of paths");
     }
     Ok(())
 }
 
-fn leaves_start_contacts(args: &QueryArgs) -> bool {
+fn ignores_start_contacts(args: &QueryArgs) -> bool {
     args.start == StartPolicy::Leave
 }
 
@@ -227,8 +227,8 @@ fn method(args: &QueryArgs) -> SolverKind {
     }
 }
 
-fn timing(args: &QueryArgs) -> Timing {
-    Timing {
+fn timing(args: &QueryArgs) -> TimedQuestion {
+    TimedQuestion {
         question: args.ask,
         method: method(args),
         settings: Settings {
@@ -242,7 +242,7 @@ fn timing(args: &QueryArgs) -> Timing {
             shortcuts: (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each)),
             stop: None,
         },
-        repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
+        repetitions: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
     }
 }
 
@@ -271,11 +271,11 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
 }
 
 /// Returns the exit status of a run, and prints how many rows failed `--check`.
-fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
+fn run_outcome(args: &QueryArgs, end: Checkpoint) -> Exit {
     let failed = end
         .counts
-        .nonzero()
-        .filter(|(status, _)| !status.is_proof());
+        .nonzero_counts()
+        .filter(|(status, _)| !status.proves_distance_kept());
     let failed: usize = failed.map(|(_, count)| count).sum();
     if args.check && failed > 0 {
         let rows = end.counts.rows();
@@ -284,7 +284,7 @@ fn exit(args: &QueryArgs, end: Checkpoint) -> Exit {
         ));
     }
     match (end.bad, failed) {
-        (0, 1..) if args.check => Exit::SomeNotFree,
+        (0, 1..) if args.check => Exit::SomeRowsNotFree,
         (0, _) => Exit::AllAnswered,
         _ => Exit::SomeRowsBad,
     }

@@ -9,7 +9,7 @@ use super::{Exit, print_error};
 use crate::Error;
 use crate::picture::scene_verdict;
 use crate::scene::{Impact, PairError};
-use crate::table::results::{Line, ResultRow, Status, columns_of, names};
+use crate::table::results::{Line, ResultRow, Status, names, reordered_columns};
 use anyhow::Result;
 use ccd_core::Settings;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
@@ -95,7 +95,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<Exit> {
         ));
     }
     let ids: Vec<&str> = table.ids().collect();
-    let columns = columns_of(&[], OMITTED_COLUMNS);
+    let columns = reordered_columns(&[], OMITTED_COLUMNS);
     let header = [vec!["a", "b"], names(&columns)].concat();
     let mut out = Table::start(out, &header)?;
     let mut exit = Exit::AllAnswered;

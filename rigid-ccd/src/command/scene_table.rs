@@ -5,7 +5,7 @@ use super::meshes::MeshArgs;
 use super::{print_error, print_line, print_remarks};
 use crate::picture::DrawnBody;
 use crate::scene::{Impact, PairError};
-use crate::table::columns::{BODY_NAME, Columns, Form};
+use crate::table::columns::{BODY_COLUMN_NAME, Columns, Form};
 use crate::table::csv_records::CsvRecords;
 use crate::table::motions::{BodyRow, RowPosition, RowProblem, body};
 use crate::table::records::Records;
@@ -84,9 +84,9 @@ type PlacedRow = (RowPosition, BodyRow);
 fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)> {
     let mut records = CsvRecords::new(File::open(path)?)?;
     let header = records.header()?;
-    if !header.iter().any(|column| column == BODY_NAME) {
+    if !header.iter().any(|column| column == BODY_COLUMN_NAME) {
         bail!(
-            "has no column `{BODY_NAME}`; a table of motions is shown with --a, --b and --motions"
+            "has no column `{BODY_COLUMN_NAME}`; a table of motions is shown with --a, --b and --motions"
         );
     }
     if let Some(time) = header
@@ -101,7 +101,8 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
     let mut rows: Vec<PlacedRow> = Vec::new();
     while let Some(position) = records.advance()? {
         let row = body(&columns, records.current(), position.row, duration);
-        let row = row.map_err(|problem| anyhow!("{position}: {}", message_of(&problem)))?;
+        let row =
+            row.map_err(|problem| anyhow!("{position}: {}", row_problem_message(&problem)))?;
         rows.push((position, row));
     }
     if rows.is_empty() {
@@ -115,10 +116,10 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
 const LIKELY_TIME_COLUMNS: [&str; 3] = ["duration", "t", "time"];
 
 /// Returns the message for a bad row of a scene's table, in which all motions end together.
-fn message_of(problem: &RowProblem) -> String {
+fn row_problem_message(problem: &RowProblem) -> String {
     let words = problem.to_string().replace("column duration", "--duration");
     match problem {
-        RowProblem::WrongLength { .. } => {
+        RowProblem::WrongCellCount { .. } => {
             format!("{words}; a body with commas in it is quoted: \"box:1,1,0.1\"")
         }
         _ => words,

@@ -36,7 +36,7 @@ impl Size {
         if ratio > WARNING_RATIO && ratio.is_finite() {
             print_error(&format!(
                 "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
-                WithFourDigits(ratio)
+                RoundedToFourDigits(ratio)
             ));
         }
     }
@@ -44,15 +44,15 @@ impl Size {
 
 impl fmt::Display for Size {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array().map(WithFourDigits);
+        let [x, y, z] = self.0.to_array().map(RoundedToFourDigits);
         write!(f, "{x} × {y} × {z}")
     }
 }
 
 /// Displays a number rounded to four digits.
-struct WithFourDigits(f64);
+struct RoundedToFourDigits(f64);
 
-impl fmt::Display for WithFourDigits {
+impl fmt::Display for RoundedToFourDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
         write!(f, "{}", Number(rounded))

@@ -13,7 +13,7 @@ use std::path::Path;
 /// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
 pub struct Table {
     name: String,
-    writer: csv::Writer<Measured>,
+    writer: csv::Writer<MeasuringWriter>,
     claim: Option<Claim>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct WrittenSize {
 }
 
 /// A writer that counts and checksums the bytes written.
-pub struct Measured {
+pub struct MeasuringWriter {
     to: Box<dyn Write>,
     bytes: u64,
     checksum: crc32fast::Hasher,
@@ -43,7 +43,7 @@ impl Table {
         let opened = match output {
             Output::File(mut claim, _) => claim
                 .cut(0)
-                .and_then(|()| file_of(&mut claim))
+                .and_then(|()| cloned_file(&mut claim))
                 .map(|to| (to, Some(claim))),
             Output::Stream(path) if is_standard_output(&path) => {
                 Ok((Box::new(io::stdout().lock()) as Box<dyn Write>, None))
@@ -57,7 +57,7 @@ impl Table {
             place: name.clone(),
             source,
         })?;
-        let measured = Measured {
+        let measured = MeasuringWriter {
             to,
             bytes: 0,
             checksum: crc32fast::Hasher::new(),
@@ -81,8 +81,8 @@ impl Table {
                 return Ok(None);
             }
             claim.cut(written.bytes)?;
-            let to = file_of(&mut claim)?;
-            Ok(Some(Measured {
+            let to = cloned_file(&mut claim)?;
+            Ok(Some(MeasuringWriter {
                 to,
                 bytes: written.bytes,
                 checksum,
@@ -97,7 +97,7 @@ impl Table {
         }
     }
 
-    fn new(name: String, measured: Measured, claim: Option<Claim>) -> Self {
+    fn new(name: String, measured: MeasuringWriter, claim: Option<Claim>) -> Self {
         let mut builder = csv::WriterBuilder::new();
         let builder = builder.has_headers(false).buffer_capacity(1 << 16);
         Table {
@@ -110,9 +110,9 @@ impl Table {
     /// Adds a row, which the function `row` writes.
     pub fn write(
         &mut self,
-        row: impl FnOnce(&mut csv::Writer<Measured>) -> Result<(), csv::Error>,
+        row: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
     ) -> Result<(), CannotWrite> {
-        row(&mut self.writer).map_err(|error| self.cannot_write(csv_cause(error)))
+        row(&mut self.writer).map_err(|error| self.write_error(csv_cause(error)))
     }
 
     /// Adds a row, given as serialisable cells.
@@ -128,11 +128,11 @@ impl Table {
     /// Flushes all rows to the file, and returns the length and checksum of the table.
     pub(super) fn written(&mut self) -> Result<WrittenSize, CannotWrite> {
         let flushed = self.writer.flush();
-        flushed.map_err(|source| self.cannot_write(source))?;
+        flushed.map_err(|source| self.write_error(source))?;
         if let Some(claim) = &mut self.claim {
             claim.keep();
         }
-        let Measured {
+        let MeasuringWriter {
             bytes, checksum, ..
         } = self.writer.get_ref();
         Ok(WrittenSize {
@@ -146,11 +146,11 @@ impl Table {
         self.flush()?;
         match self.claim.take().map_or(Ok(()), Claim::place) {
             Ok(()) => Ok(()),
-            Err(source) => Err(self.cannot_write(source)),
+            Err(source) => Err(self.write_error(source)),
         }
     }
 
-    fn cannot_write(&self, source: io::Error) -> CannotWrite {
+    fn write_error(&self, source: io::Error) -> CannotWrite {
         CannotWrite {
             place: self.name.clone(),
             source,
@@ -158,7 +158,7 @@ impl Table {
     }
 }
 
-impl Write for Measured {
+impl Write for MeasuringWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.to.write(bytes)?;
         self.bytes += written as u64;
@@ -171,7 +171,7 @@ impl Write for Measured {
     }
 }
 
-fn file_of(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
+fn cloned_file(claim: &mut Claim) -> io::Result<Box<dyn Write>> {
     Ok(Box::new(claim.file().try_clone()?))
 }
 
@@ -180,7 +180,7 @@ pub(super) fn measure(
     table: impl Read,
     bytes: u64,
 ) -> io::Result<(WrittenSize, crc32fast::Hasher)> {
-    let mut measured = Measured {
+    let mut measured = MeasuringWriter {
         to: Box::new(io::sink()),
         bytes: 0,
         checksum: crc32fast::Hasher::new(),

@@ -7,12 +7,12 @@ use args::Subject;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
-use super::files::{input_name, open_courses, refuse_overwriting};
+use super::files::{input_name, open_movement_rows, refuse_overwriting};
 use super::output::Output;
 use super::pair::{BodiesArgs, Pair};
 use super::scene_table::{self, SceneArgs};
 use super::{Exit, print_error};
-use crate::batch::{Question, SolverKind, Timing, time};
+use crate::batch::{Question, SolverKind, TimedQuestion, time};
 use crate::picture::{Asked, Claim, Painter, scene_view};
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result, bail};
@@ -44,14 +44,14 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     for (option, path) in &read {
         refuse_overwriting((option, path), ("--out", &args.out))?;
     }
-    let (mut rows, _) = open_courses(motions, Question::FirstContact.grouping())?;
+    let (mut rows, _) = open_movement_rows(motions, Question::FirstContact.grouping())?;
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;
     let mut chosen = ChosenRows::new(args.ids.clone());
     let timing = timing(args);
     let asked = Asked {
-        claim: known.as_ref().map_or(Claim::First, |_| Claim::FromTable),
+        claim: known.as_ref().map_or(Claim::First, |_| Claim::TableTime),
         margin: args.margin,
         clearance: None,
     };
@@ -94,7 +94,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
     let subject = RowsPage {
         title: &title(bodies),
         pair: &pair,
-        asked,
+        context: asked,
     };
     write_rows(subject, chosen, out, args.quiet)
 }
@@ -104,7 +104,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Exi
 pub(super) struct RowsPage<'a> {
     pub(super) title: &'a str,
     pub(super) pair: &'a Pair,
-    pub(super) asked: Asked,
+    pub(super) context: Asked,
 }
 
 /// Returns the title of a page about two bodies: their names without folders, and the unit.
@@ -123,7 +123,11 @@ pub(super) fn title(bodies: &BodiesArgs) -> String {
 
 /// Writes the page of the chosen rows. Without any there is none, which is told.
 pub(super) fn write_rows(
-    RowsPage { title, pair, asked }: RowsPage<'_>,
+    RowsPage {
+        title,
+        pair,
+        context: asked,
+    }: RowsPage<'_>,
     mut chosen: ChosenRows,
     out: Output,
     quiet: bool,
@@ -148,7 +152,7 @@ pub(super) fn write_rows(
         return Ok(Exit::SomeRowsBad);
     }
     write_page(&painter.page(title, views), out, quiet)?;
-    Ok(if all_found && chosen.is_complete() {
+    Ok(if all_found && chosen.are_all_rows_drawable() {
         Exit::AllAnswered
     } else {
         Exit::SomeRowsBad
@@ -177,14 +181,14 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     Ok(known)
 }
 
-fn timing(args: &ViewArgs) -> Timing {
-    Timing {
+fn timing(args: &ViewArgs) -> TimedQuestion {
+    TimedQuestion {
         settings: Settings {
             tolerance: args.tolerance,
             margin: args.margin,
             ..Settings::DEFAULT
         },
-        ..Timing::default()
+        ..TimedQuestion::default()
     }
 }
 

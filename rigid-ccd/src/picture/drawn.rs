@@ -74,7 +74,7 @@ fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
 struct MeshBuilder {
     mesh: DrawnMesh,
     numbers: HashMap<[u64; 3], u32>,
-    drawn: HashSet<[u32; 3]>,
+    drawn_faces: HashSet<[u32; 3]>,
 }
 
 impl MeshBuilder {
@@ -83,7 +83,7 @@ impl MeshBuilder {
         let mut sorted = numbers;
         sorted.sort_unstable();
         // Two pieces may share a face, and so may both sides of a flat piece.
-        if self.drawn.insert(sorted) {
+        if self.drawn_faces.insert(sorted) {
             self.mesh.faces.push(numbers);
         }
     }

@@ -78,11 +78,11 @@ pub fn gap(
         solver,
         bodies,
         course,
-        floor: greater(floor, 0.0),
+        proven_distance: greater(floor, 0.0),
         deadline: Instant::now() + TIME_LIMIT,
     };
     let (mut points, steps) = survey.advance()?;
-    survey.refine(&mut points)?;
+    survey.add_measurements(&mut points)?;
     Ok(GapOverTime {
         gap: Gap {
             proven: survey.proven(&points)?,
@@ -96,7 +96,7 @@ struct GapSampler<'a> {
     solver: &'a mut Solver,
     bodies: Bodies<'a>,
     course: &'a Movements,
-    floor: f64,
+    proven_distance: f64,
     deadline: Instant,
 }
 
@@ -131,7 +131,7 @@ impl GapSampler<'_> {
     }
 
     /// Adds measurements, each in the middle of the interval with the most to gain.
-    fn refine(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
+    fn add_measurements(&mut self, points: &mut Vec<GapPoint>) -> Result<(), InputError> {
         let mut worths = Vec::new();
         for k in 1..points.len() {
             worths.push(self.gain(points[k - 1], points[k])?);
@@ -190,7 +190,7 @@ impl GapSampler<'_> {
     /// Returns the lower bound as a polyline: it falls on both sides of each measurement, but not below what is proven
     /// for all times.
     fn proven(&self, points: &[GapPoint]) -> Result<Vec<[f64; 2]>, InputError> {
-        let floor = self.floor;
+        let floor = self.proven_distance;
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];

@@ -19,7 +19,7 @@ pub enum Claim {
     /// The time of the first contact.
     First,
     /// As [`First`](Claim::First), except for contacts at the start, which are ignored until the bodies part.
-    FirstAfterParting,
+    FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
     Any,
     /// The time at which the distance was measured.
@@ -27,7 +27,7 @@ pub enum Claim {
     /// The time of the first contact by the published bound, which is no proof.
     Published,
     /// A time from a table of results, whose question and bound are unknown.
-    FromTable,
+    TableTime,
 }
 
 /// Describes the answer of a row in words, for motions that end at `end`. `end` is the end of its motions, and `proven`
@@ -40,15 +40,15 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         None => "The clearance".to_owned(),
     };
     match row.status {
-        Status::Contact => later_contact(row, asked, &time),
-        Status::Free => describe_free(asked, end, proven),
+        Status::Contact => describe_later_contact(row, asked, &time),
+        Status::Free => describe_free_bodies(asked, end, proven),
         Status::Touching | Status::Overlapping => {
             let how = match row.status {
                 Status::Overlapping => "Overlapping",
                 _ if asked.margin > 0.0 => "Within the margin",
                 _ => "In contact",
             };
-            let (contact, after) = (contact(row), after_start_contact(row));
+            let (contact, after) = (contact(row), describe_after_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
         Status::Measured if asked.claim == Claim::MeasurementTime => {
@@ -75,8 +75,8 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
         Status::Unverified => format!("{clearance} is not verified: {reason}."),
         Status::Unresolved => match asked.claim {
             Claim::Published => format!("Not resolved ({reason}) after {time}. Not certified."),
-            Claim::FromTable => format!("Not resolved ({reason}) after {time}, as the table says."),
-            Claim::FirstAfterParting => format!(
+            Claim::TableTime => format!("Not resolved ({reason}) after {time}, as the table says."),
+            Claim::FirstContactAfterParting => format!(
                 "Not resolved ({reason}). Proven: nothing touches before {time}, but for a contact at the start that \
                  was let go."
             ),
@@ -89,14 +89,14 @@ pub(super) fn verdict(row: &ResultRow, asked: Asked, end: f64, proven: Option<f6
 }
 
 /// Describes what is proven after a contact at the start; empty if the question was about the first contact only.
-fn after_start_contact(row: &ResultRow) -> String {
+fn describe_after_start_contact(row: &ResultRow) -> String {
     row.last_time.map_or(String::new(), |last| {
         format!(" Proven: not after {}.", number_rounded_up(last))
     })
 }
 
 /// Describes in words a contact that begins after the start.
-fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
+fn describe_later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
     let margin = number(asked.margin);
     let (first, at, before) = if asked.margin > 0.0 {
         (
@@ -118,7 +118,7 @@ fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
             "{first} at {time}: {touching}. Proven: {before}, nor after {}.",
             number_rounded_up(last)
         ),
-        (Claim::FirstAfterParting, _) => format!(
+        (Claim::FirstContactAfterParting, _) => format!(
             "{at} at {time}: {touching}. Proven: {before}, but for a contact at the start that was let go."
         ),
         (Claim::Any | Claim::MeasurementTime, _) => {
@@ -127,11 +127,11 @@ fn later_contact(row: &ResultRow, asked: Asked, time: &str) -> String {
         (Claim::Published, _) => {
             format!("{at} at {time}: {touching}. Not certified: it may be late.")
         }
-        (Claim::FromTable, _) => format!("{at} at {time}, as the table says: {touching}."),
+        (Claim::TableTime, _) => format!("{at} at {time}, as the table says: {touching}."),
     }
 }
 
-fn describe_free(asked: Asked, end: f64, proven: Option<f64>) -> String {
+fn describe_free_bodies(asked: Asked, end: f64, proven: Option<f64>) -> String {
     let end = number(end);
     match (asked.claim, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
@@ -141,8 +141,8 @@ fn describe_free(asked: Asked, end: f64, proven: Option<f64>) -> String {
         (Claim::Published, None) => {
             format!("No contact found, to the end at {end}. Not certified.")
         }
-        (Claim::FromTable, None) => format!("No contact, to the end at {end}, as the table says."),
-        (Claim::FirstAfterParting, None) => {
+        (Claim::TableTime, None) => format!("No contact, to the end at {end}, as the table says."),
+        (Claim::FirstContactAfterParting, None) => {
             format!(
                 "No contact, to the end at {end}. Proven, but for one at the start that was let go."
             )
@@ -211,23 +211,23 @@ fn feature_in_words(name: &str) -> String {
 
 /// Formats a number with at most seven digits, rounded down, so that the text is a lower bound.
 pub(super) fn number(value: f64) -> String {
-    let text = with_few_digits(value);
+    let text = number_with_few_digits(value);
     match text.parse::<f64>() {
-        Ok(read) if value < read => with_few_digits(value - last_digit(value)),
+        Ok(read) if value < read => number_with_few_digits(value - last_digit_value(value)),
         _ => text,
     }
 }
 
 /// Formats a number with at most seven digits, rounded up.
 fn number_rounded_up(value: f64) -> String {
-    let text = with_few_digits(value);
+    let text = number_with_few_digits(value);
     match text.parse::<f64>() {
-        Ok(read) if read < value => with_few_digits(value + last_digit(value)),
+        Ok(read) if read < value => number_with_few_digits(value + last_digit_value(value)),
         _ => text,
     }
 }
 
-fn with_few_digits(value: f64) -> String {
+fn number_with_few_digits(value: f64) -> String {
     if needs_no_exponent(value) {
         let text = format!("{value:.6}");
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -237,7 +237,7 @@ fn with_few_digits(value: f64) -> String {
 }
 
 /// Returns the value of one unit in the last digit that [`number`] writes.
-fn last_digit(value: f64) -> f64 {
+fn last_digit_value(value: f64) -> f64 {
     if needs_no_exponent(value) {
         1e-6
     } else {

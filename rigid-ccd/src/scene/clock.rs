@@ -5,15 +5,15 @@ use std::time::{Duration, Instant};
 
 /// The duration of the motions, and the deadline for all pairs together.
 #[derive(Clone, Copy)]
-pub(super) struct Clock {
+pub(super) struct TimeLimits {
     pub(super) duration: f64,
     deadline: Option<(Instant, Duration)>,
 }
 
-impl Clock {
+impl TimeLimits {
     /// Starts to measure the time until the deadline.
     pub(super) fn new(duration: f64, settings: &Settings) -> Self {
-        Clock {
+        TimeLimits {
             duration,
             deadline: settings.deadline.map(|limit| (Instant::now(), limit)),
         }

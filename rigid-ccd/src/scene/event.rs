@@ -75,7 +75,7 @@ impl Event {
     }
 
     /// Returns this event of a query that started at time `from`, with its times shifted by `from` and rounded down.
-    pub(super) fn shifted_by(self, from: f64) -> Self {
+    pub(super) fn shifted_in_time(self, from: f64) -> Self {
         let later = |time: f64| {
             if from > 0.0 {
                 greater(from, (from + time).next_down())

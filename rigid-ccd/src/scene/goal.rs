@@ -7,7 +7,7 @@ pub(super) enum Goal {
     /// The first contact of any two bodies.
     First(EarliestTime),
     /// The first contact of each body with any other one.
-    FirstOfEach(Vec<EarliestTime>),
+    FirstOfEachBody(Vec<EarliestTime>),
     /// The first contact of each pair of bodies.
     All,
 }
@@ -17,15 +17,15 @@ impl Goal {
         Goal::First(EarliestTime::default())
     }
 
-    pub(super) fn first_of_each(bodies: usize) -> Self {
-        Goal::FirstOfEach((0..bodies).map(|_| EarliestTime::default()).collect())
+    pub(super) fn first_of_each_body(bodies: usize) -> Self {
+        Goal::FirstOfEachBody((0..bodies).map(|_| EarliestTime::default()).collect())
     }
 
     /// Returns the time after which an event of the pair cannot change the answer.
     pub(super) fn last_useful_time(&self, [a, b]: [usize; 2]) -> f64 {
         match self {
             Goal::First(earliest) => earliest.time(),
-            Goal::FirstOfEach(earliest) => {
+            Goal::FirstOfEachBody(earliest) => {
                 let [a, b] = [earliest[a].time(), earliest[b].time()];
                 if a > b { a } else { b }
             }
@@ -36,7 +36,9 @@ impl Goal {
     pub(super) fn record(&self, [a, b]: [usize; 2], time: f64) {
         match self {
             Goal::First(earliest) => earliest.record(time),
-            Goal::FirstOfEach(earliest) => [a, b].iter().for_each(|&k| earliest[k].record(time)),
+            Goal::FirstOfEachBody(earliest) => {
+                [a, b].iter().for_each(|&k| earliest[k].record(time))
+            }
             Goal::All => {}
         }
     }

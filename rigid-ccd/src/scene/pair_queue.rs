@@ -58,17 +58,17 @@ impl<'r, 'a> PairQueue<'r, 'a> {
         Some((entry, others))
     }
 
-    fn put_back(&self, entry: QueuedPair<'a>) {
+    fn put_back_pair(&self, entry: QueuedPair<'a>) {
         let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
         waiting.push(entry);
     }
 
     /// Returns the time to which a pair at `time` is advanced next, which is at most `limit`.
-    fn next_target(&self, time: f64, others: f64, limit: f64) -> f64 {
+    fn next_target_time(&self, time: f64, others: f64, limit: f64) -> f64 {
         let slice = greater(others, time + ADVANCE_SHARE * self.duration);
         let until = match self.goal {
             Goal::All => f64::INFINITY,
-            Goal::First(_) | Goal::FirstOfEach(_) => lesser(slice, limit.next_up()),
+            Goal::First(_) | Goal::FirstOfEachBody(_) => lesser(slice, limit.next_up()),
         };
         // Durations may be too short for slices.
         if until > time { until } else { f64::INFINITY }
@@ -95,7 +95,7 @@ impl WorkerMemory {
             let limit = pair_queue.goal.last_useful_time(pair);
             // A later event does not matter to the goal.
             if time > limit {
-                self.keep_for_reuse(search);
+                self.keep_search_for_reuse(search);
                 continue;
             }
             let mut search = match search {
@@ -114,20 +114,20 @@ impl WorkerMemory {
             };
             match search.advance(
                 &mut self.oracle,
-                pair_queue.next_target(time, others, limit),
+                pair_queue.next_target_time(time, others, limit),
             ) {
                 Err(error) => {
-                    self.keep_for_reuse(Some(search));
+                    self.keep_search_for_reuse(Some(search));
                     pair_queue.goal.record(pair, 0.0);
                     events.push(Event::from_error(pair, error));
                 }
-                Ok(Progress::ApartUntil(time)) => pair_queue.put_back(QueueEntry {
+                Ok(Progress::ApartUntil(time)) => pair_queue.put_back_pair(QueueEntry {
                     time,
                     pair,
                     what: Some(search),
                 }),
                 Ok(Progress::Answered(answer)) => {
-                    self.keep_for_reuse(Some(search));
+                    self.keep_search_for_reuse(Some(search));
                     if let Some(event) = Event::from_answer(pair, &answer) {
                         pair_queue.goal.record(pair, event.time);
                         events.push(event);
@@ -138,7 +138,7 @@ impl WorkerMemory {
         events
     }
 
-    fn keep_for_reuse(&mut self, search: Option<Search<'_>>) {
+    fn keep_search_for_reuse(&mut self, search: Option<Search<'_>>) {
         if let Some(search) = search
             && self.spare.len() < MAX_SPARE_SEARCHES
         {

@@ -5,12 +5,12 @@ use ccd_core::vector::length;
 use ccd_core::{DeviationBound, InputError, Movement, Stretch, Trajectory};
 
 /// A trajectory whose time 0 is a given time of another trajectory.
-pub(super) struct TimeShifted<'a> {
+pub(super) struct TimeShiftedTrajectory<'a> {
     pub(super) inner: Movement<'a>,
     pub(super) from: f64,
 }
 
-impl Trajectory for TimeShifted<'_> {
+impl Trajectory for TimeShiftedTrajectory<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [first, last] = [from, to].map(|time| self.from + time);
         let stretch = self.inner.stretch(first, last)?;

@@ -1,16 +1,16 @@
 //! Finds when each body stops if it stops at its first contact.
 
-use super::clock::Clock;
+use super::clock::TimeLimits;
 use super::event::{Event, Impact};
 use super::goal::Goal;
 use super::pairs::in_ascending_order;
 use super::queue_entry::QueueEntry;
-use super::shifted::TimeShifted;
+use super::shifted::TimeShiftedTrajectory;
 use super::{Mobility, PairError, Scene};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use ccd_core::order::{greater, lesser};
-use ccd_core::rounding::RETIMED_POSE_F64;
+use ccd_core::rounding::RETIMED_POSE_ERROR_F64;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::vector::length;
 use ccd_core::{
@@ -96,7 +96,7 @@ impl Scene<'_> {
     pub fn stops(&mut self, duration: f64) -> Result<Vec<Stop>, PairError> {
         let given = self.settings.clone();
         self.settings = with_half_tolerance_as_margin(&given);
-        let clock = Clock::new(duration, &self.settings);
+        let clock = TimeLimits::new(duration, &self.settings);
         let pairs = self.pairs(duration);
         let events = self.run_pair_queue(&pairs, &clock, &Goal::All);
         let stops = StopSearch::new(self, &pairs, clock).run(events);
@@ -123,7 +123,7 @@ struct StopSearch<'s, 'a> {
     /// For each body, the indices of the bodies that it may touch.
     partners: Vec<Vec<usize>>,
     stops: Vec<Stop>,
-    clock: Clock,
+    clock: TimeLimits,
     schedule: BestFirst<Direct>,
     oracle: Direct,
 }
@@ -132,7 +132,7 @@ struct StopSearch<'s, 'a> {
 type FutureContact = QueueEntry<(Event, [bool; 2])>;
 
 impl<'s, 'a> StopSearch<'s, 'a> {
-    fn new(scene: &'s Scene<'a>, pairs: &[[usize; 2]], clock: Clock) -> Self {
+    fn new(scene: &'s Scene<'a>, pairs: &[[usize; 2]], clock: TimeLimits) -> Self {
         let mut partners = vec![Vec::new(); scene.len()];
         for &[a, b] in pairs {
             partners[a].push(b);
@@ -227,7 +227,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         } else {
             event
         };
-        let event = event.shifted_by(from);
+        let event = event.shifted_in_time(from);
         let moving = event.bodies.map(|index| self.moves(index));
         FutureContact {
             time: event.time,
@@ -237,7 +237,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
-        let shifted = bodies.map(|index| TimeShifted {
+        let shifted = bodies.map(|index| TimeShiftedTrajectory {
             inner: self.scene.members[index].movement,
             from: time,
         });
@@ -259,7 +259,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     /// Returns the motion or trajectory of a body from a given time on.
     fn movement_from<'r>(
         &self,
-        shifted: &'r TimeShifted<'a>,
+        shifted: &'r TimeShiftedTrajectory<'a>,
         index: usize,
     ) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
@@ -300,7 +300,7 @@ fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, 
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
     let reach = reach(body, &stretch);
     let stray = stretch.deviation.at(reach);
-    Ok(stray + RETIMED_POSE_F64 * (place + centre + travel + (1.0 + turn) * reach))
+    Ok(stray + RETIMED_POSE_ERROR_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 
 #[cfg(test)]

@@ -382,7 +382,7 @@ fn a_body_inside_a_solid_is_first() {
         Motion::new(far(1.01), [-9.0, 0.0, 0.0], [0.0; 3]).unwrap(),
     );
     scene.add_fixed(&shell, Pose::IDENTITY);
-    let inside = middle_of_tube(&shell);
+    let inside = point_inside_tube(&shell);
     let grain = scene.add(
         &grain,
         Motion::new(Pose::at(inside).unwrap(), [1.0, 0.0, 0.0], [0.0; 3]).unwrap(),
@@ -394,7 +394,7 @@ fn a_body_inside_a_solid_is_first() {
 }
 
 /// Returns a point inside a solid tube, behind one of its triangles.
-fn middle_of_tube(body: &Body) -> DVec3 {
+fn point_inside_tube(body: &Body) -> DVec3 {
     let piece = body.pieces().get(0);
     let [a, b, c] = [0, 1, 2].map(|k| piece.points[k]);
     let outwards = (b - a).cross(c - a).normalize();

@@ -11,7 +11,7 @@ fn ball(radius: f64) -> Body {
     Body::sphere(radius).unwrap()
 }
 
-fn thrown(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]) -> Ballistic {
+fn ballistic_trajectory(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]) -> Ballistic {
     let thrown = Motion::new(Pose::at(at).unwrap(), velocity, [0.0; 3]).unwrap();
     Ballistic::new(thrown, acceleration).unwrap()
 }
@@ -20,7 +20,7 @@ fn thrown(at: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]) -> Ballistic
 #[test]
 fn bodies_beside_each_other_do_not_overlap() {
     let (ball, slab) = (ball(0.5), Body::cuboid([9.0, 9.0, 1.0]).unwrap());
-    let rises = thrown([0.0, 0.0, 1.5001], [0.0; 3], [0.0, 0.0, 1e-3]);
+    let rises = ballistic_trajectory([0.0, 0.0, 1.5001], [0.0; 3], [0.0, 0.0, 1e-3]);
     let (a, b) = ((&ball, &rises), (&slab, &Motion::STILL));
     let closest = Solver::new().closest_approach(a, b, 1.0).unwrap();
     let Outcome::LeastDistance { lower, .. } = closest.outcome else {
@@ -30,7 +30,7 @@ fn bodies_beside_each_other_do_not_overlap() {
     assert_ne!(closest.outcome.clearance(5e-5), Clearance::Violated);
     let hit = Solver::new().first_contact(a, b, 1.0).unwrap();
     assert!(matches!(hit.outcome, Outcome::Touching { .. }), "{hit:?}");
-    let deep = thrown([0.0, 0.0, 1.4], [0.0; 3], [0.0, 0.0, 1e-3]);
+    let deep = ballistic_trajectory([0.0, 0.0, 1.4], [0.0; 3], [0.0, 0.0, 1e-3]);
     let any = Solver::new().any_contact((&ball, &deep), b, 1.0);
     let any = any.unwrap().outcome;
     assert!(matches!(any, Outcome::Overlapping { .. }), "{any:?}");
@@ -53,7 +53,7 @@ fn a_body_that_begins_inside_is_never_said_to_be_outside() {
     for radius in [0.0, 0.05] {
         for detail in [Detail::Triangles, Detail::Auto] {
             let solid = body_from_mesh(&mesh, detail).unwrap().body;
-            let flies = thrown([0.0; 3], [2.0, 0.6, 0.4], [8.0, -8.0, 0.0]);
+            let flies = ballistic_trajectory([0.0; 3], [2.0, 0.6, 0.4], [8.0, -8.0, 0.0]);
             let (ball, still) = (ball(radius), Motion::STILL);
             let (a, b) = ((&ball, &flies), (&solid, &still));
             let any = Solver::new().any_contact(a, b, 1.0).unwrap().outcome;
@@ -107,7 +107,7 @@ fn half_turns_go_the_way_of_motions() {
 #[test]
 fn settings_at_their_limits_are_answered() {
     let (a, b) = (ball(0.5), ball(0.5));
-    let passes = thrown([-3.0, 1.3, 0.0], [6.0, 0.0, 0.0], [0.0, 1e-3, 0.0]);
+    let passes = ballistic_trajectory([-3.0, 1.3, 0.0], [6.0, 0.0, 0.0], [0.0, 1e-3, 0.0]);
     let least = Settings {
         tolerance: ccd_core::limits::LEAST_TOLERANCE,
         ..Settings::DEFAULT

@@ -21,7 +21,7 @@ pub(in crate::table) enum Quantity {
     EndPosition,
     EndOrientation,
     Velocity,
-    Spin,
+    AngularVelocity,
     Centre,
 }
 
@@ -43,7 +43,7 @@ const BODY_COLUMNS: [&str; 23] = [
 ];
 
 /// The columns of a body in a table of paths, without the body's prefix.
-const POSE_COLUMNS: [&str; 13] = [
+const PATH_BODY_COLUMNS: [&str; 13] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
@@ -51,13 +51,13 @@ impl Form {
     /// Returns the names of all columns in order.
     pub(in crate::table) fn names(self) -> Vec<String> {
         let bodies = self.prefixes().iter().flat_map(|prefix| {
-            let of_body = self.of_body().iter();
+            let of_body = self.body_columns().iter();
             of_body.map(move |name| format!("{prefix}{name}"))
         });
         let (before, after): (&[&str], &[&str]) = match self {
             Form::Motions => (&["id"], &["duration"]),
-            Form::Paths => (&["id", TIME_NAME], &[]),
-            Form::Scene => (&["id"], &[BODY_NAME]),
+            Form::Paths => (&["id", TIME_COLUMN_NAME], &[]),
+            Form::Scene => (&["id"], &[BODY_COLUMN_NAME]),
         };
         let owned = |names: &'static [&str]| names.iter().map(|&name| name.to_owned());
         owned(before).chain(bodies).chain(owned(after)).collect()
@@ -82,13 +82,13 @@ impl Form {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
-            (Form::Paths, Quantity::Spin) => 7..10,
+            (Form::Paths, Quantity::AngularVelocity) => 7..10,
             (Form::Paths, Quantity::Centre) => 10..13,
             (Form::Paths, _) => 0..0,
             (_, Quantity::EndPosition) => 7..10,
             (_, Quantity::EndOrientation) => 10..14,
             (_, Quantity::Velocity) => 14..17,
-            (_, Quantity::Spin) => 17..20,
+            (_, Quantity::AngularVelocity) => 17..20,
             (_, Quantity::Centre) => 20..23,
         };
         let first_of_a = match self {
@@ -97,21 +97,21 @@ impl Form {
         };
         let first = match side {
             Side::A => first_of_a,
-            Side::B => first_of_a + self.of_body().len(),
+            Side::B => first_of_a + self.body_columns().len(),
         };
         first + within.start..first + within.end
     }
 
     /// Returns the names of a body's columns, without its prefix.
-    fn of_body(self) -> &'static [&'static str] {
+    fn body_columns(self) -> &'static [&'static str] {
         match self {
             Form::Motions | Form::Scene => &BODY_COLUMNS,
-            Form::Paths => &POSE_COLUMNS,
+            Form::Paths => &PATH_BODY_COLUMNS,
         }
     }
 
     /// Returns the names of all columns as text for messages.
-    pub(in crate::table) fn listed_names(self) -> &'static str {
+    pub(in crate::table) fn known_columns_text(self) -> &'static str {
         match self {
             Form::Motions => {
                 "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
@@ -147,7 +147,7 @@ impl Columns {
     /// # Errors
     /// A column is unknown, appears twice or is missing, or there is none.
     pub fn of(header: &[String]) -> Result<Self, TableError> {
-        let form = if header.iter().any(|name| name == TIME_NAME) {
+        let form = if header.iter().any(|name| name == TIME_COLUMN_NAME) {
             Form::Paths
         } else {
             Form::Motions
@@ -164,14 +164,14 @@ impl Columns {
             return Err(TableError::Empty);
         }
         let names = form.names();
-        if let Some(number) = number_without_names(header, &names) {
-            let known = form.listed_names();
+        if let Some(number) = number_in_header(header, &names) {
+            let known = form.known_columns_text();
             return Err(TableError::NoHeader { number, known });
         }
         let mut cells = vec![None; names.len()];
         for (cell, column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(unknown_column(header, column, form));
+                return Err(unknown_column_error(header, column, form));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -198,7 +198,7 @@ impl Columns {
             Quantity::EndPosition,
             Quantity::EndOrientation,
         ];
-        let spin = self.is_path_table().then_some(Quantity::Spin);
+        let spin = self.is_path_table().then_some(Quantity::AngularVelocity);
         let of_spin = spin.map(|spin| (spin, Quantity::Orientation));
         let needs = wholes
             .map(|whole| (whole, whole))
@@ -262,7 +262,7 @@ impl Columns {
 }
 
 /// Returns a number in a header without any known column: such a header is probably a row.
-fn number_without_names(header: &[String], names: &[String]) -> Option<String> {
+fn number_in_header(header: &[String], names: &[String]) -> Option<String> {
     if header.iter().any(|cell| names.contains(cell)) {
         return None;
     }
@@ -275,9 +275,9 @@ fn number_without_names(header: &[String], names: &[String]) -> Option<String> {
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown_column(header: &[String], column: &str, form: Form) -> TableError {
-    if let ([only], Some(separator)) = (header, foreign::separator(column)) {
-        return TableError::Separator {
+fn unknown_column_error(header: &[String], column: &str, form: Form) -> TableError {
+    if let ([only], Some(separator)) = (header, foreign::header_separator(column)) {
+        return TableError::WrongSeparator {
             found: separator,
             header: only.clone(),
         };
@@ -290,8 +290,8 @@ fn unknown_column(header: &[String], column: &str, form: Form) -> TableError {
     if lower == "time" {
         return TableError::UnknownColumn {
             column: column.to_owned(),
-            known: form.listed_names(),
-            nearest: Some(TIME_NAME.to_owned()),
+            known: form.known_columns_text(),
+            nearest: Some(TIME_COLUMN_NAME.to_owned()),
         };
     }
     if let Some(prefix) = prefix_of_angle(&lower, form) {
@@ -305,7 +305,7 @@ fn unknown_column(header: &[String], column: &str, form: Form) -> TableError {
     let of_other_form = form == Form::Paths && Form::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
-        known: form.listed_names(),
+        known: form.known_columns_text(),
         // Names are short, so that a larger edit distance means another name.
         nearest: nearest
             .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
@@ -336,12 +336,12 @@ const ANGLE_NAMES: [&str; 27] = [
 /// The index of the column `id` among the known columns.
 pub(in crate::table) const ID_COLUMN: usize = 0;
 /// The index of the column `duration` among those of a table of motions.
-pub(in crate::table) const DURATION_COLUMN: usize = 2 * BODY_COLUMNS.len() + 1;
+pub(in crate::table) const DURATION_COLUMN_INDEX: usize = 2 * BODY_COLUMNS.len() + 1;
 /// The index of the column `t` among those of a table of paths.
 pub(in crate::table) const TIME_COLUMN: usize = 1;
-const TIME_NAME: &str = "t";
+const TIME_COLUMN_NAME: &str = "t";
 /// The index of the column `body` among those of a scene's table.
 #[cfg(feature = "command")]
-pub(crate) const BODY_COLUMN: usize = BODY_COLUMNS.len() + 1;
+pub(crate) const BODY_COLUMN_INDEX: usize = BODY_COLUMNS.len() + 1;
 /// The name of the column that describes a body in a scene's table.
-pub(crate) const BODY_NAME: &str = "body";
+pub(crate) const BODY_COLUMN_NAME: &str = "body";

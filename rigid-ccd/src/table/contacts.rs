@@ -5,12 +5,12 @@ mod tests;
 
 use crate::batch::{Bodies, Question};
 use crate::table::courses::Movements;
-use crate::table::results::{Column, ResultRow, columns_of};
+use crate::table::results::{Column, ResultRow, reordered_columns};
 use ccd_core::{Answer, ContactsError, FeaturePair, InputError, Outcome, Settings};
 
 /// Returns the columns of the table of contacts, in order.
 pub(crate) fn columns() -> Vec<Column> {
-    columns_of(
+    reordered_columns(
         &["id", "time", "feature_a", "feature_b"],
         &["status", "iterations", "oracle_calls", "micros", "reason"],
     )
@@ -18,7 +18,7 @@ pub(crate) fn columns() -> Vec<Column> {
 
 /// The error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(crate) enum ListError {
+pub(crate) enum ContactListError {
     /// The query is not valid.
     #[error("{0}")]
     Input(#[from] InputError),
@@ -36,14 +36,14 @@ pub(crate) fn rows(
     course: &Movements,
     settings: &Settings,
     (question, answer): (Question, &Answer),
-) -> Result<Vec<ResultRow>, ListError> {
+) -> Result<Vec<ResultRow>, ContactListError> {
     let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
     let query = bodies.query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
     let row = |pair: &FeaturePair| {
-        ResultRow::of_pair(course.id(), course.table_time_rounded_down(time), pair)
+        ResultRow::of_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
     };
     Ok(pairs.iter().map(row).collect())
 }

@@ -67,7 +67,7 @@ impl Movements {
     pub fn table_time_rounded_down(&self, time: f64) -> f64 {
         match self {
             Movements::Motions(_) => time,
-            Movements::Path(path) => path.earliest(time),
+            Movements::Path(path) => path.table_time_rounded_down(time),
         }
     }
 
@@ -75,7 +75,7 @@ impl Movements {
     pub fn table_time_rounded_up(&self, time: f64) -> f64 {
         match self {
             Movements::Motions(_) => time,
-            Movements::Path(path) => path.latest(time),
+            Movements::Path(path) => path.table_time_rounded_up(time),
         }
     }
 }
@@ -117,7 +117,7 @@ impl<S: Records> Courses<S> {
     }
 
     /// Returns whether it is a table of paths.
-    pub fn are_of_paths(&self) -> bool {
+    pub fn is_path_table(&self) -> bool {
         self.paths.is_some()
     }
 
@@ -128,7 +128,7 @@ impl<S: Records> Courses<S> {
     pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
         match &mut self.paths {
             None => self.rows.skip_rows(rows),
-            Some(paths) => paths.skip(&mut self.rows, rows),
+            Some(paths) => paths.skip_paths(&mut self.rows, rows),
         }
     }
 

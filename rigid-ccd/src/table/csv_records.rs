@@ -17,7 +17,7 @@ use std::io::{self, Read};
 #[derive(Debug)]
 pub struct CsvRecords<R> {
     reader: Reader<R>,
-    raw: csv::ByteRecord,
+    raw_record: csv::ByteRecord,
     /// The number of records read, without the header.
     rows: usize,
     checksum: crc32fast::Hasher,
@@ -47,7 +47,7 @@ impl<R: Read> CsvRecords<R> {
         add(&mut checksum, &raw);
         Ok(CsvRecords {
             reader,
-            raw,
+            raw_record: raw,
             rows: 0,
             checksum,
         })
@@ -58,20 +58,20 @@ impl<R: Read> Records for CsvRecords<R> {
     type Record = csv::ByteRecord;
 
     fn header(&self) -> Result<Vec<String>, TableError> {
-        if let Some(format) = foreign::format(&self.raw) {
+        if let Some(format) = foreign::format(&self.raw_record) {
             return Err(TableError::NotCsv { format });
         }
-        if foreign::is_lfs_pointer(&self.raw) {
+        if foreign::is_lfs_pointer(&self.raw_record) {
             return Err(TableError::LfsPointer);
         }
-        match csv::StringRecord::from_byte_record(self.raw.clone()) {
+        match csv::StringRecord::from_byte_record(self.raw_record.clone()) {
             Ok(header) => Ok(header.iter().map(|name| name.trim().to_owned()).collect()),
-            Err(_) => Err(TableError::NotText),
+            Err(_) => Err(TableError::HeaderNotText),
         }
     }
 
     fn current(&self) -> &csv::ByteRecord {
-        &self.raw
+        &self.raw_record
     }
 
     fn bytes(&self) -> u64 {
@@ -87,20 +87,20 @@ impl<R: Read> Records for CsvRecords<R> {
 
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
         let before = self.reader.position().line();
-        if !self.reader.read_byte_record(&mut self.raw)? {
+        if !self.reader.read_byte_record(&mut self.raw_record)? {
             return Ok(None);
         }
         if let Some(line) = unclosed_quote_line(&self.reader) {
             let row = Some(self.rows);
             return Err(TableError::UnclosedQuote { row, line });
         }
-        add(&mut self.checksum, &self.raw);
+        add(&mut self.checksum, &self.raw_record);
         let row = self.rows;
         self.rows += 1;
         // The reader also skips empty lines before the row, so the line number is computed from the row's
         // end.
         let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
-        let within: u64 = self.raw.iter().map(ends).sum();
+        let within: u64 = self.raw_record.iter().map(ends).sum();
         let after = self.reader.position().line();
         Ok(Some(RowPosition {
             row,
@@ -112,7 +112,7 @@ impl<R: Read> Records for CsvRecords<R> {
 impl Record for csv::ByteRecord {
     fn check(&self, columns: &Columns) -> Result<(), RowProblem> {
         if self.len() != columns.len() {
-            return Err(RowProblem::WrongLength {
+            return Err(RowProblem::WrongCellCount {
                 cells: self.len(),
                 columns: columns.len(),
             });
@@ -126,11 +126,11 @@ impl Record for csv::ByteRecord {
     }
 
     fn is_given(&self, cell: usize) -> bool {
-        !trimmed(self, cell).is_empty()
+        !trimmed_cell(self, cell).is_empty()
     }
 
     fn number(&self, cell: usize) -> Result<Option<f64>, String> {
-        match trimmed(self, cell) {
+        match trimmed_cell(self, cell) {
             text if text.is_empty() => Ok(None),
             text => match text.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(Some(value)),
@@ -140,13 +140,13 @@ impl Record for csv::ByteRecord {
     }
 
     fn text(&self, cell: usize) -> Option<String> {
-        let text = trimmed(self, cell);
+        let text = trimmed_cell(self, cell);
         (!text.is_empty()).then(|| text.into_owned())
     }
 }
 
 /// Returns the text of a cell without the spaces around it.
-fn trimmed(record: &csv::ByteRecord, cell: usize) -> Cow<'_, str> {
+fn trimmed_cell(record: &csv::ByteRecord, cell: usize) -> Cow<'_, str> {
     let text = String::from_utf8_lossy(record.get(cell).unwrap_or_default());
     match text {
         Cow::Borrowed(text) => text.trim().into(),

@@ -43,12 +43,12 @@ pub enum TableError {
     },
     /// The header is not text.
     #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
-    NotText,
+    HeaderNotText,
     /// The cells are not separated by commas.
     #[error(
         "header: cells are separated by {found:?}; use commas, and numbers with a decimal point: {header}"
     )]
-    Separator {
+    WrongSeparator {
         /// The separator.
         found: char,
         /// The header.
@@ -136,7 +136,7 @@ pub enum RowProblem {
     },
     /// The row has more or fewer cells than the header.
     #[error("has {cells} cells, but the header has {columns} columns")]
-    WrongLength {
+    WrongCellCount {
         /// The number of cells of the row.
         cells: usize,
         /// The number of columns of the header.
@@ -190,7 +190,7 @@ pub enum RowProblem {
         Number(*.time),
         Number(*.before)
     )]
-    NotLater {
+    TimeNotLater {
         /// The time of the row.
         time: f64,
         /// The time of the row before.
@@ -230,7 +230,7 @@ pub enum RowProblem {
         "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {left:.3} radians away from this orientation; \
          a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
     )]
-    LedElsewhere {
+    OrientationMismatch {
         /// The letter of the body, as in the columns' prefix.
         body: char,
         /// The angle between both orientations, in radians.

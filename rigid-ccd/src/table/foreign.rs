@@ -37,7 +37,7 @@ pub(super) fn is_index_of_pandas(column: &str) -> bool {
 }
 
 /// Returns the separator in a header that has no commas; `None` if there is none.
-pub(super) fn separator(header: &str) -> Option<char> {
+pub(super) fn header_separator(header: &str) -> Option<char> {
     [';', '\t', '|']
         .into_iter()
         .find(|&mark| header.contains(mark))

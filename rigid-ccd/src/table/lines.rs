@@ -10,7 +10,7 @@ pub struct Lines<R> {
     after_carriage_return: bool,
     /// The number of bytes read from the input, and the number of those dropped: the marks, and one for each `\r\n`.
     bytes: u64,
-    left_out: u64,
+    dropped_bytes: u64,
 }
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -36,13 +36,13 @@ impl<R: Read> Lines<R> {
             input: io::Cursor::new(start).chain(input),
             after_carriage_return: false,
             bytes: marks,
-            left_out: marks,
+            dropped_bytes: marks,
         })
     }
 
     /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
     pub fn input_bytes_for(&self, taken: u64) -> u64 {
-        self.bytes.min(taken + self.left_out)
+        self.bytes.min(taken + self.dropped_bytes)
     }
 }
 
@@ -68,7 +68,7 @@ impl<R: Read> Read for Lines<R> {
                     kept += 1;
                 }
             }
-            self.left_out += (read - kept) as u64;
+            self.dropped_bytes += (read - kept) as u64;
             // A read of 0 bytes would mean the end of the input.
             if kept > 0 || read == 0 {
                 return Ok(kept);

@@ -85,7 +85,7 @@ impl Paths {
     }
 
     /// Skips paths without parsing their poses, and returns the number skipped.
-    pub(super) fn skip<S: Records>(
+    pub(super) fn skip_paths<S: Records>(
         &mut self,
         rows: &mut MotionRows<S>,
         paths: usize,
@@ -146,7 +146,8 @@ impl Paths {
         let mut bad: Option<(RowPosition, RowProblem)> = None;
         let read = self.read(rows, |position, columns, record| {
             if bad.is_none() {
-                let found = row::poses(columns, record).and_then(|row| check_later(&poses, row));
+                let found =
+                    row::poses(columns, record).and_then(|row| check_row_is_later(&poses, row));
                 match found {
                     Ok(row) => poses.push(row),
                     Err(problem) => bad = Some((position, problem)),
@@ -184,13 +185,13 @@ struct FirstRow {
 }
 
 /// Returns `row`, or an error if it is not later than the row before, also after subtracting the first time.
-fn check_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
+fn check_row_is_later(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
     let [since, since_before] = [time, before.time].map(|time| time - first.time);
     if time <= before.time {
-        return Err(RowProblem::NotLater {
+        return Err(RowProblem::TimeNotLater {
             time,
             before: before.time,
         });
@@ -225,7 +226,7 @@ fn check_orientation(
     if before.spin == DVec3::ZERO || left <= MAX_RESIDUAL_ROTATION {
         Ok(())
     } else {
-        Err(RowProblem::LedElsewhere { body, left })
+        Err(RowProblem::OrientationMismatch { body, left })
     }
 }
 
@@ -268,12 +269,12 @@ impl Path {
     }
 
     /// Converts a time measured from the start to the table's time, rounded down.
-    pub fn earliest(&self, time: f64) -> f64 {
+    pub fn table_time_rounded_down(&self, time: f64) -> f64 {
         self.table_time(time, -1.0)
     }
 
     /// Converts a time measured from the start to the table's time, rounded up.
-    pub fn latest(&self, time: f64) -> f64 {
+    pub fn table_time_rounded_up(&self, time: f64) -> f64 {
         self.table_time(time, 1.0)
     }
 

@@ -26,7 +26,7 @@ enum State {
     /// The next byte is between quotes.
     Quoted,
     /// The last byte was a quote that closes the cell unless another quote follows.
-    Closing,
+    AfterClosingQuote,
 }
 
 impl<R> QuoteTracker<R> {
@@ -53,14 +53,14 @@ impl<R> QuoteTracker<R> {
         (self.state == State::Quoted && self.quote_line < line).then_some(self.quote_line)
     }
 
-    fn follow(&mut self, byte: u8) {
+    fn track_byte(&mut self, byte: u8) {
         self.state = match (self.state, byte) {
             (State::Start, b'"') => {
                 self.quote_line = self.line;
                 State::Quoted
             }
-            (State::Closing, b'"') => State::Quoted,
-            (State::Quoted, b'"') => State::Closing,
+            (State::AfterClosingQuote, b'"') => State::Quoted,
+            (State::Quoted, b'"') => State::AfterClosingQuote,
             (State::Quoted, _) => State::Quoted,
             (_, b',' | b'\n') => State::Start,
             _ => State::Plain,
@@ -73,7 +73,7 @@ impl<R: Read> Read for QuoteTracker<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let read = self.input.read(out)?;
         let mut bytes = &out[..read];
-        let within_quotes = matches!(self.state, State::Quoted | State::Closing);
+        let within_quotes = matches!(self.state, State::Quoted | State::AfterClosingQuote);
         // Most tables have no quotes, and a search for them is many times as fast as tracking each byte.
         if !within_quotes && !bytes.contains(&b'"') {
             let Some((_, before)) = bytes.split_last() else {
@@ -84,7 +84,7 @@ impl<R: Read> Read for QuoteTracker<R> {
             bytes = &bytes[before.len()..];
         }
         for &byte in bytes {
-            self.follow(byte);
+            self.track_byte(byte);
         }
         Ok(read)
     }

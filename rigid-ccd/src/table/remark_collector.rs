@@ -24,7 +24,7 @@ impl RemarkCollector {
 
     /// Adds a remark if a motion's angular velocity seems to be in degrees.
     pub(in crate::table) fn note_motion(&self, motion: &Motion, duration: f64) {
-        if !Remark::is_fast(motion.spin(), duration) {
+        if !Remark::is_fast_rotation(motion.spin(), duration) {
             return;
         }
         match Remark::of_spin(motion.spin(), duration) {

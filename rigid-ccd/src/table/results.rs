@@ -7,8 +7,8 @@ mod columns;
 mod status;
 
 #[cfg(feature = "command")]
-pub(crate) use columns::columns_of;
-pub use columns::{COLUMNS, COUNTERS, Cells, Column, Line, columns, names};
+pub(crate) use columns::reordered_columns;
+pub use columns::{COLUMNS, COUNTER_COLUMNS, Cells, Column, Line, columns, names};
 pub use status::Status;
 
 use crate::batch::question::Question;
@@ -109,7 +109,7 @@ impl ResultRow {
 
     /// Creates the row of two features in contact, without a status and counts.
     #[cfg(feature = "command")]
-    pub(crate) fn of_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
+    pub(crate) fn of_feature_pair(id: &str, time: f64, pair: &ccd_core::FeaturePair) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
             ..ResultRow::default()

@@ -3,7 +3,7 @@ use super::Number;
 #[cfg(feature = "command")]
 #[test]
 fn nothing_controls_a_terminal() {
-    use super::Printable;
+    use super::PrintableText;
     for (text, expected) in [
         ("café 部品 −1", "café 部品 −1"),
         ("\u{1b}[31mred\u{7}", "\\u{1b}[31mred\\u{7}"),
@@ -13,7 +13,7 @@ fn nothing_controls_a_terminal() {
             "\\u{9b}2J\\u{0}\\u{7f}\\u{202e}txt.exe",
         ),
     ] {
-        assert_eq!(Printable(text).to_string(), expected);
+        assert_eq!(PrintableText(text).to_string(), expected);
     }
 }
 

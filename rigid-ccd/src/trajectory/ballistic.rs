@@ -1,7 +1,7 @@
 //! The trajectory of a thrown body.
 
 use super::U;
-use super::checks::finite;
+use super::checks::finite_vector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -37,7 +37,7 @@ impl Ballistic {
     pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Ballistic {
             thrown,
-            acceleration: finite(acceleration, "acceleration")?,
+            acceleration: finite_vector(acceleration, "acceleration")?,
         })
     }
 }

@@ -3,7 +3,11 @@
 use ccd_core::InputError;
 use ccd_core::glam::DVec3;
 
-pub(super) fn out_of_range(what: &'static str, value: f64, allowed: &'static str) -> InputError {
+pub(super) fn out_of_range_error(
+    what: &'static str,
+    value: f64,
+    allowed: &'static str,
+) -> InputError {
     InputError::OutOfRange {
         what,
         value,
@@ -12,7 +16,10 @@ pub(super) fn out_of_range(what: &'static str, value: f64, allowed: &'static str
 }
 
 /// Returns a vector, or an error with the name `what` if it is not finite.
-pub(super) fn finite(vector: impl Into<[f64; 3]>, what: &'static str) -> Result<DVec3, InputError> {
+pub(super) fn finite_vector(
+    vector: impl Into<[f64; 3]>,
+    what: &'static str,
+) -> Result<DVec3, InputError> {
     let vector = DVec3::from_array(vector.into());
     if vector.is_finite() {
         Ok(vector)
@@ -26,7 +33,11 @@ pub(super) fn check_duration(duration: f64) -> Result<(), InputError> {
     if duration > 0.0 && duration.is_finite() {
         Ok(())
     } else {
-        Err(out_of_range("duration", duration, "positive and finite"))
+        Err(out_of_range_error(
+            "duration",
+            duration,
+            "positive and finite",
+        ))
     }
 }
 
@@ -41,6 +52,6 @@ pub(super) fn check_later(
         Ok(())
     } else {
         let allowed = "finite and later than the one before";
-        Err(out_of_range(what, time, allowed))
+        Err(out_of_range_error(what, time, allowed))
     }
 }

@@ -1,8 +1,8 @@
 //! Curves in space: Bézier curves and B-splines.
 
 use super::U;
-use super::checks::{check_duration, finite, out_of_range};
-use super::segments::{self, Segments, greatest};
+use super::checks::{check_duration, finite_vector, out_of_range_error};
+use super::segments::{self, Segments, greater_bound};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
@@ -171,7 +171,7 @@ impl Segment {
     fn derivative_bound(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.derivative_control_points(order).into_iter();
-            points.map(length).fold(0.0, greatest)
+            points.map(length).fold(0.0, greater_bound)
         };
         let half = 0.5 * (to - from);
         let middle = length(self.derivative(order, self.share(from + half)));
@@ -190,12 +190,15 @@ fn control_points(
             1 => "at least 1",
             _ => "at least 4, of a B-spline",
         };
-        return Err(out_of_range(
+        return Err(out_of_range_error(
             "number of points",
             points.len() as f64,
             allowed,
         ));
     }
     check_duration(duration)?;
-    points.iter().map(|&point| finite(point, "point")).collect()
+    points
+        .iter()
+        .map(|&point| finite_vector(point, "point"))
+        .collect()
 }

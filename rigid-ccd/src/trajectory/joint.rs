@@ -1,6 +1,6 @@
 //! A joint of a serial chain, and the motion of the link after it.
 
-use super::checks::out_of_range;
+use super::checks::out_of_range_error;
 use super::screw::unit_axis;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
@@ -119,7 +119,11 @@ impl Joint {
         // A joint at rest may take no time.
         let least = if from == to { 0.0 } else { f64::from_bits(1) };
         if !(least..=f64::MAX).contains(&duration) {
-            return Err(out_of_range("duration", duration, "positive and finite"));
+            return Err(out_of_range_error(
+                "duration",
+                duration,
+                "positive and finite",
+            ));
         }
         let rate = if from == to {
             0.0

@@ -168,7 +168,7 @@ impl<'c> Link<'c> {
 
 impl SmoothTrajectory for Link<'_> {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
-        self.state(time)?.tangent()
+        self.state(time)?.to_motion()
     }
 
     fn accelerations(&self, from: f64, to: f64) -> AccelerationBounds {
@@ -186,7 +186,7 @@ impl SmoothTrajectory for Link<'_> {
             vector: state.acceleration,
             jerk: self.link_bounds(from, to).jerks.linear,
         };
-        Ok((state.tangent()?, Some(acceleration)))
+        Ok((state.to_motion()?, Some(acceleration)))
     }
 
     /// Bounds the rounding errors of poses: each joint adds those of a product of poses and of its angle.
@@ -228,7 +228,7 @@ impl State {
         }
     }
 
-    fn tangent(&self) -> Result<Motion, InputError> {
+    fn to_motion(&self) -> Result<Motion, InputError> {
         Motion::new(self.pose, self.velocity, self.spin)
     }
 
@@ -261,7 +261,7 @@ impl State {
 /// Bounds on the derivatives of a link's pose, accumulated joint by joint.
 #[derive(Clone, Copy, Debug, Default)]
 struct LinkBounds {
-    speeds: Speeds,
+    speeds: SpeedBounds,
     accelerations: AccelerationBounds,
     /// The bounds on the derivatives of the accelerations.
     jerks: AccelerationBounds,
@@ -275,7 +275,7 @@ struct LinkBounds {
 
 /// Bounds on the speeds of a link, per unit of time.
 #[derive(Clone, Copy, Debug, Default)]
-struct Speeds {
+struct SpeedBounds {
     linear: f64,
     angular: f64,
 }
@@ -326,7 +326,7 @@ impl LinkBounds {
 
     /// Adds the motion of a point at distance `length` that rotates with the link.
     fn add_arm(&mut self, length: f64) {
-        let Speeds { angular, .. } = self.speeds;
+        let SpeedBounds { angular, .. } = self.speeds;
         let turning = self.accelerations.angular;
         self.jerks.linear +=
             (self.jerks.angular + (3.0 * turning + angular * angular) * angular) * length;

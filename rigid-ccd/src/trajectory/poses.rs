@@ -5,7 +5,7 @@ mod segment;
 pub(crate) use segment::{MAX_RESIDUAL_ROTATION, residual_rotation};
 
 use super::U;
-use super::checks::{check_later, finite, out_of_range};
+use super::checks::{check_later, finite_vector, out_of_range_error};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -48,7 +48,7 @@ impl Poses {
     /// [`InputError::OutOfRange`] for no pose, and for times that do not increase.
     pub fn new(poses: Vec<(f64, Pose)>) -> Result<Self, InputError> {
         if poses.is_empty() {
-            return Err(out_of_range("number of poses", 0.0, "at least 1"));
+            return Err(out_of_range_error("number of poses", 0.0, "at least 1"));
         }
         let mut before = None;
         for &(time, _) in &poses {
@@ -66,7 +66,7 @@ impl Poses {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = finite(centre, "centre")?;
+        let centre = finite_vector(centre, "centre")?;
         Ok(Poses { centre, ..self })
     }
 
@@ -97,16 +97,20 @@ impl Poses {
         if spins.len() + 1 != self.poses.len() {
             let allowed = "one for each pose but the last";
             let given = spins.len() as f64;
-            return Err(out_of_range("number of angular velocities", given, allowed));
+            return Err(out_of_range_error(
+                "number of angular velocities",
+                given,
+                allowed,
+            ));
         }
         let spins: Vec<DVec3> = spins.into_iter().map(DVec3::from).collect();
         for (two, &spin) in self.poses.windows(2).zip(&spins) {
             let [(begin, from), (end, to)] = [two[0], two[1]];
-            finite(spin, "angular velocity")?;
+            finite_vector(spin, "angular velocity")?;
             let left = length(residual_rotation([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
             if spin != DVec3::ZERO && !(left <= MAX_RESIDUAL_ROTATION) {
-                return Err(out_of_range(
+                return Err(out_of_range_error(
                     "angle from where an angular velocity leads to the next pose",
                     left,
                     "at most a quarter turn",

@@ -4,7 +4,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::length;
 
 /// Returns the shortest rotation vector of a unit quaternion, in radians.
-pub(super) fn logarithm(q: DQuat) -> DVec3 {
+pub(super) fn rotation_vector(q: DQuat) -> DVec3 {
     let q = if q.w < 0.0 { -q } else { q };
     let sine = length(q.xyz());
     if sine > 0.0 {

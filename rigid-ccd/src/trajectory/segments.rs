@@ -17,7 +17,7 @@ pub(super) struct Segment<T> {
 pub(super) struct Segments<T>(pub(super) Vec<Segment<T>>);
 
 /// Returns the greater of two bounds; infinity if the second one is NaN, which bounds nothing.
-pub(super) fn greatest(most: f64, bound: f64) -> f64 {
+pub(super) fn greater_bound(most: f64, bound: f64) -> f64 {
     if bound.is_nan() {
         f64::INFINITY
     } else {
@@ -52,7 +52,7 @@ impl<T> Segments<T> {
     /// Returns the greatest value of `bound` over the segments between two times.
     pub(super) fn greatest(&self, from: f64, to: f64, bound: impl Fn(&Segment<T>) -> f64) -> f64 {
         let segments = self.overlapping_segments(from, to).iter();
-        segments.map(bound).fold(0.0, greatest)
+        segments.map(bound).fold(0.0, greater_bound)
     }
 
     /// Bounds the effect of jumps of the velocity at knots strictly inside an interval, as an acceleration with the

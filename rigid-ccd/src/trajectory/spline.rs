@@ -1,6 +1,6 @@
 //! The trajectory of a body that follows a curve and rotates.
 
-use super::checks::finite;
+use super::checks::finite_vector;
 use super::curve::Curve;
 use super::turns::OrientationCurve;
 use ccd_core::glam::DVec3;
@@ -39,7 +39,7 @@ impl Spline {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = finite(centre, "centre")?;
+        let centre = finite_vector(centre, "centre")?;
         Ok(Spline { centre, ..self })
     }
 }

@@ -35,13 +35,19 @@ fn check<T: Trajectory>(
     at_least: f64,
     make: impl Fn(&mut Rng) -> Result<T, InputError>,
 ) {
-    const TRAJECTORIES: u64 = 50;
+    const TRAJECTORY_COUNT: u64 = 50;
     let mut rng = Rng::seed_from_u64(1);
     let mut tightest = 0.0;
-    for number in 0..TRAJECTORIES {
+    for number in 0..TRAJECTORY_COUNT {
         let trajectory = make(&mut rng).unwrap();
-        let worst =
-            worst_deviation(&trajectory, 2.0, 1.5, draw_count() / TRAJECTORIES, number).unwrap();
+        let worst = worst_deviation(
+            &trajectory,
+            2.0,
+            1.5,
+            draw_count() / TRAJECTORY_COUNT,
+            number,
+        )
+        .unwrap();
         assert!(worst.ratio <= 1.0, "{name} {number}: {worst:?}");
         tightest = ccd_core::order::greater(tightest, worst.ratio);
     }
@@ -55,7 +61,7 @@ fn motion(rng: &mut Rng) -> Result<Motion, InputError> {
     Motion::about(pose(rng, 3.0), vector(rng, 3.0), spin, vector(rng, 1.0))
 }
 
-fn ballistic(rng: &mut Rng) -> Result<Ballistic, InputError> {
+fn random_ballistic(rng: &mut Rng) -> Result<Ballistic, InputError> {
     Ballistic::new(motion(rng)?, vector(rng, 10.0))
 }
 
@@ -75,27 +81,29 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
 
 /// How the axes of a chain's joints are chosen.
 #[derive(Clone, Copy, PartialEq)]
-enum Axes {
+enum AxisChoice {
     Any,
     Parallel,
     /// The axes are along x, y or z, so that some are parallel to each other.
     AlongCoordinates,
 }
 
-fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
+fn arm(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
     let joint = |k: usize| {
         let axis = match axes {
-            Axes::Any => vector(rng, 1.0),
-            Axes::Parallel => DVec3::Z,
-            Axes::AlongCoordinates => DVec3::AXES[rng.random_range(0..3)],
+            AxisChoice::Any => vector(rng, 1.0),
+            AxisChoice::Parallel => DVec3::Z,
+            AxisChoice::AlongCoordinates => DVec3::AXES[rng.random_range(0..3)],
         };
         let origin = match axes {
-            Axes::Any => pose(rng, 1.0),
-            Axes::Parallel | Axes::AlongCoordinates => Pose::at(vector(rng, 1.0)).unwrap(),
+            AxisChoice::Any => pose(rng, 1.0),
+            AxisChoice::Parallel | AxisChoice::AlongCoordinates => {
+                Pose::at(vector(rng, 1.0)).unwrap()
+            }
         };
         match k % 4 {
             3 => Joint::prismatic(origin, vector(rng, 1.0)),
-            2 if axes == Axes::Any => Ok(Joint::fixed(origin)),
+            2 if axes == AxisChoice::Any => Ok(Joint::fixed(origin)),
             _ => Joint::revolute(origin, axis),
         }
     };
@@ -106,7 +114,7 @@ fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
 /// Tests a thrown body, whose deviation is due to rounding alone.
 #[test]
 fn thrown() {
-    check("ballistic", 0.0, ballistic);
+    check("ballistic", 0.0, random_ballistic);
 }
 
 #[test]
@@ -264,7 +272,7 @@ struct OwnedLink {
 }
 
 impl OwnedLink {
-    fn draw(rng: &mut Rng, axes: Axes) -> Result<Self, InputError> {
+    fn draw(rng: &mut Rng, axes: AxisChoice) -> Result<Self, InputError> {
         let count = rng.random_range(1..8);
         let chain = arm(rng, count, axes);
         let first: Vec<f64> = (0..count).map(|_| rng.random_range(-2.0..2.0)).collect();
@@ -301,29 +309,29 @@ impl Trajectory for OwnedLink {
 #[test]
 fn links() {
     check("link of a chain", 0.2, |rng| {
-        OwnedLink::draw(rng, Axes::Any)
+        OwnedLink::draw(rng, AxisChoice::Any)
     });
 }
 
 #[test]
 fn links_with_parallel_axes() {
     check("link, parallel axes", 0.5, |rng| {
-        OwnedLink::draw(rng, Axes::Parallel)
+        OwnedLink::draw(rng, AxisChoice::Parallel)
     });
 }
 
 #[test]
 fn links_with_axes_across() {
     check("link, axes across", 0.5, |rng| {
-        OwnedLink::draw(rng, Axes::AlongCoordinates)
+        OwnedLink::draw(rng, AxisChoice::AlongCoordinates)
     });
 }
 
 /// Tests that the check finds a trajectory whose bound is too small.
 #[test]
 fn a_false_bound_is_found() {
-    struct FalseBound(Spline);
-    impl Trajectory for FalseBound {
+    struct FalselyBoundedSpline(Spline);
+    impl Trajectory for FalselyBoundedSpline {
         fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch(from, to)?;
             stretch.deviation.shift *= 0.9;
@@ -333,7 +341,7 @@ fn a_false_bound_is_found() {
     let mut rng = Rng::seed_from_u64(2);
     let curve = Curve::bezier(&points(&mut rng, 4), 2.0).unwrap();
     let spline = Spline::new(curve, OrientationCurve::NONE);
-    let worst = worst_deviation(&FalseBound(spline), 2.0, 1.0, 1_000, 1).unwrap();
+    let worst = worst_deviation(&FalselyBoundedSpline(spline), 2.0, 1.0, 1_000, 1).unwrap();
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
@@ -354,7 +362,7 @@ fn stretches_between_knots_accelerate() {
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);
     for _ in 0..200 {
-        let owned = OwnedLink::draw(&mut rng, Axes::Any).unwrap();
+        let owned = OwnedLink::draw(&mut rng, AxisChoice::Any).unwrap();
         let other = owned.link / 2;
         let [first, last] = &owned.positions;
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();
@@ -373,11 +381,11 @@ fn tangents_have_the_velocities_of_poses() {
     let step = 1e-6;
     for _ in 0..100 {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
-        let chain = arm(&mut rng, 5, Axes::Any);
+        let chain = arm(&mut rng, 5, AxisChoice::Any);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
         let turns = OrientationCurve::slerp(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), turns);
-        let thrown = ballistic(&mut rng).unwrap();
+        let thrown = random_ballistic(&mut rng).unwrap();
         let all: [&dyn SmoothTrajectory; 3] = [&link, &spline, &thrown];
         let time = rng.random_range(0.1..1.9);
         for (number, smooth) in all.into_iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Orientations over time: slerp through given orientations.
 
 use super::U;
-use super::checks::{check_later, out_of_range};
-use super::rotation::logarithm;
+use super::checks::{check_later, out_of_range_error};
+use super::rotation::rotation_vector;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -50,7 +50,7 @@ impl OrientationCurve {
         let keys = aligned_quaternions(keys)?;
         let segment = |two: &[(f64, DQuat)]| {
             let [(from, start), (to, end)] = [two[0], two[1]];
-            let spin = logarithm(end * start.conjugate()) / (to - from);
+            let spin = rotation_vector(end * start.conjugate()) / (to - from);
             let course = Turn { start, spin };
             Segment { from, to, course }
         };
@@ -111,7 +111,11 @@ fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, In
         units.push((time, if turned { -unit } else { unit }));
     }
     if units.is_empty() {
-        Err(out_of_range("number of orientations", 0.0, "at least 1"))
+        Err(out_of_range_error(
+            "number of orientations",
+            0.0,
+            "at least 1",
+        ))
     } else {
         Ok(units)
     }

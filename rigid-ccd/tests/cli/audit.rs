@@ -3,17 +3,17 @@
 use super::command::{Run, Scene, assert_contains, parse, stderr};
 
 /// A ball that flies through a plate. Of ten equal steps of the fast shots none is in the plate.
-const BALL_AND_PLATE: [&str; 4] = ["--a", "sphere:0.5", "--b", "box:0.001,5,5"];
-const SHOTS: &str =
+const BALL_AND_PLATE_OPTIONS: [&str; 4] = ["--a", "sphere:0.5", "--b", "box:0.001,5,5"];
+const SHOTS_TABLE: &str =
     "id,a_px,a_py,a_vx\nbeside,-3,6,60\nfast,-3,0,60\nfast/2,-3,0,70\ntouching,0.501,0,0\n";
 
 fn audit() -> Run {
-    Run::with_args(&["audit", "--motions", "-"]).args(&BALL_AND_PLATE)
+    Run::with_args(&["audit", "--motions", "-"]).args(&BALL_AND_PLATE_OPTIONS)
 }
 
 #[test]
 fn rows_that_are_not_free_are_listed() {
-    let output = audit().stdin(SHOTS).ends(3);
+    let output = audit().stdin(SHOTS_TABLE).ends(3);
     let rows = parse(&output.stdout);
     let ids: Vec<&str> = rows.iter().map(|row| row.text("id")).collect();
     assert_eq!(ids, ["fast", "fast/2", "touching"]);
@@ -49,7 +49,7 @@ fn each_has_a_page() {
     let pages = scene.directory.join("pages");
     let _ = std::fs::remove_dir_all(&pages);
     let run = audit().folder(&scene.directory).args(&["--pages", "pages"]);
-    let rows = parse(&run.stdin(SHOTS).output().stdout);
+    let rows = parse(&run.stdin(SHOTS_TABLE).output().stdout);
     let named: Vec<&str> = rows.iter().map(|row| row.text("page")).collect();
     let names = ["fast.html", "fast_2.html", "touching.html"];
     assert_eq!(named, names.map(|name| format!("pages/{name}")));
@@ -59,7 +59,7 @@ fn each_has_a_page() {
     }
     let few = audit().folder(&scene.directory);
     let few = few.args(&["--pages", "pages", "--most-pages", "1"]);
-    let output = few.stdin(SHOTS).output();
+    let output = few.stdin(SHOTS_TABLE).output();
     let rows = parse(&output.stdout);
     assert_eq!(
         [0, 1, 2].map(|k| rows[k].text("page")),
@@ -89,15 +89,15 @@ fn unreadable_and_unwritable_files_are_refused() {
     let scene = Scene::new("audit-refused");
     let file = scene.file("file", "");
     let run = audit().args(&["--pages", file.to_str().unwrap()]);
-    assert_eq!(run.stdin(SHOTS).output().status.code(), Some(1));
+    assert_eq!(run.stdin(SHOTS_TABLE).output().status.code(), Some(1));
     let missing = scene.directory.join("none/pages");
     let run = audit().args(&["--pages", missing.to_str().unwrap()]);
-    assert_eq!(run.stdin(SHOTS).output().status.code(), Some(1));
-    let motions = scene.file("motions.csv", SHOTS);
+    assert_eq!(run.stdin(SHOTS_TABLE).output().status.code(), Some(1));
+    let motions = scene.file("motions.csv", SHOTS_TABLE);
     let motions = motions.to_str().unwrap();
-    let run =
-        Run::with_args(&["audit", "--motions", motions, "--out", motions]).args(&BALL_AND_PLATE);
-    let message = run.fails(2);
+    let run = Run::with_args(&["audit", "--motions", motions, "--out", motions])
+        .args(&BALL_AND_PLATE_OPTIONS);
+    let message = run.expect_messages(2);
     assert_contains(&message, "would overwrite");
     audit().stdin("a_x\n1\n").ends(2);
 }

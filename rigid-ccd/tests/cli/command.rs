@@ -64,7 +64,7 @@ impl Run {
     /// Runs the command, checks that it ends with the exit code `code`, and returns its messages.
     #[track_caller]
     #[allow(dead_code, reason = "ccd-bench's tests share this file without it")]
-    pub(crate) fn fails(&self, code: i32) -> String {
+    pub(crate) fn expect_messages(&self, code: i32) -> String {
         stderr(&self.ends(code))
     }
 

@@ -156,7 +156,8 @@ fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
     let mesh = knot(&scene);
     let out = scene.directory.join("knot.ccd");
     statistics(&mesh, &["--pieces", kind, "--out", name(&out)]);
-    let all = |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::without_micros).collect() };
+    let all =
+        |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::cells_without_micros).collect() };
     let empty_folder = all(answers(&mesh, &["--pieces", kind]));
     assert!(empty_folder.iter().any(|row| row[1] == "contact"));
     assert_eq!(all(answers(&out, &[])), empty_folder);
@@ -284,7 +285,7 @@ fn unreadable_stored_bodies_are_reported() {
         std::fs::write(&out, bytes).unwrap();
         let message = Run::query(&["--a", name(&out), "--b", "sphere:1"])
             .stdin("id\n")
-            .fails(2);
+            .expect_messages(2);
         assert!(
             message.contains("--a: ") && message.contains(expected),
             "{message}"
@@ -312,7 +313,7 @@ fn a_missing_folder_is_reported_before_the_work() {
         let message = run
             .args(&["--out", out.to_str().unwrap()])
             .stdin("")
-            .fails(1);
+            .expect_messages(1);
         assert_contains(&message, "gone is a folder that does not exist");
     }
 }

@@ -112,14 +112,14 @@ fn part(path: &Path, part: &str) -> String {
 
 /// A table of motions in which a small ball falls at speed 1 from the height 4.
 const FALLING_BALL_MOTION: &str = "b_pz,b_vz,duration\n4,-1,4\n";
-const BALL: &str = "sphere:0.1";
+const BALL_SPEC: &str = "sphere:0.1";
 
 #[test]
 fn a_part_is_chosen_by_name_or_number() {
     let scene = Scene::new("parts");
     let file = scene.bytes("scene.glb", &glb());
     let top = |body: &str| {
-        let rows = Run::query(&["--a", body, "--b", BALL])
+        let rows = Run::query(&["--a", body, "--b", BALL_SPEC])
             .stdin(FALLING_BALL_MOTION)
             .expect_rows();
         assert_eq!(rows[0].text("status"), "contact", "{body}");
@@ -144,7 +144,7 @@ fn features_are_numbered_in_the_part_and_go_on_in_the_whole() {
     // The ball falls onto a corner.
     let corner = "b_px,b_py,b_pz,b_vz,duration\n0.5,0.5,4,-1,4\n";
     let feature = |body: &str| {
-        let rows = Run::query(&["--a", body, "--b", BALL])
+        let rows = Run::query(&["--a", body, "--b", BALL_SPEC])
             .stdin(corner)
             .expect_rows();
         rows[0].text("feature_a").to_owned()
@@ -160,7 +160,7 @@ fn an_unknown_part_lists_those_there_are() {
     for missing in ["top", "", "2"] {
         let body = part(&file, missing);
         for run in [
-            Run::query(&["--a", BALL, "--b", &body]).stdin(FALLING_BALL_MOTION),
+            Run::query(&["--a", BALL_SPEC, "--b", &body]).stdin(FALLING_BALL_MOTION),
             Run::with_args(&["decompose", &body]),
         ] {
             let output = run.ends(2);
@@ -180,7 +180,7 @@ fn a_mark_in_the_name_of_a_file_is_kept() {
     let scene = Scene::new("parts-marks");
     for file in ["part#1.obj", "#.obj", "scene.glb#lid.obj"] {
         let path = scene.file(file, crate::TETRAHEDRON);
-        let rows = Run::query(&["--a", name(&path), "--b", BALL])
+        let rows = Run::query(&["--a", name(&path), "--b", BALL_SPEC])
             .stdin("b_pz\n9\n")
             .expect_rows();
         assert_eq!(rows[0].text("status"), "free", "{file}");
@@ -206,7 +206,7 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
         ("#0@scale=3@surface", &[], 3.0),
     ] {
         let body = format!("{}{words}", name(&path));
-        let rows = Run::query(&["--a", &body, "--b", BALL])
+        let rows = Run::query(&["--a", &body, "--b", BALL_SPEC])
             .args(options)
             .stdin(FALLING_BALL_MOTION)
             .expect_rows();
@@ -219,8 +219,8 @@ fn files_are_adjusted_by_words_after_their_names_and_by_options() {
     for (word, option) in [("@scale=-1", "--scale=-1"), ("@mirror=w", "--mirror=w")] {
         let body = format!("{}{word}", name(&path));
         for run in [
-            Run::query(&["--a", &body, "--b", BALL]).stdin(FALLING_BALL_MOTION),
-            Run::query(&["--a", name(&path), "--b", BALL, option]).stdin(FALLING_BALL_MOTION),
+            Run::query(&["--a", &body, "--b", BALL_SPEC]).stdin(FALLING_BALL_MOTION),
+            Run::query(&["--a", name(&path), "--b", BALL_SPEC, option]).stdin(FALLING_BALL_MOTION),
             Run::with_args(&["decompose", &body]),
             Run::with_args(&["decompose", name(&path), option]),
         ] {
@@ -252,8 +252,8 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
     let rows = Run::query(&["--a", name(&out), "--b", "sphere:.01"]).stdin(inside);
     assert_eq!(rows.expect_rows()[0].text("status"), "free");
     // A prepared body is not adjusted.
-    let output =
-        Run::query(&["--a", name(&out), "--b", BALL, "--scale", "2"]).stdin(FALLING_BALL_MOTION);
+    let output = Run::query(&["--a", name(&out), "--b", BALL_SPEC, "--scale", "2"])
+        .stdin(FALLING_BALL_MOTION);
     assert!(stderr(&output.output()).contains("a prepared body has its unit"));
 }
 
@@ -262,7 +262,7 @@ fn a_body_inside_a_hollow_surface_touches_nothing() {
 #[test]
 fn cylinders_and_cones_are_bodies() {
     for (body, side) in [("cylinder:.5,.25", 0.5), ("cone:.5,.25,1e-6", 0.25)] {
-        let run = Run::query(&["--a", BALL, "--b", body, "--tolerance", "1e-7"]);
+        let run = Run::query(&["--a", BALL_SPEC, "--b", body, "--tolerance", "1e-7"]);
         let output = run.stdin("a_px,a_vx,duration\n-4,1,4\n").ends(0);
         assert_contains(&stderr(&output), "sticking out by up to");
         let rows = crate::parse(&output.stdout);
@@ -325,11 +325,11 @@ fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     assert_contains(&message, expected);
     // A primitive is in the user's unit; a file is in an unknown one.
     let plain = scene.file("plain.obj", crate::TETRAHEDRON);
-    for (other, is_told) in [(BALL, false), (name(&plain), true)] {
+    for (other, is_told) in [(BALL_SPEC, false), (name(&plain), true)] {
         let message = stderr(&query(&cube, other));
         assert_eq!(message.contains("give --unit"), is_told, "{message}");
     }
-    let output = Run::query(&["--a", BALL, "--b", BALL, "--unit", "mile"])
+    let output = Run::query(&["--a", BALL_SPEC, "--b", BALL_SPEC, "--unit", "mile"])
         .stdin(FALLING_BALL_MOTION)
         .output();
     let message = stderr(&output);
@@ -370,15 +370,23 @@ fn runs_know_their_unit_and_all_their_files() {
     let motions = scene.file("motions.csv", FALLING_BALL_MOTION);
     let results = scene.directory.join("results.csv");
     let run = |unit: &str| {
-        Run::with_args(&["query", "--a", name(&file), "--b", BALL, "--unit", unit])
-            .args(&[
-                "--motions",
-                name(&motions),
-                "--out",
-                name(&results),
-                "--resume",
-            ])
-            .output()
+        Run::with_args(&[
+            "query",
+            "--a",
+            name(&file),
+            "--b",
+            BALL_SPEC,
+            "--unit",
+            unit,
+        ])
+        .args(&[
+            "--motions",
+            name(&motions),
+            "--out",
+            name(&results),
+            "--resume",
+        ])
+        .output()
     };
     let first = run("m");
     assert!(first.status.success(), "{}", stderr(&first));
@@ -393,7 +401,7 @@ fn runs_know_their_unit_and_all_their_files() {
     assert_eq!(other.status.code(), Some(2));
     assert_contains(&stderr(&other), "--a");
     // Results must not replace a buffer either.
-    let output = Run::with_args(&["query", "--a", name(&file), "--b", BALL])
+    let output = Run::with_args(&["query", "--a", name(&file), "--b", BALL_SPEC])
         .args(&["--motions", name(&motions), "--out", name(&data)])
         .output();
     assert_contains(&stderr(&output), "--out would overwrite the file of --a");

@@ -44,7 +44,7 @@ impl Row {
         );
     }
 
-    pub(crate) fn without_micros(self) -> Vec<String> {
+    pub(crate) fn cells_without_micros(self) -> Vec<String> {
         let cells = self.0.into_iter().filter(|(name, _)| name != "micros");
         cells.map(|(_, value)| value).collect()
     }
@@ -130,7 +130,7 @@ fn a_deadline_leaves_a_row_unresolved() {
     let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&["--deadline", "0"])
         .stdin(FALLING_CUBE_MOTION)
-        .fails(0);
+        .expect_messages(0);
     assert!(
         message.contains("1 unresolved") && message.contains("--deadline"),
         "{message}"
@@ -215,7 +215,7 @@ fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() 
             .args(options)
             .stdin(&motions)
             .expect_rows();
-        rows.into_iter().map(Row::without_micros).collect()
+        rows.into_iter().map(Row::cells_without_micros).collect()
     };
     let one = answers(&[]);
     assert_eq!(one.len(), 64);

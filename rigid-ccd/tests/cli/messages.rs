@@ -3,11 +3,14 @@
 use crate::command::{Run, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, FALLING_CUBE_MOTION};
 
-const SPHERES: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
+const SPHERES_OPTIONS: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
 /// Returns the messages of a query with the given table.
 fn messages_of(table: &str) -> String {
-    let output = Run::query(&SPHERES).args(&["--quiet"]).stdin(table).ends(2);
+    let output = Run::query(&SPHERES_OPTIONS)
+        .args(&["--quiet"])
+        .stdin(table)
+        .ends(2);
     stderr(&output)
 }
 
@@ -32,7 +35,7 @@ fn every_cause_is_reported_once() {
         ("-", folder, "is a folder; name a mesh in it"),
     ] {
         let run = Run::with_args(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
-        let message = run.stdin("id\n1\n").fails(2);
+        let message = run.stdin("id\n1\n").expect_messages(2);
         let lines: Vec<&str> = message
             .lines()
             .filter(|line| line.starts_with("ccd: "))
@@ -102,7 +105,7 @@ fn sizes_are_reported_and_compared() {
     assert!(!message.contains("times as large"), "{message}");
     let message = Run::query(&["--a", "box:150,50,50", "--b", "sphere:1"])
         .stdin(motions)
-        .fails(0);
+        .expect_messages(0);
     assert_contains(&message, "--a is 150 times as large as --b");
 }
 
@@ -110,7 +113,7 @@ fn sizes_are_reported_and_compared() {
 fn selected_rows_have_the_same_answers() {
     let motions = "a_px\n5\n6\nbad\n8\n9\n";
     let answers = |rows: &str| {
-        let run = Run::query(&SPHERES).args(&["--no-micros", "--rows", rows]);
+        let run = Run::query(&SPHERES_OPTIONS).args(&["--no-micros", "--rows", rows]);
         let output = run.stdin(motions).output();
         let text = String::from_utf8(output.stdout).unwrap();
         let lines: Vec<String> = text.lines().skip(1).map(str::to_owned).collect();
@@ -121,7 +124,7 @@ fn selected_rows_have_the_same_answers() {
     assert_eq!(answers("2..4"), (Some(2), all[2..4].to_vec()));
     assert_eq!(answers("3.."), (Some(0), all[3..].to_vec()));
     assert_eq!(answers("7.."), (Some(0), Vec::new()));
-    let none = Run::query(&SPHERES)
+    let none = Run::query(&SPHERES_OPTIONS)
         .args(&["--rows", "7.."])
         .stdin(motions)
         .output();
@@ -130,7 +133,7 @@ fn selected_rows_have_the_same_answers() {
         "has 5 rows, and --rows 7.. selects none of them",
     );
     for bad in ["3", "4..4", "a..b", "-1..2"] {
-        Run::query(&SPHERES).args(&["--rows", bad]).ends(2);
+        Run::query(&SPHERES_OPTIONS).args(&["--rows", bad]).ends(2);
     }
     assert_eq!(parse(all.join("\n").as_bytes()).len(), 4);
 }
@@ -150,7 +153,7 @@ fn nothing_in_a_file_controls_the_terminal() {
             "--motions",
             motions.to_str().unwrap(),
         ])
-        .fails(2);
+        .expect_messages(2);
     for escaped in ["\\u{1b}[31mred.csv", "\\u{1b}[2Jx", "\\u{1b}[5m"] {
         assert_contains(&message, escaped);
     }
@@ -236,7 +239,9 @@ fn a_single_known_unit_is_reported_once() {
     let in_mm = format!("{plain}@mm");
     let large = format!("{plain}@scale=1000");
     let told = |options: &[&str]| {
-        let message = Run::query(options).stdin(FALLING_CUBE_MOTION).fails(0);
+        let message = Run::query(options)
+            .stdin(FALLING_CUBE_MOTION)
+            .expect_messages(0);
         let lines = message.lines().filter(|line| line.starts_with("ccd: "));
         lines.map(str::to_owned).collect::<Vec<_>>()
     };
@@ -295,7 +300,7 @@ fn a_page_of_rows_is_remarked_upon() {
         "--out",
         "page.html",
     ]);
-    let run = run.folder(&scene.directory).args(&SPHERES);
+    let run = run.folder(&scene.directory).args(&SPHERES_OPTIONS);
     let message = stderr(&run.output());
     assert_eq!(
         message.matches("a round number of degrees").count(),

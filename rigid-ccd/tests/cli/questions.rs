@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::fs;
 
 /// The options for two balls of radius 0.5.
-const BALLS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
+const BALLS_OPTIONS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
 /// A table of motions in which a ball passes another one at a distance of 0.2, nearest at time 0.5.
 const PASSING_MOTION: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
 
@@ -18,8 +18,8 @@ const VISIT_PATH: &str = "id,t,a_px,a_pz\n\
                      visit,13,0,1\n\
                      visit,14,5,1\n\
                      visit,18,5,3\n";
-const VISIT_BEGINS: f64 = 12.5;
-const VISIT_ENDS: f64 = 15.0;
+const VISIT_START_TIME: f64 = 12.5;
+const VISIT_END_TIME: f64 = 15.0;
 
 fn ask(question: &str, bodies: &[&str], table: &str) -> Run {
     Run::query(bodies).args(&["--ask", question]).stdin(table)
@@ -38,7 +38,7 @@ fn a_contact_is_found_at_any_time() {
     let time = row.number("time");
     assert!((DROP_TIME - 1e-3..=1.0).contains(&time), "{time}");
     assert!(row.number("distance_upper") <= 1e-3);
-    let row = only_row(&ask("is-free", &BALLS, PASSING_MOTION));
+    let row = only_row(&ask("is-free", &BALLS_OPTIONS, PASSING_MOTION));
     assert_eq!((row.text("status"), row.text("time")), ("free", "1.0"));
     assert_eq!(row.text("distance_lower"), "");
 }
@@ -79,13 +79,14 @@ fn an_interval_begins_as_the_first_contact_does() {
 
 #[test]
 fn the_least_distance_is_bracketed_and_compared() {
-    let row = only_row(&ask("closest-approach", &BALLS, PASSING_MOTION));
+    let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION));
     assert_eq!(row.text("status"), "measured");
     let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
     assert!(lower <= 0.2 && 0.2 <= upper && upper - lower <= 1e-3);
     assert!((row.number("time") - 0.5).abs() < 0.05);
     for (clearance, status) in [("0", "kept"), ("0.19", "kept"), ("0.21", "violated")] {
-        let run = ask("closest-approach", &BALLS, PASSING_MOTION).args(&["--clearance", clearance]);
+        let run = ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION)
+            .args(&["--clearance", clearance]);
         assert_eq!(only_row(&run).text("status"), status, "{clearance}");
     }
     let run = ask(
@@ -95,7 +96,7 @@ fn the_least_distance_is_bracketed_and_compared() {
     )
     .args(&["--clearance", "0.002"]);
     assert_eq!(only_row(&run).text("status"), "violated");
-    let run = ask("closest-approach", &BALLS, PASSING_MOTION).args(&[
+    let run = ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION).args(&[
         "--clearance",
         "0.2",
         "--tolerance",
@@ -137,7 +138,7 @@ fn a_clearance_of_cylinders_is_violated_beyond_their_excess_only() {
 #[test]
 fn a_clearance_that_is_decided_ends_the_search() {
     let visits = |more: &[&str]| {
-        let row = only_row(&ask("closest-approach", &BALLS, PASSING_MOTION).args(more));
+        let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, PASSING_MOTION).args(more));
         (row.number("iterations"), row)
     };
     let (kept, row) = visits(&["--clearance", "0.1"]);
@@ -171,19 +172,19 @@ fn the_distance_is_that_of_the_start() {
 fn paths_answer_every_question() {
     let row = only_row(&ask("first-contact", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
     assert_eq!((row.text("id"), row.text("status")), ("visit", "contact"));
-    row.assert_in_time(VISIT_BEGINS, 1.0);
+    row.assert_in_time(VISIT_START_TIME, 1.0);
 
     let row = only_row(&ask("is-free", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
     assert_eq!(row.text("status"), "contact");
     let time = row.number("time");
     assert!(
-        (VISIT_BEGINS - 1e-3..=VISIT_ENDS + 2e-3).contains(&time),
+        (VISIT_START_TIME - 1e-3..=VISIT_END_TIME + 2e-3).contains(&time),
         "{time}"
     );
 
     let row = only_row(&ask("contact-interval", &CUBE_AND_SLAB_OPTIONS, VISIT_PATH));
-    row.assert_in_time(VISIT_BEGINS, 1.0);
-    let late = row.number("last_time") - VISIT_ENDS;
+    row.assert_in_time(VISIT_START_TIME, 1.0);
+    let late = row.number("last_time") - VISIT_END_TIME;
     assert!((-1e-9..=2e-3).contains(&late), "{late} late");
 
     let over = VISIT_PATH.replace(",1\n", ",2\n");
@@ -311,7 +312,7 @@ fn options_without_a_use_are_refused() {
         let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
             .args(options)
             .stdin(VISIT_PATH)
-            .fails(2);
+            .expect_messages(2);
         assert_contains(&message, refusal);
     }
 }
@@ -320,13 +321,13 @@ fn options_without_a_use_are_refused() {
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
     let deeper = "a_px,a_vx\n0.9,-1.9\n";
-    let row = only_row(&ask("closest-approach", &BALLS, deeper));
+    let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, deeper));
     assert_eq!(
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
     );
     let path = "t,a_px\n0,0.9\n1,-1\n2,3\n";
-    let row = only_row(&ask("closest-approach", &BALLS, path));
+    let row = only_row(&ask("closest-approach", &BALLS_OPTIONS, path));
     assert_eq!(
         (row.text("status"), row.text("time")),
         ("overlapping", "0.0")
@@ -349,7 +350,7 @@ fn a_check_fails_unless_every_row_is_proven() {
         ("closest-approach", near, "violated", 3),
         ("closest-approach", open, "unverified", 3),
     ] {
-        let run = ask(asked, &BALLS, PASSING_MOTION).args(options);
+        let run = ask(asked, &BALLS_OPTIONS, PASSING_MOTION).args(options);
         assert_eq!(only_row(&run).text("status"), status, "{options:?}");
         let output = run.args(&["--check", "-q"]).output();
         assert_eq!(output.status.code(), Some(code), "{asked} {options:?}");
@@ -358,7 +359,10 @@ fn a_check_fails_unless_every_row_is_proven() {
     }
     // A bad row takes precedence.
     let two = format!("{}bad,x\n", "id,a_px\nnear,0\n");
-    Run::query(&BALLS).args(&["--check"]).stdin(&two).ends(2);
+    Run::query(&BALLS_OPTIONS)
+        .args(&["--check"])
+        .stdin(&two)
+        .ends(2);
     for (options, refusal) in [
         (&["--ask", "distance"][..], "--check needs --clearance"),
         (
@@ -366,8 +370,8 @@ fn a_check_fails_unless_every_row_is_proven() {
             "--check needs certified answers",
         ),
     ] {
-        let run = Run::query(&BALLS).args(&["--check"]).args(options);
-        let message = run.stdin(PASSING_MOTION).fails(2);
+        let run = Run::query(&BALLS_OPTIONS).args(&["--check"]).args(options);
+        let message = run.stdin(PASSING_MOTION).expect_messages(2);
         assert_contains(&message, refusal);
     }
 }

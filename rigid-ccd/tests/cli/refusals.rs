@@ -97,13 +97,15 @@ fn messages_name_the_bad_body_or_file() {
             "\"1e308\" is too large a length of \"box\"",
         ),
     ] {
-        let message = Run::query(&bodies).stdin(FALLING_CUBE_MOTION).fails(2);
+        let message = Run::query(&bodies)
+            .stdin(FALLING_CUBE_MOTION)
+            .expect_messages(2);
         assert_contains(&message, expected);
     }
     let message = Run::with_args(&["query", "--a", "sphere:1", "--b", "sphere:1"])
         .args(&["--motions", "nowhere.csv"])
         .stdin("")
-        .fails(2);
+        .expect_messages(2);
     assert_contains(&message, "nowhere.csv");
 }
 
@@ -129,7 +131,7 @@ fn bad_options_are_refused() {
         let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
             .args(&options)
             .stdin(FALLING_CUBE_MOTION)
-            .fails(2);
+            .expect_messages(2);
         assert_contains(&message, options[1]);
     }
 }
@@ -140,7 +142,7 @@ fn unwritable_results_have_exit_code_1() {
     let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
         .args(&options)
         .stdin(FALLING_CUBE_MOTION)
-        .fails(1);
+        .expect_messages(1);
     let folder = "/no/such/directory";
     assert_eq!(
         message.matches("is a folder that does not exist").count(),
@@ -183,12 +185,14 @@ fn git_lfs_pointers_are_recognised() {
         let mesh = scene.file(name, pointer);
         let message = Run::query(&["--a", mesh.to_str().unwrap(), "--b", "sphere:1"])
             .stdin(FALLING_CUBE_MOTION)
-            .fails(2);
+            .expect_messages(2);
         assert!(
             message.contains(advice) && message.contains("git lfs pull"),
             "{message}"
         );
     }
-    let message = Run::query(&CUBE_AND_SLAB_OPTIONS).stdin(pointer).fails(2);
+    let message = Run::query(&CUBE_AND_SLAB_OPTIONS)
+        .stdin(pointer)
+        .expect_messages(2);
     assert_contains(&message, advice);
 }

@@ -81,7 +81,7 @@ pub(crate) fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-const TABLES: [&str; 2] = ["results.csv", "contacts.csv"];
+const TABLE_FILE_NAMES: [&str; 2] = ["results.csv", "contacts.csv"];
 
 #[test]
 fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
@@ -91,7 +91,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 
     let scene = empty_folder("killed");
-    for name in TABLES {
+    for name in TABLE_FILE_NAMES {
         fs::write(path(&scene, name), "of old").unwrap();
     }
     let third = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
@@ -109,7 +109,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
         file.write_all(b"r9,con").unwrap();
     }
     run_and_kill(&scene, &["--resume", "--threads", "2"], &table[..2 * third]);
-    for name in TABLES {
+    for name in TABLE_FILE_NAMES {
         assert_eq!(read(&path(&scene, name)), "of old");
     }
     let output = run_to_end(query(&scene, &["--resume"]), &table);
@@ -125,14 +125,14 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     assert_contains(&message, "\n20000 rows: ");
     let here = count(", 20 error; ", " in this run; median");
     assert_eq!(here, Some(ROWS - done), "{message}");
-    for name in TABLES {
+    for name in TABLE_FILE_NAMES {
         assert!(
             read(&path(&scene, name)) == read(&path(&whole, name)),
             "{name} differs"
         );
     }
     let left = fs::read_dir(&scene.directory).unwrap().count();
-    assert_eq!(left, TABLES.len() + 1, "only the journal is left");
+    assert_eq!(left, TABLE_FILE_NAMES.len() + 1, "only the journal is left");
     assert!(path(&scene, "results.csv.resume").exists());
 }
 
@@ -225,7 +225,7 @@ fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
         let written = fs::metadata(&path).unwrap().modified().unwrap();
         (read(&path), written)
     };
-    TABLES.iter().map(table).collect()
+    TABLE_FILE_NAMES.iter().map(table).collect()
 }
 
 #[test]
@@ -313,7 +313,7 @@ fn complete_tables_are_renamed() {
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
-    for names in [&TABLES[..], &TABLES[1..]] {
+    for names in [&TABLE_FILE_NAMES[..], &TABLE_FILE_NAMES[1..]] {
         for name in names {
             let partial = path(&scene, &format!("{name}.partial"));
             fs::rename(path(&scene, name), partial).unwrap();

@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// A table of two balls that fall onto a table top, listed in another order than they land, and of one that never
 /// lands.
-const BODIES: &str = "body,id,px,pz,vz\n\
+const BODIES_TABLE: &str = "body,id,px,pz,vz\n\
     \"box:9,9,1\",table,0,0,0\n\
     sphere:.5,fast,0,8,-5.5\n\
     sphere:.5,ball,0,4,-2\n\
@@ -19,7 +19,7 @@ fn contacts(run: &Run) -> Vec<Row> {
 #[test]
 fn pairs_that_touch_are_listed_in_order_of_time() {
     let scene = Scene::new("scene");
-    let bodies = scene.file("scene.csv", BODIES);
+    let bodies = scene.file("scene.csv", BODIES_TABLE);
     let bodies = bodies.to_str().unwrap();
     let rows = contacts(&Run::with_args(&["scene", bodies, "--duration", "2"]));
     let found: Vec<_> = rows
@@ -87,14 +87,14 @@ fn contacts_at_the_start_and_bad_motions_have_their_status() {
 #[test]
 fn a_scene_is_not_overwritten() {
     let scene = Scene::new("scene-over");
-    let bodies = scene.file("scene.csv", BODIES);
+    let bodies = scene.file("scene.csv", BODIES_TABLE);
     let bodies = bodies.to_str().unwrap();
     Run::with_args(&["scene", bodies, "--out", bodies]).ends(2);
-    assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES);
+    assert_eq!(std::fs::read_to_string(bodies).unwrap(), BODIES_TABLE);
 }
 
 /// Runs `ccd scene` and `ccd view --scene` on a table, and returns their exit codes and messages.
-fn scene_and_view(bodies: &str, options: &[&str]) -> [(Option<i32>, String); 2] {
+fn run_scene_and_view(bodies: &str, options: &[&str]) -> [(Option<i32>, String); 2] {
     let out = Path::new(bodies).with_extension("html");
     let out = out.to_str().unwrap();
     [
@@ -118,7 +118,7 @@ fn a_scene_is_remarked_upon_as_a_query_is() {
         "an angular velocity is a round number of degrees",
         "a quaternion is far from unit length",
     ];
-    for (code, message) in scene_and_view(bodies, &[]) {
+    for (code, message) in run_scene_and_view(bodies, &[]) {
         assert_eq!(code, Some(0), "{message}");
         for remark in remarks {
             assert_eq!(message.matches(remark).count(), 1, "{message}");
@@ -127,11 +127,11 @@ fn a_scene_is_remarked_upon_as_a_query_is() {
         assert_contains(&message, "to the end at 1.");
     }
     // A tenth of the time is a turn and a half.
-    for (_, message) in scene_and_view(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
+    for (_, message) in run_scene_and_view(bodies, &["--duration", "0.1", "--tolerance", "1e-6"]) {
         assert!(!message.contains("degrees") && !message.contains("the tolerance is"));
         assert!(!message.contains("without --duration") && message.contains("to the end at 0.1."));
     }
-    for (_, message) in scene_and_view(bodies, &["-q"]) {
+    for (_, message) in run_scene_and_view(bodies, &["-q"]) {
         assert_eq!(message, "");
     }
 }
@@ -152,7 +152,7 @@ fn an_end_pose_is_reached_at_the_end() {
         "2",
     ]));
     rows[0].assert_in_time(1.5, 4.0);
-    for (code, message) in scene_and_view(bodies, &["--duration", "0"]) {
+    for (code, message) in run_scene_and_view(bodies, &["--duration", "0"]) {
         assert_eq!(code, Some(2), "{message}");
         assert_contains(&message, "row 0 (line 2): --duration: 0 is not");
     }
@@ -200,7 +200,7 @@ fn tables_that_are_no_scene_are_refused_in_its_words() {
         ),
     ] {
         let bodies = scene.file("scene.csv", table);
-        for (code, message) in scene_and_view(bodies.to_str().unwrap(), &[]) {
+        for (code, message) in run_scene_and_view(bodies.to_str().unwrap(), &[]) {
             assert_eq!(code, Some(2), "{message}");
             assert_contains(&message, expected);
         }

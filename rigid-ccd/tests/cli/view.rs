@@ -4,7 +4,7 @@ use super::command::{Run, Scene, assert_contains, stderr};
 use serde_json::Value;
 use std::path::Path;
 
-const DROPS: &str =
+const DROPS_TABLE: &str =
     "id,a_pz,a_vz,duration\nhit,4,-4,1\nshort,4,-1,1\nnever,4,1,1\nin,0,0,1\n\"<b>,\"\"\",4,-4,1\n";
 const CUBE_AND_SLAB: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 
@@ -37,7 +37,7 @@ fn names(data: &Value) -> Vec<&str> {
 #[test]
 fn rows_are_shown_with_their_verdict_and_their_proven_gap() {
     let scene = Scene::new("view");
-    let motions = file(&scene, "motions.csv", DROPS);
+    let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let shown = view(
         &scene.directory,
         &[&CUBE_AND_SLAB[..], &["--motions", &motions]].concat(),
@@ -88,7 +88,7 @@ fn rows_are_shown_with_their_verdict_and_their_proven_gap() {
 #[test]
 fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let scene = Scene::new("view-ids");
-    let motions = file(&scene, "motions.csv", DROPS);
+    let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let args = [
         &CUBE_AND_SLAB[..],
         &["--motions", &motions, "--ids", "never,hit,gone"],
@@ -97,7 +97,7 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let message = Run::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
-        .fails(2);
+        .expect_messages(2);
     assert_contains(&message, "no row has the id \"gone\"");
     assert_eq!(
         names(&data(&scene.directory.join("view.html"))),
@@ -111,14 +111,14 @@ fn rows_are_chosen_by_id_and_missing_ids_are_reported() {
     let message = Run::with_args(&["view"])
         .args(&nothing)
         .folder(&scene.directory)
-        .fails(2);
+        .expect_messages(2);
     assert_contains(&message, "no row to show");
 }
 
 #[test]
 fn results_are_shown_as_they_are() {
     let scene = Scene::new("view-results");
-    let motions = file(&scene, "motions.csv", DROPS);
+    let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let query = [
         &CUBE_AND_SLAB[..],
         &[
@@ -174,7 +174,7 @@ fn results_are_shown_as_they_are() {
     let message = Run::with_args(&["view"])
         .args(&wrong)
         .folder(&scene.directory)
-        .fails(2);
+        .expect_messages(2);
     assert_contains(&message, "not those of results");
 }
 
@@ -294,7 +294,7 @@ fn a_verdict_matches_the_question_and_the_proof() {
 #[test]
 fn an_unwritable_page_is_an_error_before_the_work() {
     let scene = Scene::new("view-nowhere");
-    let motions = file(&scene, "motions.csv", DROPS);
+    let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let both = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
     for args in [
         [&["view", "--out", "nowhere/x.html"], &both[..]].concat(),
@@ -304,7 +304,9 @@ fn an_unwritable_page_is_an_error_before_the_work() {
         ]
         .concat(),
     ] {
-        let message = Run::with_args(&args).folder(&scene.directory).fails(1);
+        let message = Run::with_args(&args)
+            .folder(&scene.directory)
+            .expect_messages(1);
         assert_contains(&message, "create it first");
         assert!(!scene.directory.join("x.csv").exists());
     }
@@ -322,7 +324,7 @@ fn rows_that_are_no_queries_are_left_out_and_counted() {
     let message = Run::with_args(&["view"])
         .args(&args)
         .folder(&scene.directory)
-        .fails(2);
+        .expect_messages(2);
     assert_contains(&message, "2 rows are no valid queries");
     assert_eq!(
         names(&data(&scene.directory.join("view.html"))),
@@ -398,7 +400,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
         let bodies = file(&scene, "wrong.csv", table);
         let message = Run::with_args(&["view", "--scene", &bodies])
             .folder(&scene.directory)
-            .fails(2);
+            .expect_messages(2);
         assert_contains(&message, says);
     }
 }
@@ -406,7 +408,7 @@ fn a_scene_shows_all_bodies_and_contacts_in_order_of_time() {
 #[test]
 fn a_page_overwrites_nothing_that_is_read() {
     let scene = Scene::new("view-overwrites");
-    let motions = file(&scene, "motions.csv", DROPS);
+    let motions = file(&scene, "motions.csv", DROPS_TABLE);
     let both = [&CUBE_AND_SLAB[..], &["--motions", &motions]].concat();
     let bodies = file(&scene, "scene.csv", "body\nsphere:1\n");
     for args in [
@@ -416,7 +418,7 @@ fn a_page_overwrites_nothing_that_is_read() {
         vec!["view", "--scene", &bodies, "--out", &bodies],
     ] {
         Run::with_args(&args).folder(&scene.directory).ends(2);
-        assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS);
+        assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROPS_TABLE);
     }
     for args in [
         &["view"][..],

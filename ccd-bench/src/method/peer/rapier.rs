@@ -1,7 +1,7 @@
 //! Runs one step of rapier's simulation in double precision over the whole query, with continuous collision detection.
 
-use crate::method::peer::contact_at;
-use crate::method::peer::parry::double::shapes::{pose, tri_mesh, vector};
+use crate::method::peer::contact_claim_at;
+use crate::method::peer::parry::double::shapes::{pose_at, to_parry_vector, tri_mesh};
 use crate::method::solver::{Claim, Reply, Solver};
 use anyhow::Result;
 use ccd_core::Motion;
@@ -26,18 +26,18 @@ use rigid_ccd::table::motions::Motions;
 ///
 /// # Guarantee
 /// None. A triangle that overlaps one of B's at the start is swept as a small ball about its centre.
-pub struct Simulated {
+pub struct TwoBodySimulation {
     world: PhysicsWorld,
     a: RigidBodyHandle,
     b: RigidBodyHandle,
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the allowed error.
-const MAX_HIT_ERRORS: f64 = 1.25;
+const MAX_HIT_DISTANCE_IN_ERRORS: f64 = 1.25;
 /// The fraction of its motion at which a step counts as complete, because poses are rounded.
 const COMPLETE_SHARE: f64 = 1.0 - 1e-9;
 
-impl Simulated {
+impl TwoBodySimulation {
     /// Creates a rapier world with two meshes.
     ///
     /// # Errors
@@ -54,31 +54,34 @@ impl Simulated {
         let fixed = ColliderBuilder::new(SharedShape::new(tri_mesh(b)?));
         let (a, _) = world.insert(RigidBodyBuilder::dynamic().can_sleep(false), flying);
         let (b, _) = world.insert(RigidBodyBuilder::fixed(), fixed);
-        Ok(Simulated { world, a, b })
+        Ok(TwoBodySimulation { world, a, b })
     }
 
     /// Sets the start poses and velocities of both bodies, and the allowed error.
     fn pose(&mut self, query: &Motions, tolerance: f64) {
         let parameters = &mut self.world.integration_parameters;
         parameters.dt = query.duration;
-        parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_ERRORS;
+        parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_DISTANCE_IN_ERRORS;
         if let Some(b) = self.world.bodies.get_mut(self.b) {
-            b.set_position(pose(&query.b, 0.0), true);
+            b.set_position(pose_at(&query.b, 0.0), true);
         }
         if let Some(a) = self.world.bodies.get_mut(self.a) {
-            let centre = vector(query.a.centre());
+            let centre = to_parry_vector(query.a.centre());
             // The inertia is equal about all axes, so that the axis of rotation stays fixed.
             let mass = MassProperties::new(centre, 1.0, Vector::splat(1.0));
             a.set_additional_mass_properties(mass, true);
             a.recompute_mass_properties_from_colliders(&self.world.colliders);
-            a.set_position(pose(&query.a, 0.0), true);
-            a.set_linvel(vector(query.a.velocity() - query.b.velocity()), true);
-            a.set_angvel(vector(query.a.spin()), true);
+            a.set_position(pose_at(&query.a, 0.0), true);
+            a.set_linvel(
+                to_parry_vector(query.a.velocity() - query.b.velocity()),
+                true,
+            );
+            a.set_angvel(to_parry_vector(query.a.spin()), true);
         }
     }
 }
 
-impl Solver for Simulated {
+impl Solver for TwoBodySimulation {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
@@ -89,8 +92,8 @@ impl Solver for Simulated {
         self.world.step();
         let claim = match self.world.bodies.get(self.a) {
             Some(a) => match completed_motion_fraction(query, a.position()) {
-                share if share >= COMPLETE_SHARE => Claim::Free,
-                share => contact_at(share * query.duration, query.duration),
+                share if share >= COMPLETE_SHARE => Claim::NoContact,
+                share => contact_claim_at(share * query.duration, query.duration),
             },
             None => Claim::Unresolved { safe_until: 0.0 },
         };
@@ -105,7 +108,10 @@ fn completed_motion_fraction(query: &Motions, end: &Pose) -> f64 {
     if way == DVec3::ZERO {
         return completed_rotation_fraction(motion, query.duration, end);
     }
-    let centre = DVec3::from(end.transform_point(vector(motion.centre())).to_array());
+    let centre = DVec3::from(
+        end.transform_point(to_parry_vector(motion.centre()))
+            .to_array(),
+    );
     let start = motion.start().transform_point(motion.centre());
     (centre - start).dot(way) / way.length_squared()
 }

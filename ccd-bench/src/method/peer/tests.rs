@@ -22,9 +22,9 @@ struct ExactCase {
     a: TriangleMesh,
     b: TriangleMesh,
     query: Motions,
-    time: f64,
+    contact_time: f64,
     /// The closing speed at the contact, in units of length per unit of time.
-    speed: f64,
+    closing_speed: f64,
 }
 
 impl ExactCase {
@@ -34,15 +34,15 @@ impl ExactCase {
     }
 
     /// Asserts that a peer reports the contact within the error that is allowed for it.
-    fn assert_right(&self, kind: PeerKind) {
+    fn assert_contact_within_error(&self, kind: PeerKind) {
         let reply = self.ask(kind);
         let Claim::Contact { time } = reply.claim else {
             panic!("{}: {reply:?}", name_of(&kind));
         };
-        let late = time - self.time;
+        let late = time - self.contact_time;
         let (early_by, late_by) = allowed_error(kind);
         assert!(
-            (-early_by / self.speed..=late_by).contains(&late),
+            (-early_by / self.closing_speed..=late_by).contains(&late),
             "{}: {late} late",
             name_of(&kind)
         );
@@ -87,8 +87,8 @@ fn face_on_face() -> ExactCase {
         a: cuboid(0.5, 0.5, 0.5),
         b: cuboid(9.0, 9.0, 1.0),
         query: query(falling, slab),
-        time: 0.625,
-        speed: 4.0,
+        contact_time: 0.625,
+        closing_speed: 4.0,
     }
 }
 
@@ -111,8 +111,8 @@ fn edge_on_edge() -> ExactCase {
         a: cuboid(0.5, 0.5, 0.5),
         b: cuboid(0.5, 0.5, 0.5),
         query: query(upper, lower),
-        time: (3.0 - SQRT_2) / 4.0,
-        speed: 4.0,
+        contact_time: (3.0 - SQRT_2) / 4.0,
+        closing_speed: 4.0,
     }
 }
 
@@ -129,8 +129,8 @@ fn ball_on_ball() -> ExactCase {
         a: ball(),
         b: ball(),
         query: query(left, right),
-        time: 0.75,
-        speed: 4.0,
+        contact_time: 0.75,
+        closing_speed: 4.0,
     }
 }
 
@@ -150,9 +150,9 @@ fn rod_on_wall(turns: f64) -> ExactCase {
         a: cuboid(width, 0.3, length),
         b: cuboid(1.0, 9.0, 9.0),
         query: query(rod, far),
-        time,
+        contact_time: time,
         // The speed of the edge across the wall; the edge is at length · cos from the axis there.
-        speed: spin * (length.hypot(width).powi(2) - wall * wall).sqrt(),
+        closing_speed: spin * (length.hypot(width).powi(2) - wall * wall).sqrt(),
     }
 }
 
@@ -167,7 +167,10 @@ fn ball() -> TriangleMesh {
         triangles.push(if outward { [x, y, z] } else { [x, z, y] });
     }
     for _ in 0..2 {
-        triangles = triangles.into_iter().flat_map(quarters).collect();
+        triangles = triangles
+            .into_iter()
+            .flat_map(subdivide_spherical_triangle)
+            .collect();
     }
     let faces: Vec<[u32; 3]> = (0..triangles.len() as u32)
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
@@ -175,7 +178,7 @@ fn ball() -> TriangleMesh {
     TriangleMesh::new(triangles.concat(), &faces).unwrap()
 }
 
-fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
+fn subdivide_spherical_triangle([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
     let middle = |p: DVec3, q: DVec3| (p + q).normalize();
     let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
     [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
@@ -186,15 +189,15 @@ fn straight_motions_are_right_with_every_peer(
     #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: ExactCase,
 ) {
     for kind in PeerKind::value_variants().iter().copied() {
-        exact.assert_right(kind);
+        exact.assert_contact_within_error(kind);
     }
 }
 
 #[rstest]
-fn half_a_turn_is_right_except_with_a_whole_step(#[values(0.5, 1.0)] turns: f64) {
+fn half_a_turn_is_right_except_with_rapier_steps(#[values(0.5, 1.0)] turns: f64) {
     for kind in PeerKind::value_variants().iter().copied() {
         if kind != PeerKind::RapierStepF64 {
-            rod_on_wall(turns).assert_right(kind);
+            rod_on_wall(turns).assert_contact_within_error(kind);
         }
     }
 }
@@ -202,7 +205,7 @@ fn half_a_turn_is_right_except_with_a_whole_step(#[values(0.5, 1.0)] turns: f64)
 #[rstest]
 fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f64) {
     for kind in [PeerKind::ParrySweepF64, PeerKind::ParrySweepF32] {
-        rod_on_wall(turns).assert_right(kind);
+        rod_on_wall(turns).assert_contact_within_error(kind);
     }
 }
 
@@ -214,7 +217,11 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
         let Claim::Contact { time } = exact.ask(kind).claim else {
             panic!("{}: no contact", name_of(&kind));
         };
-        assert!(time - exact.time > 0.1, "{}: {time}", name_of(&kind));
+        assert!(
+            time - exact.contact_time > 0.1,
+            "{}: {time}",
+            name_of(&kind)
+        );
     }
 }
 
@@ -226,9 +233,9 @@ fn large_turns_are_wrong_with_a_whole_step() {
     let Claim::Contact { time } = half.ask(PeerKind::RapierStepF64).claim else {
         panic!("half a turn has no contact");
     };
-    assert!(time - half.time > 0.02, "{time}");
+    assert!(time - half.contact_time > 0.02, "{time}");
     let whole = rod_on_wall(2.0).ask(PeerKind::RapierStepF64);
-    assert_eq!(whole.claim, Claim::Free);
+    assert_eq!(whole.claim, Claim::NoContact);
 }
 
 #[test]
@@ -237,7 +244,12 @@ fn a_near_miss_is_free_with_every_peer() {
     let aside = Pose::new(DVec3::new(9.6, 0.0, 3.0), DQuat::IDENTITY).unwrap();
     passing.query.a = Motion::new(aside, -4.0 * DVec3::Z, DVec3::ZERO).unwrap();
     for kind in PeerKind::value_variants().iter().copied() {
-        assert_eq!(passing.ask(kind).claim, Claim::Free, "{}", name_of(&kind));
+        assert_eq!(
+            passing.ask(kind).claim,
+            Claim::NoContact,
+            "{}",
+            name_of(&kind)
+        );
     }
 }
 
@@ -251,7 +263,7 @@ fn a_second_query_is_answered_as_the_first() {
         other.a = motion(9.0 * DVec3::X, DQuat::IDENTITY, DVec3::ONE, DVec3::ONE);
         assert_eq!(
             peer.answer(&other, TOLERANCE).claim,
-            Claim::Free,
+            Claim::NoContact,
             "{}",
             name_of(&kind)
         );
@@ -290,7 +302,7 @@ fn tighter_tolerances_tighten_sweeps_alone() {
 
 #[test]
 fn every_method_is_found_by_its_name() {
-    for method in Method::known() {
+    for method in Method::known_methods() {
         assert_eq!(Method::from_name(&method.to_string()), Some(method));
     }
     assert_eq!(Method::from_name("unicorn"), None);
@@ -302,7 +314,7 @@ fn queries_and_replies_survive_the_line() {
     assert_eq!(parse_query(&format_query(&asked)), Some(asked));
     for claim in [
         Claim::Contact { time: 0.1 + 0.2 },
-        Claim::Free,
+        Claim::NoContact,
         Claim::Unresolved { safe_until: 1e-300 },
     ] {
         let plain = Reply::new(claim, 7);

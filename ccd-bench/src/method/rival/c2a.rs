@@ -34,12 +34,12 @@ pub struct C2a {
     trees: Trees,
     patience: WorkLimit,
     closing_speeds: ClosingSpeedBounds,
-    pairs: Vec<Candidate>,
+    pairs: Vec<CandidatePair>,
 }
 
 /// A pair of nodes whose children a descent may visit.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
+struct CandidatePair {
     pair: Pair,
     distance: f64,
     /// The time during which the nodes do not touch.
@@ -52,7 +52,7 @@ struct DescentResult {
     /// The distance of the nearest triangles.
     distance: f64,
     /// The nearest triangles; `None` before any are found.
-    nearest: Option<(TrianglePair, Pair)>,
+    nearest_triangles: Option<(TrianglePair, Pair)>,
     /// The least time during which all pairs seen so far stay apart.
     step: f64,
 }
@@ -62,21 +62,21 @@ struct DescentSetup<'a> {
     /// The placement of body B in the frame of body A.
     placement: &'a Placement,
     /// The time from now to the end of the motions.
-    remaining: f64,
+    remaining_time: f64,
     /// The distance at which triangles touch.
     tolerance: f64,
     /// The allowed excess of the distance found over the true distance, as a fraction.
-    excess: f64,
+    max_relative_excess: f64,
 }
 
 /// How a descent of both trees ended.
-enum Descent {
+enum DescentOutcome {
     /// The descent stopped at pairs that need not be opened.
     Done(DescentResult),
     /// The descent found triangles within the tolerance.
-    Within,
+    WithinTolerance,
     /// The work limit was reached, or numbers are not finite.
-    GaveUp,
+    LimitReached,
 }
 
 impl C2a {
@@ -95,7 +95,7 @@ impl C2a {
 impl Solver for C2a {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-        self.closing_speeds.begin(&a, &b);
+        self.closing_speeds.set_motions(&a, &b);
         let mut pairs_left = self.patience.pairs;
         let mut time = 0.0;
         let mut last = None;
@@ -103,20 +103,22 @@ impl Solver for C2a {
             let frame = a.at(time);
             let setup = DescentSetup {
                 placement: &b.at(time).relative_to(&frame),
-                remaining: query.duration - time,
-                excess: excess(steps, last.as_ref(), query.duration, tolerance),
+                remaining_time: query.duration - time,
+                max_relative_excess: excess(steps, last.as_ref(), query.duration, tolerance),
                 tolerance,
             };
             self.closing_speeds.set_frame(&frame);
             let found = match self.descend(&setup, last.as_ref(), &mut pairs_left) {
-                Descent::Done(found) => found,
-                Descent::Within => return Reply::new(Claim::Contact { time }, steps),
-                Descent::GaveUp => {
+                DescentOutcome::Done(found) => found,
+                DescentOutcome::WithinTolerance => {
+                    return Reply::new(Claim::Contact { time }, steps);
+                }
+                DescentOutcome::LimitReached => {
                     return Reply::new(Claim::Unresolved { safe_until: time }, steps);
                 }
             };
-            if found.step >= setup.remaining {
-                return Reply::new(Claim::Free, steps);
+            if found.step >= setup.remaining_time {
+                return Reply::new(Claim::NoContact, steps);
             }
             let next = time + found.step;
             // Stop at NaN, and at a step below the resolution of time.
@@ -137,41 +139,41 @@ impl C2a {
         setup: &DescentSetup<'_>,
         last: Option<&DescentResult>,
         pairs_left: &mut u64,
-    ) -> Descent {
+    ) -> DescentOutcome {
         let mut found = DescentResult {
             distance: f64::INFINITY,
-            nearest: None,
+            nearest_triangles: None,
             step: f64::INFINITY,
         };
-        if let Some((leaves, pair)) = last.and_then(|last| last.nearest) {
-            self.measure(&mut found, setup, leaves, pair);
+        if let Some((leaves, pair)) = last.and_then(|last| last.nearest_triangles) {
+            self.measure_triangles(&mut found, setup, leaves, pair);
         }
-        let Some(roots) = self.trees.roots(setup.placement) else {
-            return Descent::Done(found);
+        let Some(roots) = self.trees.root_pair(setup.placement) else {
+            return DescentOutcome::Done(found);
         };
         self.pairs.clear();
-        let roots = self.candidate(roots);
+        let roots = self.candidate_pair(roots);
         self.pairs.push(roots);
         loop {
             if found.distance <= setup.tolerance {
-                return Descent::Within;
+                return DescentOutcome::WithinTolerance;
             }
             let Some(candidate) = self.pairs.pop() else {
-                return Descent::Done(found);
+                return DescentOutcome::Done(found);
             };
             if candidate.may_stop(&mut found, setup) {
                 continue;
             }
             if *pairs_left == 0 || found.distance.is_nan() {
-                return Descent::GaveUp;
+                return DescentOutcome::LimitReached;
             }
             *pairs_left -= 1;
             match self.trees.children(&candidate.pair) {
                 PairChildren::Triangles(leaves) => {
-                    self.measure(&mut found, setup, leaves, candidate.pair);
+                    self.measure_triangles(&mut found, setup, leaves, candidate.pair);
                 }
                 PairChildren::Pairs([first, second]) => {
-                    let (first, second) = (self.candidate(first), self.candidate(second));
+                    let (first, second) = (self.candidate_pair(first), self.candidate_pair(second));
                     let ordered = if first.distance < second.distance {
                         [second, first]
                     } else {
@@ -184,9 +186,9 @@ impl C2a {
     }
 
     #[inline]
-    fn candidate(&mut self, pair: Pair) -> Candidate {
+    fn candidate_pair(&mut self, pair: Pair) -> CandidatePair {
         let gap = self.trees.gap(&pair);
-        Candidate {
+        CandidatePair {
             step: self.closing_speeds.safe_step(&self.trees, &pair, &gap),
             pair,
             distance: gap.distance,
@@ -194,14 +196,17 @@ impl C2a {
     }
 
     /// Measures the distance of two triangles, and the time until they may touch.
-    fn measure(
+    fn measure_triangles(
         &mut self,
         found: &mut DescentResult,
         setup: &DescentSetup<'_>,
         leaves: TrianglePair,
         pair: Pair,
     ) {
-        let between = self.trees.nearest(leaves, setup.placement).between();
+        let between = self
+            .trees
+            .nearest(leaves, setup.placement)
+            .vector_from_a_to_b();
         let distance = between.length();
         let gap = Gap {
             distance,
@@ -214,19 +219,19 @@ impl C2a {
         }
         if !(distance >= found.distance) {
             found.distance = distance;
-            found.nearest = Some((leaves, pair));
+            found.nearest_triangles = Some((leaves, pair));
         }
     }
 }
 
-impl Candidate {
+impl CandidatePair {
     /// Returns true if a pair need not be opened; its step then counts for the whole descent.
     #[inline]
     fn may_stop(&self, found: &mut DescentResult, setup: &DescentSetup<'_>) -> bool {
-        if self.step >= lesser(found.step, setup.remaining) {
+        if self.step >= lesser(found.step, setup.remaining_time) {
             return true;
         }
-        let far = self.distance * (1.0 + setup.excess) >= found.distance;
+        let far = self.distance * (1.0 + setup.max_relative_excess) >= found.distance;
         if far {
             found.step = self.step;
         }

@@ -9,10 +9,10 @@ mod relative;
 mod tests;
 
 use super::RivalMotion;
-use super::obb_tree::{ObbTree, crosses};
+use super::obb_tree::{ObbTree, trees_intersect};
 use super::resolution::resolution;
-use super::screw::screw;
-use super::tree::Content;
+use super::screw::to_screw_motions;
+use super::tree::NodeContent;
 use crate::method::solver::{Claim, Reply, Solver};
 use boxes::{BoxRelation, relate_boxes};
 use ccd_core::order::{greater, lesser};
@@ -20,7 +20,7 @@ use ccd_decomp::TriangleMesh;
 use clock::{HalvedInterval, MotionEncloser};
 use elementary::{Facet, TrianglePair};
 use leaf::{FirstTouch, first_touch};
-use relative::Relative;
+use relative::RelativeMotion;
 use rigid_ccd::table::motions::Motions;
 
 /// The ratio above which time is halved: the radius of the enclosure of a box's placement over the half length of the
@@ -31,7 +31,7 @@ use rigid_ccd::table::motions::Motions;
 const MAX_RELATIVE_SPREAD: f64 = 0.2;
 
 /// Finds the first contact of two triangle meshes, each of which moves by the
-/// [screw](super::screw()) between the start and the end pose of its motion.
+/// [to_screw_motions](super::to_screw_motions()) between the start and the end pose of its motion.
 ///
 /// # Guarantee
 /// Except for rounding, no contact of the screw motions is missed or reported late. At the reported
@@ -92,7 +92,7 @@ impl Contact {
         let resolution = resolution(&courses, &self.trees, tolerance);
         let [a, b] = &self.trees;
         let start = courses[0].at(0.0).relative_to(&courses[1].at(0.0));
-        if crosses(a, b, &start, &mut self.static_stack) {
+        if trees_intersect(a, b, &start, &mut self.static_stack) {
             let claim = Claim::Contact { time: 0.0 };
             return Reply::new(claim, 0);
         }
@@ -103,23 +103,23 @@ impl Contact {
             [0, 1]
         };
         let [first, second] = order.map(|k| (&courses[k], self.trees[k].origin));
-        let relative = Relative::new(first, second);
+        let relative = RelativeMotion::new(first, second);
         let mut search = Search {
             trees: order.map(|k| &self.trees[k]),
-            clock: MotionEncloser::new(relative, resolution, self.limits.max_halvings),
-            most_pairs: self.limits.pairs,
+            motion_encloser: MotionEncloser::new(relative, resolution, self.limits.max_halvings),
+            max_pairs: self.limits.pairs,
             stack: &mut self.stack,
             end: query.duration,
         };
         let claim = search.run();
-        Reply::new(claim, search.clock.halvings)
+        Reply::new(claim, search.motion_encloser.halvings)
     }
 }
 
 impl Solver for Contact {
     /// Answers a query; steps are halvings of time.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
-        match screw(query) {
+        match to_screw_motions(query) {
             Ok(query) => self.first_contact(&query, tolerance),
             Err(_) => Reply::new(Claim::Unresolved { safe_until: 0.0 }, 0),
         }
@@ -129,8 +129,8 @@ impl Solver for Contact {
 /// The search for the answer to one query.
 struct Search<'a> {
     trees: [&'a ObbTree; 2],
-    clock: MotionEncloser,
-    most_pairs: u64,
+    motion_encloser: MotionEncloser,
+    max_pairs: u64,
     stack: &'a mut Vec<Pair>,
     /// The time after which nothing matters: the first known contact, or the duration.
     end: f64,
@@ -139,25 +139,25 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(&mut self) -> Claim {
         let mut found = None;
-        let interval = HalvedInterval::whole(self.end);
+        let interval = HalvedInterval::whole_duration(self.end);
         let nodes = [0, 0];
         self.stack.clear();
         self.stack.push(Pair { nodes, interval });
-        for _ in 0..self.most_pairs {
+        for _ in 0..self.max_pairs {
             let Some(mut pair) = self.stack.pop() else {
-                return found.map_or(Claim::Free, |time| Claim::Contact { time });
+                return found.map_or(Claim::NoContact, |time| Claim::Contact { time });
             };
             let ahead = pair.interval.span.start < self.end;
             if !ahead && found.is_some() {
                 continue;
             }
             pair.interval.span.end = lesser(pair.interval.span.end, self.end);
-            if self.clock.is_at_limit() {
+            if self.motion_encloser.is_at_limit() {
                 self.stack.push(pair);
                 break;
             }
-            match self.visit(pair) {
-                FirstTouch::At(time) => {
+            match self.visit_pair(pair) {
+                FirstTouch::AtTime(time) => {
                     self.end = time;
                     found = Some(time);
                 }
@@ -176,34 +176,38 @@ impl Search<'_> {
 
     /// Examines a pair: drops it, pushes its halves or children onto the stack, or finds when it
     /// touches.
-    fn visit(&mut self, pair: Pair) -> FirstTouch {
+    fn visit_pair(&mut self, pair: Pair) -> FirstTouch {
         let Pair { nodes, interval } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match relate_boxes(&a.bounds, &b.bounds, self.clock.placements(interval)) {
-            BoxRelation::Apart => return FirstTouch::Never,
+        let spread = match relate_boxes(
+            &a.bounds,
+            &b.bounds,
+            self.motion_encloser.placements(interval),
+        ) {
+            BoxRelation::Separated => return FirstTouch::Never,
             BoxRelation::NotSeparated { spread } => spread,
         };
         let size = [a, b].map(|node| node.bounds.half_extents.max_element());
         let wide = spread > MAX_RELATIVE_SPREAD * greater(size[0], size[1]);
-        if wide && !self.clock.is_at_resolution(interval) {
-            self.clock.halvings += 1;
+        if wide && !self.motion_encloser.is_at_resolution(interval) {
+            self.motion_encloser.halvings += 1;
             let [early, late] = interval.halves();
             self.stack
                 .extend([late, early].map(|interval| Pair { nodes, interval }));
             return FirstTouch::Never;
         }
         let open = match (a.content, b.content) {
-            (Content::Triangle(p), Content::Triangle(q)) => {
+            (NodeContent::Triangle(p), NodeContent::Triangle(q)) => {
                 return self.visit_leaves([p, q], interval);
             }
-            (Content::Nodes(children), Content::Triangle(_)) => {
+            (NodeContent::Nodes(children), NodeContent::Triangle(_)) => {
                 children.map(|child| [child, nodes[1]])
             }
-            (Content::Nodes(children), Content::Nodes(_)) if size[0] > size[1] => {
+            (NodeContent::Nodes(children), NodeContent::Nodes(_)) if size[0] > size[1] => {
                 children.map(|child| [child, nodes[1]])
             }
-            (_, Content::Nodes(children)) => children.map(|child| [nodes[0], child]),
+            (_, NodeContent::Nodes(children)) => children.map(|child| [nodes[0], child]),
         };
         self.stack
             .extend(open.map(|nodes| Pair { nodes, interval }));
@@ -215,6 +219,6 @@ impl Search<'_> {
             a: Facet::new(self.trees[0].triangle(p)),
             b: Facet::new(self.trees[1].triangle(q)),
         };
-        first_touch(&triangles, interval, &mut self.clock)
+        first_touch(&triangles, interval, &mut self.motion_encloser)
     }
 }

@@ -50,17 +50,17 @@ struct CachedRadius(Option<(DVec3, f64)>);
 /// A segment of the duration, and lower bounds on the distance at its ends.
 #[derive(Clone, Copy, Debug)]
 struct Segment {
-    from: f64,
-    to: f64,
-    distance_at_from: f64,
-    distance_at_to: f64,
+    start: f64,
+    end: f64,
+    distance_at_start: f64,
+    distance_at_end: f64,
 }
 
 /// The required precision of a distance.
 #[derive(Clone, Copy, Debug)]
 struct RequiredPrecision {
     /// The distance above which no larger bound is needed.
-    sufficient: f64,
+    sufficient_distance: f64,
     /// The largest size of unopened nodes, as a multiple of their distance.
     coarseness: f64,
 }
@@ -75,7 +75,7 @@ enum LowerBound {
 }
 
 /// The motions of one query, their bounds on speed, and the remaining work.
-struct Task {
+struct QueryTask {
     a: RivalMotion,
     b: RivalMotion,
     /// A bound on the relative speed of any two points of the bodies.
@@ -106,7 +106,7 @@ impl Solver for DynamicChecker {
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let speed =
             |course: &RivalMotion, reach: f64| course.velocity.length() + course.rate * reach;
-        let mut task = Task {
+        let mut task = QueryTask {
             a,
             b,
             speed: speed(&a, self.radius_a.radius_about(a.centre, &self.trees.a))
@@ -116,23 +116,24 @@ impl Solver for DynamicChecker {
             steps: 0,
             pairs_left: self.patience.pairs,
         };
-        let claim = self.search(query.duration, &mut task);
+        let claim = self.search_first_contact(query.duration, &mut task);
         Reply::new(claim, task.steps)
     }
 }
 
 impl DynamicChecker {
     /// Halves the duration until all of it is free, or until the earliest segment that may not be free is short enough.
-    fn search(&mut self, duration: f64, task: &mut Task) -> Claim {
+    fn search_first_contact(&mut self, duration: f64, task: &mut QueryTask) -> Claim {
         let path = task.speed * duration;
-        let distance_at_from = match self.bound(0.0, RequiredPrecision::at_least(path), task) {
-            LowerBound::Apart(distance) => distance,
-            LowerBound::Touching => return Claim::Contact { time: 0.0 },
-            LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
-        };
-        let distance_at_to = match self.bound(
+        let distance_at_from =
+            match self.distance_lower_bound(0.0, RequiredPrecision::coarse_up_to(path), task) {
+                LowerBound::Apart(distance) => distance,
+                LowerBound::Touching => return Claim::Contact { time: 0.0 },
+                LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
+            };
+        let distance_at_to = match self.distance_lower_bound(
             duration,
-            RequiredPrecision::at_least(path - distance_at_from),
+            RequiredPrecision::coarse_up_to(path - distance_at_from),
             task,
         ) {
             LowerBound::Apart(distance) => distance,
@@ -144,31 +145,31 @@ impl DynamicChecker {
         };
         self.segments.clear();
         self.segments.push(Segment {
-            from: 0.0,
-            to: duration,
-            distance_at_from,
-            distance_at_to,
+            start: 0.0,
+            end: duration,
+            distance_at_start: distance_at_from,
+            distance_at_end: distance_at_to,
         });
         while let Some(segment) = self.segments.pop() {
             task.steps += 1;
-            if let Some(claim) = self.examine(segment, task) {
+            if let Some(claim) = self.examine_segment(segment, task) {
                 return claim;
             }
         }
         // All parts before the touch may be free: the bodies only just touch then.
         match task.earliest_touch {
             Some(time) => Claim::Contact { time },
-            None => Claim::Free,
+            None => Claim::NoContact,
         }
     }
 
     /// Drops a segment that is proven free, and halves one that may not be free. Returns a claim if the search ends.
-    fn examine(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
+    fn examine_segment(&mut self, segment: Segment, task: &mut QueryTask) -> Option<Claim> {
         let Segment {
-            from,
-            to,
-            distance_at_from,
-            distance_at_to,
+            start: from,
+            end: to,
+            distance_at_start: distance_at_from,
+            distance_at_end: distance_at_to,
         } = segment;
         let path = task.speed * (to - from);
         if path < distance_at_from + distance_at_to {
@@ -180,7 +181,7 @@ impl DynamicChecker {
         }
         let middle = from + 0.5 * (to - from);
         if path <= task.tolerance || !(from < middle && middle < to) {
-            return match self.bound(
+            return match self.distance_lower_bound(
                 from,
                 RequiredPrecision::exact_up_to(path - distance_at_to),
                 task,
@@ -191,14 +192,14 @@ impl DynamicChecker {
             };
         }
         let precision =
-            RequiredPrecision::at_least(0.5 * path - lesser(distance_at_from, distance_at_to));
-        let at_middle = match self.bound(middle, precision, task) {
+            RequiredPrecision::coarse_up_to(0.5 * path - lesser(distance_at_from, distance_at_to));
+        let at_middle = match self.distance_lower_bound(middle, precision, task) {
             LowerBound::Apart(distance) => {
                 self.segments.push(Segment {
-                    from: middle,
-                    to,
-                    distance_at_from: distance,
-                    distance_at_to,
+                    start: middle,
+                    end: to,
+                    distance_at_start: distance,
+                    distance_at_end: distance_at_to,
                 });
                 distance
             }
@@ -211,18 +212,23 @@ impl DynamicChecker {
             LowerBound::GaveUp => return Some(gave_up),
         };
         self.segments.push(Segment {
-            from,
-            to: middle,
-            distance_at_from,
-            distance_at_to: at_middle,
+            start: from,
+            end: middle,
+            distance_at_start: distance_at_from,
+            distance_at_end: at_middle,
         });
         None
     }
 
     /// Returns the least distance of nodes at which a descent of both trees stops.
-    fn bound(&mut self, time: f64, precision: RequiredPrecision, task: &mut Task) -> LowerBound {
+    fn distance_lower_bound(
+        &mut self,
+        time: f64,
+        precision: RequiredPrecision,
+        task: &mut QueryTask,
+    ) -> LowerBound {
         let placement = task.b.at(time).relative_to(&task.a.at(time));
-        let Some(roots) = self.trees.roots(&placement) else {
+        let Some(roots) = self.trees.root_pair(&placement) else {
             return LowerBound::Apart(f64::INFINITY);
         };
         self.pairs.clear();
@@ -232,7 +238,7 @@ impl DynamicChecker {
             if distance >= least {
                 continue;
             }
-            if precision.is_met(distance, || self.trees.slack(&pair)) {
+            if precision.is_met(distance, || self.trees.distance_slack(&pair)) {
                 least = distance;
                 continue;
             }
@@ -241,9 +247,13 @@ impl DynamicChecker {
             }
             task.pairs_left -= 1;
             match self.trees.children(&pair) {
-                PairChildren::Pairs(pairs) => self.push(pairs, least),
+                PairChildren::Pairs(pairs) => self.push_pairs(pairs, least),
                 PairChildren::Triangles(leaves) => {
-                    let apart = self.trees.nearest(leaves, &placement).between().length();
+                    let apart = self
+                        .trees
+                        .nearest(leaves, &placement)
+                        .vector_from_a_to_b()
+                        .length();
                     if apart.is_nan() {
                         return LowerBound::GaveUp;
                     }
@@ -258,7 +268,7 @@ impl DynamicChecker {
     }
 
     /// Pushes two pairs, the nearer one on top, without pairs that cannot matter.
-    fn push(&mut self, [first, second]: [Pair; 2], least: f64) {
+    fn push_pairs(&mut self, [first, second]: [Pair; 2], least: f64) {
         let (first, second) = (
             (first, self.trees.distance(&first)),
             (second, self.trees.distance(&second)),
@@ -277,27 +287,28 @@ impl DynamicChecker {
 }
 
 impl RequiredPrecision {
-    fn at_least(sufficient: f64) -> Self {
+    fn coarse_up_to(sufficient: f64) -> Self {
         /// The default ratio of a node's size to its distance above which it is opened, the fastest on the scenes. At
         /// 0, three times as much work goes into distances that are better than needed. Without a bound, as published,
         /// up to twenty times as much work goes into halvings.
         const COARSENESS: f64 = 16.0;
         RequiredPrecision {
-            sufficient,
+            sufficient_distance: sufficient,
             coarseness: COARSENESS,
         }
     }
 
     fn exact_up_to(sufficient: f64) -> Self {
         RequiredPrecision {
-            sufficient,
+            sufficient_distance: sufficient,
             coarseness: 0.0,
         }
     }
 
     /// Returns true if nodes at a distance, of the given sizes, are precise enough to be left unopened.
     fn is_met(self, distance: f64, sizes: impl Fn() -> f64) -> bool {
-        distance > 0.0 && (distance > self.sufficient || sizes() <= self.coarseness * distance)
+        distance > 0.0
+            && (distance > self.sufficient_distance || sizes() <= self.coarseness * distance)
     }
 }
 

@@ -9,8 +9,8 @@ pub(super) struct Vec3x4(pub(super) [f64x4; 3]);
 
 /// The shortest vector so far in each of the four lanes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shortest {
-    squared: f64x4,
+pub(super) struct ShortestVectors {
+    squared_lengths: f64x4,
     vectors: Vec3x4,
 }
 
@@ -33,13 +33,13 @@ impl Vec3x4 {
 
     /// Returns `self + factors · direction`.
     #[inline(always)]
-    pub(super) fn plus(self, factors: f64x4, direction: DVec3) -> Self {
-        self.plus_each(factors, Vec3x4::splat(direction))
+    pub(super) fn plus_scaled(self, factors: f64x4, direction: DVec3) -> Self {
+        self.plus_scaled_each(factors, Vec3x4::splat(direction))
     }
 
     /// Returns `self + factors · directions`, lane by lane.
     #[inline(always)]
-    pub(super) fn plus_each(self, factors: f64x4, Vec3x4(d): Vec3x4) -> Self {
+    pub(super) fn plus_scaled_each(self, factors: f64x4, Vec3x4(d): Vec3x4) -> Self {
         let Vec3x4([x, y, z]) = self;
         Vec3x4([
             factors.mul_add(d[0], x),
@@ -86,12 +86,12 @@ impl Vec3x4 {
     }
 }
 
-impl Shortest {
+impl ShortestVectors {
     /// Returns the state before any vectors are added.
     #[inline(always)]
     pub(super) fn empty() -> Self {
-        Shortest {
-            squared: f64x4::splat(f64::INFINITY),
+        ShortestVectors {
+            squared_lengths: f64x4::splat(f64::INFINITY),
             vectors: Vec3x4::splat(DVec3::ZERO),
         }
     }
@@ -100,10 +100,10 @@ impl Shortest {
     #[inline(always)]
     pub(super) fn include_four(self, more: Vec3x4) -> Self {
         let squared = more.dot_each(more);
-        let shorter = squared.simd_lt(self.squared);
+        let shorter = squared.simd_lt(self.squared_lengths);
         let keep = |k: usize| shorter.select(more.0[k], self.vectors.0[k]);
-        Shortest {
-            squared: self.squared.fast_min(squared),
+        ShortestVectors {
+            squared_lengths: self.squared_lengths.fast_min(squared),
             vectors: Vec3x4([keep(0), keep(1), keep(2)]),
         }
     }
@@ -111,14 +111,14 @@ impl Shortest {
     /// Returns the squared length of the shortest vector in any lane, and the vector.
     #[inline(always)]
     pub(super) fn shortest(self) -> (f64, DVec3) {
-        let (lane, squared) = least(self.squared);
+        let (lane, squared) = least_lane(self.squared_lengths);
         (squared, self.vectors.lane(lane))
     }
 }
 
 /// Returns the lane of the least of four numbers, and the number.
 #[inline(always)]
-pub(super) fn least(numbers: f64x4) -> (usize, f64) {
+pub(super) fn least_lane(numbers: f64x4) -> (usize, f64) {
     let n = numbers.to_array();
     let low = if n[1] < n[0] { 1 } else { 0 };
     let high = if n[3] < n[2] { 3 } else { 2 };

@@ -5,10 +5,10 @@ mod overlap;
 mod tests;
 
 use ccd_core::order::greater;
-pub(super) use overlap::crosses;
+pub(super) use overlap::trees_intersect;
 
 use super::principal_axes::principal_axes;
-use super::tree::{Content, build};
+use super::tree::{NodeContent, build_binary_tree};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_decomp::TriangleMesh;
 
@@ -32,7 +32,7 @@ pub(super) struct ObbTree {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) bounds: Obb,
-    pub(super) content: Content,
+    pub(super) content: NodeContent,
 }
 
 /// An oriented box: its centre, axes and half extents.
@@ -55,10 +55,10 @@ impl ObbTree {
         }
         let lengths = triangles.iter().flatten().map(|corner| corner.length());
         let radius = lengths.fold(0.0, greater);
-        let nodes = build(
+        let nodes = build_binary_tree(
             &mut triangles,
             |triangles, _| Obb::fit(triangles),
-            |triangles, (mean, bounds)| split(triangles, *mean, bounds.axes),
+            |triangles, (mean, bounds)| partition_triangles(triangles, *mean, bounds.axes),
         );
         let node = |((_, bounds), content)| Node { bounds, content };
         ObbTree {
@@ -82,7 +82,7 @@ impl ObbTree {
     }
 
     /// Returns an upper bound of the distance of the mesh's points from a point in its frame.
-    pub(super) fn reach(&self, from: DVec3) -> f64 {
+    pub(super) fn radius_about(&self, from: DVec3) -> f64 {
         self.origin.distance(from) + self.radius
     }
 }
@@ -109,7 +109,7 @@ impl Obb {
 
 /// Partitions triangles by their centres: on which side of the mean they are along the longest axis. If all lie on one
 /// side, the next axis is used, and halves if no axis splits them. Returns the number of triangles in the first part.
-fn split(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
+fn partition_triangles(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
     for axis in [axes.x_axis, axes.y_axis, axes.z_axis] {
         let before = |t: &[DVec3; 3]| (t[0] + t[1] + t[2] - 3.0 * mean).dot(axis) < 0.0;
         let mut count = 0;

@@ -1,7 +1,7 @@
 //! Computes the shortest vector between two rectangles in space.
 
 use super::Placement;
-use super::lanes::{Shortest, Vec3x4};
+use super::lanes::{ShortestVectors, Vec3x4};
 use ccd_core::glam::{DVec2, DVec3};
 use wide::f64x4;
 
@@ -33,13 +33,13 @@ pub(super) fn shortest_vector(a: DVec2, b: DVec2, placement: &Placement) -> DVec
     {
         return DVec3::ZERO;
     }
-    let mut shortest = Shortest::empty().include_four(vectors_from_face(corners_b, a));
+    let mut shortest = ShortestVectors::empty().include_four(vectors_from_face(corners_b, a));
     shortest = vectors_between_edges::<0, 0>(shortest, a, b, placement);
     shortest = vectors_between_edges::<0, 1>(shortest, a, b, placement);
     shortest = vectors_between_edges::<1, 0>(shortest, a, b, placement);
     shortest = vectors_between_edges::<1, 1>(shortest, a, b, placement);
     let (squared, to_b) = shortest.shortest();
-    let (squared_off_b, off_b) = Shortest::empty()
+    let (squared_off_b, off_b) = ShortestVectors::empty()
         .include_four(vectors_from_face(corners_a, b))
         .shortest();
     if squared_off_b < squared {
@@ -55,8 +55,8 @@ fn corners(lengths: DVec2, placement: &Placement) -> Vec3x4 {
     let x = f64x4::new([0.0, lengths.x, lengths.x, 0.0]);
     let y = f64x4::new([0.0, 0.0, lengths.y, lengths.y]);
     Vec3x4::splat(placement.translation)
-        .plus(x, placement.rotation.x_axis)
-        .plus(y, placement.rotation.y_axis)
+        .plus_scaled(x, placement.rotation.x_axis)
+        .plus_scaled(y, placement.rotation.y_axis)
 }
 
 /// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given points.
@@ -73,18 +73,18 @@ fn vectors_from_face(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
 /// Returns the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
 #[inline(always)]
 fn vectors_between_edges<const I: usize, const J: usize>(
-    shortest: Shortest,
+    shortest: ShortestVectors,
     a: DVec2,
     b: DVec2,
     placement: &Placement,
-) -> Shortest {
+) -> ShortestVectors {
     let zero = f64x4::splat(0.0);
     let (axes_a, axes_b) = ([DVec3::X, DVec3::Y], &placement.rotation);
     let (along, aside) = (axes_b.col(J), axes_b.col(1 - J));
     let aside_a = f64x4::new([0.0, a[1 - I], 0.0, a[1 - I]]);
     let aside_b = f64x4::new([0.0, 0.0, b[1 - J], b[1 - J]]);
     // From the start of A's edge to that of B's; s and t are the positions of the points along them.
-    let mut apart = Vec3x4::splat(placement.translation).plus(aside_b, aside);
+    let mut apart = Vec3x4::splat(placement.translation).plus_scaled(aside_b, aside);
     apart.0[1 - I] -= aside_a;
     let (ahead_a, ahead_b) = (apart.0[I], apart.dot(along));
     let cosine = f64x4::splat(along.dot(axes_a[I]));
@@ -100,7 +100,7 @@ fn vectors_between_edges<const I: usize, const J: usize>(
     let s = apart.dot(square_to_b).fast_clamp(zero, length_a);
     let t = cosine.mul_sub(s, ahead_b).fast_clamp(zero, length_b);
     let s = cosine.mul_add(t, ahead_a).fast_clamp(zero, length_a);
-    let mut vectors = apart.plus(t, along);
+    let mut vectors = apart.plus_scaled(t, along);
     vectors.0[I] -= s;
     shortest.include_four(vectors)
 }

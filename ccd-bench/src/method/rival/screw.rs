@@ -23,7 +23,7 @@ const ROUNDING_SHARE: f64 = 1e-9;
 ///
 /// # Errors
 /// If a screw's parameters overflow.
-pub fn screw(query: &Motions) -> Result<Motions, InputError> {
+pub fn to_screw_motions(query: &Motions) -> Result<Motions, InputError> {
     Ok(Motions {
         id: query.id.clone(),
         a: screw_motion(&query.a, query.duration)?,
@@ -33,7 +33,7 @@ pub fn screw(query: &Motions) -> Result<Motions, InputError> {
 }
 
 /// Returns whether both motions of a query are already screws, up to rounding.
-pub fn is_screw(query: &Motions) -> bool {
+pub fn are_screw_motions(query: &Motions) -> bool {
     let same = |motion: &Motion| {
         let Ok(screw) = screw_motion(motion, query.duration) else {
             return false;

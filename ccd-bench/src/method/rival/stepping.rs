@@ -1,7 +1,7 @@
 //! Tests the bodies for intersection at equal steps, the usual practice without continuous collision detection.
 
 use super::RivalMotion;
-use super::obb_tree::{ObbTree, crosses};
+use super::obb_tree::{ObbTree, trees_intersect};
 use super::resolution::resolution;
 use crate::method::solver::{Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
@@ -37,7 +37,7 @@ impl Stepping {
     fn crosses(&mut self, courses: &[RivalMotion; 2], time: f64) -> bool {
         let placement = courses[0].at(time).relative_to(&courses[1].at(time));
         let [a, b] = &self.trees;
-        crosses(a, b, &placement, &mut self.stack)
+        trees_intersect(a, b, &placement, &mut self.stack)
     }
 }
 
@@ -58,7 +58,7 @@ impl Solver for Stepping {
             before = time;
         }
         let (claim, steps) = if steps < MAX_SAMPLES {
-            (Claim::Free, steps + 1)
+            (Claim::NoContact, steps + 1)
         } else {
             (Claim::Unresolved { safe_until: before }, MAX_SAMPLES)
         };

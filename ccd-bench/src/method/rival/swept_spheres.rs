@@ -1,7 +1,7 @@
 //! A tree of spheres swept over rectangles, above the triangles of a mesh.
 
 use super::principal_axes::principal_axes;
-use super::tree::Content;
+use super::tree::NodeContent;
 use super::triangles_apart::{NearestPoints, Triangle, nearest};
 use super::{Placement, rectangles};
 use ccd_core::glam::{DVec2, DVec3};
@@ -33,7 +33,7 @@ struct Node {
     /// The side lengths of the rectangle along its x and y axes.
     lengths: DVec2,
     radius: f64,
-    content: Content,
+    content: NodeContent,
 }
 
 /// The trees of two bodies, which are descended together.
@@ -111,7 +111,7 @@ impl RssTree {
 
 impl Node {
     /// Returns an upper bound of the node's diameter.
-    fn size(&self) -> f64 {
+    fn diameter_bound(&self) -> f64 {
         self.lengths.length() + 2.0 * self.radius
     }
 }
@@ -125,7 +125,7 @@ impl Trees {
     }
 
     /// Returns both roots, with body B placed in A's frame, or `None` if a mesh has no triangles.
-    pub(super) fn roots(&self, placement: &Placement) -> Option<Pair> {
+    pub(super) fn root_pair(&self, placement: &Placement) -> Option<Pair> {
         let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
         Some(Pair {
             a: 0,
@@ -166,9 +166,9 @@ impl Trees {
     }
 
     /// Returns the largest amount by which the distance of the nodes' contents can exceed that of the nodes.
-    pub(super) fn slack(&self, pair: &Pair) -> f64 {
+    pub(super) fn distance_slack(&self, pair: &Pair) -> f64 {
         let (a, b) = self.nodes(pair);
-        a.size() + b.size()
+        a.diameter_bound() + b.diameter_bound()
     }
 
     /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in this frame.
@@ -183,14 +183,16 @@ impl Trees {
     pub(super) fn children(&self, pair: &Pair) -> PairChildren {
         let (a, b) = self.nodes(pair);
         match (a.content, b.content) {
-            (Content::Triangle(a), Content::Triangle(b)) => {
+            (NodeContent::Triangle(a), NodeContent::Triangle(b)) => {
                 PairChildren::Triangles(TrianglePair { a, b })
             }
-            (Content::Nodes(below), Content::Nodes(_)) if a.size() > b.size() => {
+            (NodeContent::Nodes(below), NodeContent::Nodes(_))
+                if a.diameter_bound() > b.diameter_bound() =>
+            {
                 self.split_a(pair, below)
             }
-            (_, Content::Nodes(below)) => self.split_b(pair, below),
-            (Content::Nodes(below), Content::Triangle(_)) => self.split_a(pair, below),
+            (_, NodeContent::Nodes(below)) => self.split_b(pair, below),
+            (NodeContent::Nodes(below), NodeContent::Triangle(_)) => self.split_a(pair, below),
         }
     }
 

@@ -4,7 +4,7 @@ use super::triangles_apart::Triangle;
 
 /// What is below a node of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Content {
+pub(super) enum NodeContent {
     /// The node contains these two nodes.
     Nodes([u32; 2]),
     /// The node is a leaf, and contains the triangle with this index.
@@ -15,21 +15,21 @@ pub(super) enum Content {
 ///
 /// `fit` makes the node of some triangles below a parent, and `split` partitions those of a node: it returns the number
 /// of triangles in the first part. The root comes first. Without triangles there are no nodes.
-pub(super) fn build<N>(
+pub(super) fn build_binary_tree<N>(
     triangles: &mut [Triangle],
     fit: impl Fn(&[Triangle], Option<&N>) -> N,
     split: impl Fn(&mut [Triangle], &N) -> usize,
-) -> Vec<(N, Content)> {
+) -> Vec<(N, NodeContent)> {
     let mut nodes = Vec::with_capacity(2 * triangles.len());
     if triangles.is_empty() {
         return nodes;
     }
-    let leaf = |node: N| (node, Content::Triangle(0));
+    let leaf = |node: N| (node, NodeContent::Triangle(0));
     nodes.push(leaf(fit(triangles, None)));
     let mut open = vec![(0, 0..triangles.len())];
     while let Some((index, range)) = open.pop() {
         if range.len() == 1 {
-            nodes[index].1 = Content::Triangle(range.start as u32);
+            nodes[index].1 = NodeContent::Triangle(range.start as u32);
             continue;
         }
         let parent = &nodes[index].0;
@@ -39,7 +39,7 @@ pub(super) fn build<N>(
             .clone()
             .map(|part| fit(&triangles[part], Some(parent)));
         let left = nodes.len();
-        nodes[index].1 = Content::Nodes([left as u32, left as u32 + 1]);
+        nodes[index].1 = NodeContent::Nodes([left as u32, left as u32 + 1]);
         nodes.extend(children.map(leaf));
         open.extend((left..).zip(parts));
     }

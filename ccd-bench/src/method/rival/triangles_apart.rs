@@ -2,7 +2,7 @@
 //!
 //! The rivals' own, four edges at a time: the referee that judges them shares no code with it.
 
-use super::lanes::{Vec3x4, least};
+use super::lanes::{Vec3x4, least_lane};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use wide::f64x4;
@@ -24,7 +24,7 @@ pub(super) struct NearestPoints {
 
 impl NearestPoints {
     /// Returns the vector from the point on A to the point on B.
-    pub(super) fn between(&self) -> DVec3 {
+    pub(super) fn vector_from_a_to_b(&self) -> DVec3 {
         self.on_b - self.on_a
     }
 }
@@ -41,7 +41,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
     let (face_a, face_b) = (TrianglePlane::new(a), TrianglePlane::new(b));
     let (over_a, over_b) = (face_a.heights(b), face_b.heights(a));
     // Nothing is above or below the plane of a needle, which has no normal.
-    let cut = |face: &TrianglePlane, heights| face.is_needle() || straddle(heights);
+    let cut = |face: &TrianglePlane, heights| face.is_needle() || have_both_signs(heights);
     if cut(&face_a, over_a) && cut(&face_b, over_b) {
         let meeting =
             piercing_point(&face_a, over_a, b).or_else(|| piercing_point(&face_b, over_b, a));
@@ -52,7 +52,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
             };
         }
     }
-    let (mut squared, mut best) = nearest_on_edges(a, b);
+    let (mut squared, mut best) = nearest_edge_points(a, b);
     if let Some((less, foot, k)) = face_a.least_height(over_a, b).filter(|f| f.0 < squared) {
         squared = less;
         best = NearestPoints {
@@ -71,7 +71,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> NearestPoints {
 
 /// Returns the nearest points of the triangles' edges, and their squared distance.
 #[inline(always)]
-fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
+fn nearest_edge_points(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
     let (from_b, along_b) = (pack_vectors(b), pack_vectors(&edges(b)));
     let long_b = along_b.dot_each(along_b);
     let scale_b = reciprocal(long_b);
@@ -94,8 +94,8 @@ fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
         let t = (both.mul_sub(s, ahead_b) * scale_b).fast_clamp(zero, one);
         let s = (both.mul_add(t, ahead_a) * reciprocal(long_a)).fast_clamp(zero, one);
         let vectors = apart
-            .plus_each(t, along_b)
-            .minus(Vec3x4::splat(DVec3::ZERO).plus(s, along));
+            .plus_scaled_each(t, along_b)
+            .minus(Vec3x4::splat(DVec3::ZERO).plus_scaled(s, along));
         let found = vectors.dot_each(vectors);
         let nearer = found.simd_lt(squared);
         squared = squared.fast_min(found);
@@ -103,7 +103,7 @@ fn nearest_on_edges(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
         t_best = nearer.select(t, t_best);
         edge = nearer.select(f64x4::splat(i as f64), edge);
     }
-    let (k, squared) = least(squared);
+    let (k, squared) = least_lane(squared);
     let (i, s, t) = (
         edge.to_array()[k],
         s_best.to_array()[k],
@@ -184,7 +184,7 @@ impl TrianglePlane {
         }
         let squared = heights * heights * f64x4::splat(self.inverse_squared_normal);
         let far = f64x4::splat(f64::INFINITY);
-        let (k, squared) = least(
+        let (k, squared) = least_lane(
             self.projects_inside(pack_vectors(points))
                 .select(squared, far),
         );
@@ -200,7 +200,7 @@ fn piercing_point(face: &TrianglePlane, heights: f64x4, corners: &Triangle) -> O
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
     let share = heights / (heights - next);
-    let points = pack_vectors(corners).plus_each(share, pack_vectors(&edges(corners)));
+    let points = pack_vectors(corners).plus_scaled_each(share, pack_vectors(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
     let hits = (crosses & face.projects_inside(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
@@ -208,7 +208,7 @@ fn piercing_point(face: &TrianglePlane, heights: f64x4, corners: &Triangle) -> O
 
 /// Returns true if some heights are positive and others negative.
 #[inline(always)]
-fn straddle(heights: f64x4) -> bool {
+fn have_both_signs(heights: f64x4) -> bool {
     let zero = f64x4::splat(0.0);
     heights.simd_lt(zero).any() && heights.simd_gt(zero).any()
 }

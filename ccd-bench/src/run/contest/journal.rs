@@ -64,16 +64,16 @@ impl Journal {
 
     /// Reads the journal of a folder, whatever its settings.
     pub fn read(folder: &Path) -> Self {
-        let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART_FILE));
-        let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS_FILE));
+        let mut cells: Vec<Cell> = read_valid_rows(&folder.join(CHART_FILE));
+        let mut trials: Vec<Trial> = read_valid_rows(&folder.join(TRIALS_FILE));
         // Trials are written before their cell, so a cell implies all of its trials.
         let mut counts: HashMap<Key, usize> = HashMap::new();
         for trial in &trials {
-            *counts.entry(key_of(trial)).or_default() += 1;
+            *counts.entry(trial_key(trial)).or_default() += 1;
         }
-        cells.retain(|cell| counts.get(&key(cell)) == Some(&cell.rows));
-        let done: HashSet<Key> = cells.iter().map(key).collect();
-        trials.retain(|trial| done.contains(&key_of(trial)));
+        cells.retain(|cell| counts.get(&cell_key(cell)) == Some(&cell.rows));
+        let done: HashSet<Key> = cells.iter().map(cell_key).collect();
+        trials.retain(|trial| done.contains(&trial_key(trial)));
         Journal {
             cells,
             trials,
@@ -83,7 +83,7 @@ impl Journal {
     }
 
     /// Returns true if a cell has been measured.
-    pub fn has(&self, scene: &str, method: &str, tolerance: f64) -> bool {
+    pub fn has_cell(&self, scene: &str, method: &str, tolerance: f64) -> bool {
         let is = |cell: &Cell| {
             cell.scene == scene && cell.method == method && cell.tolerance == tolerance
         };
@@ -95,8 +95,8 @@ impl Journal {
     /// # Errors
     /// If they cannot be written.
     pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<()> {
-        append(&self.folder.join(TRIALS_FILE), &trials)?;
-        append(&self.folder.join(CHART_FILE), std::slice::from_ref(&cell))?;
+        append_rows(&self.folder.join(TRIALS_FILE), &trials)?;
+        append_rows(&self.folder.join(CHART_FILE), std::slice::from_ref(&cell))?;
         self.cells.push(cell);
         self.trials.extend(trials);
         Ok(())
@@ -125,25 +125,25 @@ pub fn program_stamp() -> String {
     format!("program {program:08x}\n")
 }
 
-fn key(cell: &Cell) -> Key {
+fn cell_key(cell: &Cell) -> Key {
     let tolerance = cell.tolerance.to_bits();
     (cell.scene.clone(), cell.method.clone(), tolerance)
 }
 
-fn key_of(trial: &Trial) -> Key {
+fn trial_key(trial: &Trial) -> Key {
     let tolerance = trial.tolerance.to_bits();
     (trial.scene.clone(), trial.method.clone(), tolerance)
 }
 
 /// Reads the rows of a table up to the first invalid one, which an interruption may have truncated.
-fn whole_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
+fn read_valid_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
     let Ok(reader) = csv::Reader::from_path(path) else {
         return Vec::new();
     };
     reader.into_deserialize().map_while(Result::ok).collect()
 }
 
-fn append<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
+fn append_rows<T: Serialize>(path: &Path, rows: &[T]) -> Result<()> {
     let file = OpenOptions::new().append(true).open(path);
     let file = file.with_context(|| path.display().to_string())?;
     let mut writer = csv::WriterBuilder::new()

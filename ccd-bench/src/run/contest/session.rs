@@ -1,6 +1,6 @@
 //! A method that is ready for queries about a scene.
 
-use super::MOST_PAIRS_FOR_NAIVE;
+use super::MAX_PAIRS_FOR_NAIVE;
 use crate::method::guarded::{GuardSettings, GuardedMethod, Programs, QueryOutcome};
 use crate::method::solver::{Solver, answer_timed};
 use crate::method::{Method, Ours, PAPER_TOLERANCE};
@@ -20,7 +20,7 @@ pub struct Session<'s> {
 /// The solver of a session, in this process or in a separate one that can be stopped.
 enum Runner<'s> {
     InProcess(Box<dyn Solver + 's>),
-    Guarded(Box<GuardedMethod>),
+    SeparateProcess(Box<GuardedMethod>),
 }
 
 impl<'s> Session<'s> {
@@ -30,10 +30,10 @@ impl<'s> Session<'s> {
     /// If a peer cannot be prepared.
     pub fn open(method: Method, scene: &'s Scene, programs: &Programs) -> io::Result<Option<Self>> {
         let runner = match method {
-            Method::Ours(kind, pieces) => {
-                let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
+            Method::ThisProject(kind, pieces) => {
+                let too_many = scene.pairs() > MAX_PAIRS_FOR_NAIVE;
                 let suits = kind.schedule != ScheduleKind::Naive || !too_many;
-                let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
+                let Some(bodies) = scene.bodies_with_pieces(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
                 Runner::InProcess(Box::new(Ours::new(kind, bodies, Settings::DEFAULT.margin)))
@@ -45,7 +45,7 @@ impl<'s> Session<'s> {
             Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
                 let setting = GuardSettings::new(method, PAPER_TOLERANCE);
-                Runner::Guarded(Box::new(GuardedMethod::new(programs, setting, meshes)?))
+                Runner::SeparateProcess(Box::new(GuardedMethod::new(programs, setting, meshes)?))
             }
         };
         Ok(Some(Session { method, runner }))
@@ -58,7 +58,7 @@ impl<'s> Session<'s> {
 
     /// Runs some queries for a limited time, for solvers that prepare pieces on first use. Returns the number of
     /// prepared queries.
-    pub(super) fn prepare<'q>(
+    pub(super) fn run_warm_up_queries<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Motions>,
         tolerance: f64,
@@ -66,7 +66,7 @@ impl<'s> Session<'s> {
     ) -> usize {
         let start = Instant::now();
         match (&mut self.runner, self.method) {
-            (Runner::InProcess(solver), Method::Ours(kind, _))
+            (Runner::InProcess(solver), Method::ThisProject(kind, _))
                 if kind.schedule.uses_hull_trees() =>
             {
                 let prepared = queries.take_while(|_| start.elapsed() < time);
@@ -93,7 +93,7 @@ impl<'s> Session<'s> {
                 let timed = answer_timed(solver.as_mut(), query, tolerance);
                 Ok(QueryOutcome::Answered(timed))
             }
-            Runner::Guarded(guarded) => {
+            Runner::SeparateProcess(guarded) => {
                 guarded.set_tolerance(tolerance);
                 guarded.run_query(query, patience)
             }

@@ -3,7 +3,7 @@ use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::solver::Claim;
 use crate::scene::model::cuboid;
-use crate::scene::{Models, PieceKind, listings};
+use crate::scene::{ModelCache, PieceKind, listings};
 use crate::truth::Truth;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
@@ -38,17 +38,17 @@ const HIT: Truth = Truth::Hit {
 #[case::early(HIT, Claim::Contact { time: 0.25 }, Verdict::Early, Some(0.125))]
 #[case::late(HIT, Claim::Contact { time: 0.376 }, Verdict::Late, Some(0.001))]
 #[case::no_time(HIT, Claim::Contact { time: f64::NAN }, Verdict::Late, None)]
-#[case::missed(HIT, Claim::Free, Verdict::Missed, None)]
+#[case::missed(HIT, Claim::NoContact, Verdict::Missed, None)]
 #[case::given_up(HIT, Claim::Unresolved { safe_until: 0.3 }, Verdict::Unresolved, None)]
 #[case::given_up_late(HIT, Claim::Unresolved { safe_until: 0.4 }, Verdict::Late, None)]
-#[case::free(Truth::Free, Claim::Free, Verdict::Right, None)]
+#[case::free(Truth::Free, Claim::NoContact, Verdict::Right, None)]
 #[case::near(Truth::Free, Claim::Contact { time: 0.37 }, Verdict::Right, None)]
-#[case::false_contact(Truth::Free, Claim::Contact { time: 0.2 }, Verdict::False, None)]
-#[case::start(Truth::Start, Claim::Contact { time: 0.0 }, Verdict::Undecided, None)]
+#[case::false_contact(Truth::Free, Claim::Contact { time: 0.2 }, Verdict::FalseContact, None)]
+#[case::start(Truth::ContactAtStart, Claim::Contact { time: 0.0 }, Verdict::Undecided, None)]
 #[case::wide(Truth::Hit { lo: 0.3, hi: 0.4 }, Claim::Contact { time: 0.35 }, Verdict::Undecided, None)]
 #[case::just_late(HIT, Claim::Contact { time: 0.375 + 1e-11 }, Verdict::Late, Some(1e-11))]
-#[case::unknown(Truth::Graze { lo: 0.3 }, Claim::Free, Verdict::Undecided, None)]
-fn claims_are_judged(
+#[case::unknown(Truth::Graze { lo: 0.3 }, Claim::NoContact, Verdict::Undecided, None)]
+fn claims_get_expected_verdicts(
     #[case] truth: Truth,
     #[case] claim: Claim,
     #[case] verdict: Verdict,
@@ -60,8 +60,8 @@ fn claims_are_judged(
     let judged = judge(&referee, &flight(), truth, claim, 0.05);
     assert_eq!(judged.verdict, verdict);
     match error {
-        Some(error) => assert!((judged.error.unwrap() - error).abs() < 1e-12),
-        None => assert!(judged.error.is_none_or(f64::is_nan)),
+        Some(error) => assert!((judged.time_error.unwrap() - error).abs() < 1e-12),
+        None => assert!(judged.time_error.is_none_or(f64::is_nan)),
     }
 }
 
@@ -71,14 +71,14 @@ fn small_scene() -> Scene {
         .into_iter()
         .find(|listing| listing.name == "knot216")
         .unwrap();
-    listing.make(&mut Models::default()).unwrap()
+    listing.make_scene(&mut ModelCache::default()).unwrap()
 }
 
-const EVERYTHING: MeasurementLimits = MeasurementLimits {
+const NO_LIMITS: MeasurementLimits = MeasurementLimits {
     cell: Duration::MAX,
     patience: Duration::MAX,
-    rows: usize::MAX,
-    least_rows: 1,
+    max_rows: usize::MAX,
+    min_rows: 1,
     preparation: Duration::MAX,
 };
 
@@ -87,8 +87,8 @@ fn every_prefix_of_the_order_is_spread_over_all_rows() {
     let scene = small_scene();
     let contest = PreparedScene::new(&scene).unwrap();
     let count = scene.queries.len();
-    let mut all = contest.order(usize::MAX);
-    assert_eq!(contest.order(5), all[..5]);
+    let mut all = contest.row_order(usize::MAX);
+    assert_eq!(contest.row_order(5), all[..5]);
     let most = *all[..5].iter().max().unwrap();
     let least = *all[..5].iter().min().unwrap();
     assert!(most - least > count / 2, "{:?}", &all[..5]);
@@ -100,10 +100,10 @@ fn every_prefix_of_the_order_is_spread_over_all_rows() {
 fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     let scene = small_scene();
     let contest = PreparedScene::new(&scene).unwrap();
-    let method = Method::Ours(SolverKind::default(), PieceKind::Least);
+    let method = Method::ThisProject(SolverKind::default(), PieceKind::FewestPieces);
     let session = Session::open(method, &scene, &Programs::default());
     let mut session = session.unwrap().unwrap();
-    let measured = contest.run(&mut session, 1e-6, &EVERYTHING);
+    let measured = contest.run(&mut session, 1e-6, &NO_LIMITS);
     let measured = measured.unwrap();
     let (cell, trials) = measured.unwrap();
     assert_eq!(cell.rows, scene.queries.len());
@@ -118,7 +118,7 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     assert_eq!(cell.max_error, Some(errors[hits - 1]));
     assert!(cell.mean_error <= cell.max_error);
     assert!(cell.median_us > 0.0 && cell.mean_steps >= 1.0);
-    assert_eq!(summarise(&trials), cell);
+    assert_eq!(summarise_trials(&trials), cell);
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     };
     let add = |journal: &mut Journal, method: &str| {
         let trials = vec![trial(method, "0"), trial(method, "1")];
-        journal.add(summarise(&trials), trials).unwrap();
+        journal.add(summarise_trials(&trials), trials).unwrap();
     };
     let mut journal = Journal::open(&folder, "one").unwrap();
     add(&mut journal, "C2A");
@@ -153,8 +153,8 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
     assert!(format!("{second:#}").contains("another run"), "{second:#}");
     drop(journal);
     let mut journal = Journal::open(&folder, "one").unwrap();
-    assert!(journal.has("santa", "C2A", 1e-3));
-    assert!(!journal.has("santa", "CONTACT", 1e-3));
+    assert!(journal.has_cell("santa", "C2A", 1e-3));
+    assert!(!journal.has_cell("santa", "CONTACT", 1e-3));
     assert_eq!((journal.cells().len(), journal.trials().len()), (1, 2));
     add(&mut journal, "CONTACT");
     drop(journal);

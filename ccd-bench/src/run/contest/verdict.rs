@@ -23,7 +23,7 @@ pub enum Verdict {
     /// The claim is only a time before which there is no contact.
     Unresolved,
     /// The claim is a contact, but there is none, and the bodies are farther apart than the tolerance.
-    False,
+    FalseContact,
     /// The claim is a contact after the exact first one.
     Late,
     /// The claim is that there is no contact, but there is one.
@@ -45,7 +45,7 @@ pub struct Judgement {
     pub verdict: Verdict,
     /// The distance of the reported time of contact from the bracket of the true one, as a fraction
     /// of the duration; `None` if either time is missing.
-    pub error: Option<f64>,
+    pub time_error: Option<f64>,
 }
 
 /// The lateness above which a contact is late, as a fraction of the duration. Poses by two formulas of one motion
@@ -64,7 +64,7 @@ impl Judgement {
     pub fn without_error(verdict: Verdict) -> Self {
         Judgement {
             verdict,
-            error: None,
+            time_error: None,
         }
     }
 }
@@ -74,7 +74,7 @@ pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judge
     match outcome {
         QueryOutcome::Answered(timed) => judge(&timed.reply),
         QueryOutcome::CutOff => Judgement::without_error(Verdict::CutOff),
-        QueryOutcome::Died => Judgement::without_error(Verdict::Died),
+        QueryOutcome::Crashed => Judgement::without_error(Verdict::Died),
     }
 }
 
@@ -98,11 +98,13 @@ pub fn judge(
         Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
         Truth::Free => plain(match claim {
             Claim::Contact { time } if near(time) => Verdict::Right,
-            Claim::Contact { .. } => Verdict::False,
-            Claim::Free => Verdict::Right,
+            Claim::Contact { .. } => Verdict::FalseContact,
+            Claim::NoContact => Verdict::Right,
             Claim::Unresolved { .. } | Claim::Refused | Claim::NoClaim => Verdict::Unresolved,
         }),
-        Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => plain(Verdict::Undecided),
+        Truth::ContactAtStart | Truth::Graze { .. } | Truth::Undecided { .. } => {
+            plain(Verdict::Undecided)
+        }
     }
 }
 
@@ -127,7 +129,7 @@ pub fn judge_contact(
     let plain = Judgement::without_error;
     let time = match claim {
         Claim::Contact { time } => time,
-        Claim::Free => return plain(Verdict::Missed),
+        Claim::NoContact => return plain(Verdict::Missed),
         // This claim is a proof too, and may be wrong.
         Claim::Unresolved { safe_until } if safe_until > hi + MAX_LATENESS * duration => {
             return plain(Verdict::Late);
@@ -147,7 +149,7 @@ pub fn judge_contact(
     Judgement {
         verdict,
         // An invalid time has no error: `max` has dropped the NaN.
-        error: Some(off).filter(|_| !time.is_nan()),
+        time_error: Some(off).filter(|_| !time.is_nan()),
     }
 }
 

@@ -28,8 +28,12 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
 fn missing_data_is_named_in_the_error() {
     let mut listing = listings().unwrap().remove(0);
     listing.rows = Some(0..10_000);
-    let make =
-        |listing: &Listing| format!("{:#}", listing.make(&mut Models::default()).unwrap_err());
+    let make = |listing: &Listing| {
+        format!(
+            "{:#}",
+            listing.make_scene(&mut ModelCache::default()).unwrap_err()
+        )
+    };
     listing.a = "knot216".to_owned();
     let error = make(&listing);
     assert!(error.contains("santa.csv: rows 0 to 10000"), "{error}");

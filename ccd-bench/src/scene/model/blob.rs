@@ -93,7 +93,7 @@ impl Blob {
 
     fn ripples(&self) -> Vec<Ripple> {
         let mut rng = Pcg64::seed_from_u64(self.seed);
-        (0..RIPPLES)
+        (0..RIPPLE_COUNT)
             .map(|_| {
                 let [x, y, z, phase] = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
                 Ripple {
@@ -112,6 +112,6 @@ struct Ripple {
 }
 
 /// The number of plane waves that are added up.
-const RIPPLES: usize = 24;
+const RIPPLE_COUNT: usize = 24;
 /// The highest wave number along each axis, in radians per core radius.
 const MAX_WAVE_NUMBER: f64 = 20.0;

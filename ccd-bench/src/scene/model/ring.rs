@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 ///
 /// # Errors
 /// If a number of parts is too small or too large for a mesh.
-pub(crate) fn ring(
+pub(crate) fn torus_mesh(
     [segments, sides]: [usize; 2],
     radius: f64,
     tube_radius: f64,

@@ -11,26 +11,29 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let counts = ring_counts(vertices);
     let mut points = vec![DVec3::Z];
     let mut faces = Vec::with_capacity(2 * vertices);
-    let mut above = Ring { first: 0, count: 1 };
+    let mut above = Ring {
+        first: 0,
+        vertex_count: 1,
+    };
     for (k, &count) in counts.iter().enumerate() {
         let ring = Ring {
             first: points.len() as u32,
-            count,
+            vertex_count: count,
         };
         let (sin, cos) = (PI * (k + 1) as f64 / (counts.len() + 1) as f64).sin_cos();
         points.extend((0..count).map(|i| {
             let (y, x) = (TAU * i as f64 / count as f64).sin_cos();
             DVec3::new(sin * x, sin * y, cos)
         }));
-        join(above, ring, &mut faces);
+        join_rings(above, ring, &mut faces);
         above = ring;
     }
     let south = Ring {
         first: points.len() as u32,
-        count: 1,
+        vertex_count: 1,
     };
     points.push(DVec3::NEG_Z);
-    join(above, south, &mut faces);
+    join_rings(above, south, &mut faces);
     (points, faces)
 }
 
@@ -38,17 +41,21 @@ pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
 #[derive(Clone, Copy)]
 struct Ring {
     first: u32,
-    count: usize,
+    vertex_count: usize,
 }
 
 impl Ring {
     fn vertex(&self, i: usize) -> u32 {
-        self.first + (i % self.count) as u32
+        self.first + (i % self.vertex_count) as u32
     }
 
     /// Returns the number of edges of the circle; a pole has none.
     fn steps(&self) -> usize {
-        if self.count == 1 { 0 } else { self.count }
+        if self.vertex_count == 1 {
+            0
+        } else {
+            self.vertex_count
+        }
     }
 }
 
@@ -75,7 +82,7 @@ fn ring_counts(vertices: usize) -> Vec<usize> {
 
 /// Adds the strip of triangles between two circles, the northern one first. The next step is always
 /// the one whose middle comes first, which keeps the triangles well shaped.
-fn join(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
+fn join_rings(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
     let (n, s) = (north.steps(), south.steps());
     let (mut i, mut j) = (0, 0);
     while i < n || j < s {

@@ -20,7 +20,7 @@ const TORUS_RADII: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 /// If a number of parts is too small or too large for a mesh.
 pub fn torus_knot([segments, sides]: [usize; 2], tube: f64) -> Result<TriangleMesh, MeshError> {
     closed_grid(segments, sides, |u, v| {
-        let (on_curve, tangent, normal) = frame(TAU * u);
+        let (on_curve, tangent, normal) = knot_frame(TAU * u);
         let (sin, cos) = (TAU * v).sin_cos();
         on_curve + tube * (cos * normal + sin * tangent.cross(normal))
     })
@@ -28,7 +28,7 @@ pub fn torus_knot([segments, sides]: [usize; 2], tube: f64) -> Result<TriangleMe
 
 /// Returns a point of the knot, the unit tangent there, and the unit normal of the torus that it
 /// lies on. The normal is perpendicular to the tangent and periodic.
-fn frame(t: f64) -> (DVec3, DVec3, DVec3) {
+fn knot_frame(t: f64) -> (DVec3, DVec3, DVec3) {
     let (sin_a, cos_a) = (TURNS * t).sin_cos();
     let (sin_b, cos_b) = (WINDINGS * t).sin_cos();
     let (radius, tube) = TORUS_RADII;

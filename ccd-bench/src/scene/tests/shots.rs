@@ -32,14 +32,14 @@ impl Shots {
         let mut rng = Pcg64::seed_from_u64(self.seed);
         (0..self.count)
             .map(|row| {
-                let from = rng.random_range(self.distance.clone()) * unit_vector(&mut rng);
-                let target = self.max_offset * in_unit_ball(&mut rng);
+                let from = rng.random_range(self.distance.clone()) * random_unit_vector(&mut rng);
+                let target = self.max_offset * random_unit_ball_point(&mut rng);
                 let start = Pose::new(from, orientation(&mut rng))?;
                 let velocity = 2.0 * (target - from);
                 let spin = if row < self.translation_count {
                     DVec3::ZERO
                 } else {
-                    rng.random_range(0.0..FRAC_PI_2) * unit_vector(&mut rng)
+                    rng.random_range(0.0..FRAC_PI_2) * random_unit_vector(&mut rng)
                 };
                 query_against_resting(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
             })
@@ -58,7 +58,7 @@ pub(crate) fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Motions>, 
     (0..count)
         .map(|row| {
             let start = Pose::new(5.0 * DVec3::Z, orientation(&mut rng))?;
-            let spin = 0.75 * PI * unit_vector(&mut rng);
+            let spin = 0.75 * PI * random_unit_vector(&mut rng);
             let motion = Motion::new(start, -10.0 * DVec3::Z, spin)?;
             let height = 3.5 - 7.0 * row as f64 / count as f64;
             let aside = match row % 4 {
@@ -81,7 +81,7 @@ fn query_against_resting(row: usize, a: Motion, b: DVec3) -> Result<Motions, Inp
 }
 
 /// Returns a uniformly distributed unit vector.
-fn unit_vector(rng: &mut impl Rng) -> DVec3 {
+fn random_unit_vector(rng: &mut impl Rng) -> DVec3 {
     let z: f64 = rng.random_range(-1.0..1.0);
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     let radius = (1.0 - z * z).sqrt();
@@ -89,9 +89,9 @@ fn unit_vector(rng: &mut impl Rng) -> DVec3 {
 }
 
 /// Returns a uniformly distributed point of the unit ball.
-fn in_unit_ball(rng: &mut impl Rng) -> DVec3 {
+fn random_unit_ball_point(rng: &mut impl Rng) -> DVec3 {
     let radius = rng.random_range(0.0f64..1.0).cbrt();
-    radius * unit_vector(rng)
+    radius * random_unit_vector(rng)
 }
 
 /// Returns a uniformly distributed rotation: a point of the sphere in four dimensions.

@@ -2,7 +2,8 @@
 //! cost grows.
 
 use super::sheet::{
-    MARGIN, PixelPosition, Sheet, TEXT_COLOUR, TextFormat, WIDTH, rect, svg, text, text_width,
+    CHART_MARGIN, CHART_WIDTH, PixelPosition, Sheet, TEXT_COLOUR, TextFormat, draw_svg, draw_text,
+    fill_rect, text_width,
 };
 use super::style::COLOURS;
 use crate::run::contest::Verdict;
@@ -49,17 +50,17 @@ pub const SOLVED_RANGE: &HeatMapKind = &HeatMapKind {
         "the steps, from the easy ones, before the first that is not right.",
     ],
     legend: &[
-        ("right", RIGHT_COLOUR),
+        ("right", CORRECT_COLOUR),
         ("unresolved or refused", MISSING_COLOUR),
         ("early", EARLY_COLOUR),
-        ("false contact", FALSE_COLOUR),
+        ("false contact", FALSE_CONTACT_COLOUR),
         ("late or missed", MISSED_COLOUR),
         ("died or cut off", BLACK),
     ],
 };
 
-/// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::growth`].
-pub const GROWTH: &HeatMapKind = &HeatMapKind {
+/// The kind of map that shows how the cost of each method grows: cells of [`HeatCell::cost_growth`].
+pub const COST_GROWTH: &HeatMapKind = &HeatMapKind {
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     remark: [
         "The largest mean number of steps of a query and one for the query itself, as a multiple of that of the family's",
@@ -90,16 +91,16 @@ const BAR_HEIGHT: f64 = 5.0;
 /// The distance of the first row from the top of the sheet, in pixels.
 const FIRST_ROW_TOP: f64 = 250.0;
 /// The font sizes of small and of the smallest text, in pixels.
-const SMALL_FONT: f64 = 10.5;
-const SMALLEST_FONT: f64 = 7.5;
+const SMALL_FONT_SIZE: f64 = 10.5;
+const SMALLEST_FONT_SIZE: f64 = 7.5;
 
 /// The colour of families in which all answers are right.
-const RIGHT_COLOUR: RGBColor = COLOURS[0];
+const CORRECT_COLOUR: RGBColor = COLOURS[0];
 /// The colour of missing answers.
 const MISSING_COLOUR: RGBColor = RGBColor(0xbc, 0xbc, 0xbc);
 /// The colours of early contacts and of false contacts.
 const EARLY_COLOUR: RGBColor = RGBColor(0xf5, 0xdd, 0xa0);
-const FALSE_COLOUR: RGBColor = COLOURS[4];
+const FALSE_CONTACT_COLOUR: RGBColor = COLOURS[4];
 /// The colour of late and missed contacts.
 const MISSED_COLOUR: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
@@ -128,7 +129,7 @@ impl HeatCell {
     }
 
     /// Returns the cell that shows the largest cost of a step, as a multiple of that of the easiest one.
-    pub fn growth(factor: f64) -> Self {
+    pub fn cost_growth(factor: f64) -> Self {
         let steps = [3.0, 30.0, 1000.0].iter();
         let darkness = steps.filter(|&&most| factor > most).count();
         let number = match factor {
@@ -151,16 +152,16 @@ impl HeatMap {
     /// # Errors
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<String> {
-        let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + MARGIN;
-        svg(self.kind.title, (WIDTH, height), |sheet| {
+        let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + CHART_MARGIN;
+        draw_svg(self.kind.title, (CHART_WIDTH, height), |sheet| {
             draw_header(sheet, self.kind)?;
             let format = TextFormat {
                 rotation: FontTransform::Rotate270,
-                ..small_text()
+                ..small_text_format()
             };
             for (column, method) in self.methods.iter().enumerate() {
-                let middle = self.column_left(column) + 0.5 * self.column();
-                text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
+                let middle = self.column_left(column) + 0.5 * self.column_width();
+                draw_text(sheet, method, (middle, FIRST_ROW_TOP - 6.0), &format)?;
             }
             for (number, row) in self.rows.iter().enumerate() {
                 self.row(sheet, FIRST_ROW_TOP + ROW_HEIGHT * number as f64, row)?;
@@ -170,44 +171,44 @@ impl HeatMap {
     }
 
     /// Returns the width of a method's column, in pixels.
-    fn column(&self) -> f64 {
-        (WIDTH - 2.0 * MARGIN - NAMES_WIDTH) / self.methods.len() as f64
+    fn column_width(&self) -> f64 {
+        (CHART_WIDTH - 2.0 * CHART_MARGIN - NAMES_WIDTH) / self.methods.len() as f64
     }
 
     fn column_left(&self, column: usize) -> f64 {
-        MARGIN + NAMES_WIDTH + self.column() * column as f64
+        CHART_MARGIN + NAMES_WIDTH + self.column_width() * column as f64
     }
 
     fn row(&self, sheet: &Sheet<'_>, top: f64, row: &HeatRow) -> Result<()> {
         let smallest = TextFormat {
-            size: SMALLEST_FONT,
-            ..small_text()
+            size: SMALLEST_FONT_SIZE,
+            ..small_text_format()
         };
-        text(
+        draw_text(
             sheet,
             &row.name,
-            (MARGIN, top + 0.34 * ROW_HEIGHT),
-            &small_text(),
+            (CHART_MARGIN, top + 0.34 * ROW_HEIGHT),
+            &small_text_format(),
         )?;
-        text(
+        draw_text(
             sheet,
             &row.parameter,
-            (MARGIN, top + 0.76 * ROW_HEIGHT),
+            (CHART_MARGIN, top + 0.76 * ROW_HEIGHT),
             &smallest,
         )?;
         for (column, cell) in row.cells.iter().enumerate() {
             if let Some(cell) = cell {
                 let corner = (self.column_left(column) + 0.5, top + 0.5);
-                draw_cell(sheet, corner, self.column() - 1.0, cell)?;
+                draw_cell(sheet, corner, self.column_width() - 1.0, cell)?;
             }
         }
         Ok(())
     }
 }
 
-fn small_text() -> TextFormat {
+fn small_text_format() -> TextFormat {
     TextFormat {
-        size: SMALL_FONT,
+        size: SMALL_FONT_SIZE,
         ..TextFormat::default()
     }
 }
@@ -216,22 +217,22 @@ fn small_text() -> TextFormat {
 fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
     let title = TextFormat {
         size: 15.0,
-        ..small_text()
+        ..small_text_format()
     };
-    text(sheet, kind.title, (MARGIN, 18.0), &title)?;
+    draw_text(sheet, kind.title, (CHART_MARGIN, 18.0), &title)?;
     for (line, words) in kind.remark.iter().enumerate() {
-        text(
+        draw_text(
             sheet,
             words,
-            (MARGIN, 38.0 + 14.0 * line as f64),
-            &small_text(),
+            (CHART_MARGIN, 38.0 + 14.0 * line as f64),
+            &small_text_format(),
         )?;
     }
-    let (mut left, top) = (MARGIN, 72.0);
+    let (mut left, top) = (CHART_MARGIN, 72.0);
     for &(name, colour) in kind.legend {
-        rect(sheet, (left, top), (12.0, 12.0), colour)?;
-        text(sheet, name, (left + 17.0, top + 6.0), &small_text())?;
-        left += 34.0 + text_width(name, SMALL_FONT);
+        fill_rect(sheet, (left, top), (12.0, 12.0), colour)?;
+        draw_text(sheet, name, (left + 17.0, top + 6.0), &small_text_format())?;
+        left += 34.0 + text_width(name, SMALL_FONT_SIZE);
     }
     Ok(())
 }
@@ -239,17 +240,17 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapKind) -> Result<()> {
 /// Draws a cell at its upper left corner, with a given width.
 fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW_HEIGHT - 1.0;
-    rect(sheet, (x, y), (width, height), cell.fill)?;
+    fill_rect(sheet, (x, y), (width, height), cell.fill)?;
     let bar = (width * cell.bar_length, BAR_HEIGHT);
-    rect(sheet, (x, y + height - BAR_HEIGHT), bar, RIGHT_COLOUR)?;
+    fill_rect(sheet, (x, y + height - BAR_HEIGHT), bar, CORRECT_COLOUR)?;
     let format = TextFormat {
-        size: SMALLEST_FONT,
+        size: SMALLEST_FONT_SIZE,
         colour: cell.text_colour,
         alignment: HPos::Center,
         ..TextFormat::default()
     };
     for (line, down) in cell.lines.iter().zip([5.0, 13.5]) {
-        text(sheet, line, (x + 0.5 * width, y + down), &format)?;
+        draw_text(sheet, line, (x + 0.5 * width, y + down), &format)?;
     }
     Ok(())
 }
@@ -257,12 +258,12 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCe
 /// Returns how a verdict is shown: its colour, a word for it, and the colour of the word.
 fn verdict_style(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
-        Verdict::Right => (RIGHT_COLOUR, "", WHITE),
+        Verdict::Right => (CORRECT_COLOUR, "", WHITE),
         Verdict::Undecided | Verdict::NotJudged => (MISSING_COLOUR, "?", TEXT_COLOUR),
         Verdict::Refused => (MISSING_COLOUR, "refused", TEXT_COLOUR),
         Verdict::Unresolved => (MISSING_COLOUR, "unres.", TEXT_COLOUR),
         Verdict::Early => (EARLY_COLOUR, "early", TEXT_COLOUR),
-        Verdict::False => (FALSE_COLOUR, "false", TEXT_COLOUR),
+        Verdict::FalseContact => (FALSE_CONTACT_COLOUR, "false", TEXT_COLOUR),
         Verdict::Late => (MISSED_COLOUR, "late", WHITE),
         Verdict::Missed => (MISSED_COLOUR, "missed", WHITE),
         Verdict::Died => (BLACK, "died", WHITE),

@@ -1,11 +1,12 @@
 //! Draws the charts of time against error: one plane for each scene, with a strip for unsafe methods.
 
 use super::plane::{
-    HEAD_HEIGHT, PlotArea, Point, decades, draw_footer, draw_header, footer_height, marker, series,
+    HEAD_HEIGHT, PlotArea, PlotPoint, decades, draw_footer, draw_header, draw_marker, draw_series,
+    footer_height,
 };
-use super::sheet::{FONT_SIZE, Sheet, TEXT_COLOUR, WIDTH, font, svg, to_units};
+use super::sheet::{CHART_WIDTH, FONT_SIZE, Sheet, TEXT_COLOUR, draw_svg, font, to_drawing_units};
 use super::style::WARNING_COLOUR;
-use super::{Charts, Family, Shown};
+use super::{ChartData, MethodFamily, Shown};
 use crate::run::measured::Cell;
 use anyhow::Result;
 use ccd_core::order::greater;
@@ -19,9 +20,9 @@ const PANELS_AND_HEIGHT: (usize, f64) = (3, 260.0);
 const LANE_AND_STRIP_WIDTHS: (f64, f64) = (10.0, 50.0);
 
 /// Draws a plane for each scene that was measured; `None` without any.
-pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<String>> {
+pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let scenes = charts.measured_scenes();
-    let shown = charts.methods_with_styles(&Family::COMPARED);
+    let shown = charts.methods_with_styles(&MethodFamily::COMPARED_FAMILIES);
     let cells = |is_shown: fn(&Shown<'_>) -> bool| {
         let methods = shown.iter().filter(move |method| is_shown(method));
         let of = |(method, _): &Shown<'_>| {
@@ -60,15 +61,15 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<String>> {
     let rows = scenes.len().div_ceil(PANELS_AND_HEIGHT.0);
     let bottom = HEAD_HEIGHT + PANELS_AND_HEIGHT.1 * rows as f64;
     let height = bottom + footer_height(&shown, &remarks);
-    let svg = svg(title, (WIDTH, height), |sheet| {
+    let svg = draw_svg(title, (CHART_WIDTH, height), |sheet| {
         draw_header(
             sheet,
             title,
             "One line per method, a marker for each tolerance; hollow in the strip beside: late or missed contacts \
              somewhere, so no accuracy to show",
         )?;
-        let (panels, _) = sheet.split_vertically(to_units(bottom));
-        let (_, panels) = panels.split_vertically(to_units(HEAD_HEIGHT));
+        let (panels, _) = sheet.split_vertically(to_drawing_units(bottom));
+        let (_, panels) = panels.split_vertically(to_drawing_units(HEAD_HEIGHT));
         let panels = panels.split_evenly((rows, PANELS_AND_HEIGHT.0));
         for (scene, panel) in scenes.iter().zip(&panels) {
             draw_scene(charts, panel, scene, &plane, &shown)?;
@@ -79,7 +80,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<String>> {
 }
 
 fn draw_scene(
-    charts: &Charts<'_>,
+    charts: &ChartData<'_>,
     panel: &Sheet<'_>,
     scene: &str,
     plane: &PlotArea,
@@ -94,18 +95,18 @@ fn draw_scene(
         ),
     };
     let width = panel.dim_in_pixel().0 as i32;
-    let (panel, strip) = panel.split_horizontally(width - to_units(strip));
+    let (panel, strip) = panel.split_horizontally(width - to_drawing_units(strip));
     let bold = font(FONT_SIZE, FontStyle::Bold);
     let panel = panel.titled(scene, bold.color(&TEXT_COLOUR))?;
     let mut drawn = plane.draw(&panel)?;
     for (method, style) in &solid {
         let cells = charts.cells_of(scene, method.name);
-        let points = cells.iter().map(|cell| Point {
+        let points = cells.iter().map(|cell| PlotPoint {
             x: cell.mean_error.unwrap_or(f64::NAN),
             y: cell.median_us,
             is_lower_bound: is_lower_bound(cell),
         });
-        series(&mut drawn, plane, &points.collect::<Vec<_>>(), style)?;
+        draw_series(&mut drawn, plane, &points.collect::<Vec<_>>(), style)?;
     }
     if hollow.is_empty() {
         return Ok(());
@@ -119,7 +120,7 @@ fn draw_scene(
         for cell in charts.cells_of(scene, method.name) {
             if !cell.median_us.is_nan() {
                 let at = (lane(number), cell.median_us);
-                marker(&mut beside, at, is_lower_bound(cell), style)?;
+                draw_marker(&mut beside, at, is_lower_bound(cell), style)?;
             }
         }
     }

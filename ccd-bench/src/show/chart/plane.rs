@@ -1,7 +1,9 @@
 //! Draws a plane of two logarithmic axes with a line for each method, and the legend of all planes of a chart.
 
 use super::MethodFacts;
-use super::sheet::{FONT_SIZE, MARGIN, Sheet, TEXT_COLOUR, TextFormat, font, text, to_units};
+use super::sheet::{
+    CHART_MARGIN, FONT_SIZE, Sheet, TEXT_COLOUR, TextFormat, draw_text, font, to_drawing_units,
+};
 use super::style::{MARKER_RADIUS, MethodStyle};
 use anyhow::Result;
 use ccd_core::order::{greater, lesser};
@@ -31,7 +33,7 @@ type Drawn<'a, 's> = ChartContext<'a, SVGBackend<'s>, Cartesian2d<LogCoord<f64>,
 
 /// A point to draw, in the units of the axes. The quantity of `y` is at least this if the measurement was cut off.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point {
+pub(super) struct PlotPoint {
     pub(super) x: f64,
     pub(super) y: f64,
     pub(super) is_lower_bound: bool,
@@ -58,7 +60,7 @@ impl PlotArea {
             .max_light_lines(1)
             .bold_line_style(GRID_COLOUR.stroke_width(10))
             .axis_style(TEXT_COLOUR.stroke_width(10))
-            .set_all_tick_mark_size(to_units(4.0))
+            .set_all_tick_mark_size(to_drawing_units(4.0))
             .x_labels(4)
             .y_labels(6)
             .x_desc(self.x.1)
@@ -78,25 +80,25 @@ impl PlotArea {
     ) -> Result<Drawn<'a, 's>> {
         let narrow = x != self.x.0;
         Ok(ChartBuilder::on(sheet)
-            .margin_top(to_units(MARGIN))
-            .margin_bottom(to_units(MARGIN))
-            .margin_right(to_units(MARGIN))
-            .x_label_area_size(to_units(38.0))
-            .y_label_area_size(if narrow { 0 } else { to_units(66.0) })
+            .margin_top(to_drawing_units(CHART_MARGIN))
+            .margin_bottom(to_drawing_units(CHART_MARGIN))
+            .margin_right(to_drawing_units(CHART_MARGIN))
+            .x_label_area_size(to_drawing_units(38.0))
+            .y_label_area_size(if narrow { 0 } else { to_drawing_units(66.0) })
             .build_cartesian_2d(x.log_scale(), self.y.0.clone().log_scale())?)
     }
 }
 
 /// Draws a line through values, with a marker on each. Values beyond the axes are at the edge.
-pub(super) fn series(
+pub(super) fn draw_series(
     drawn: &mut Drawn<'_, '_>,
     plane: &PlotArea,
-    points: &[Point],
+    points: &[PlotPoint],
     style: &MethodStyle,
 ) -> Result<()> {
     let within = |value: f64, range: &Range<f64>| value.clamp(range.start, range.end);
     let known = points.iter().filter(|point| !(point.x * point.y).is_nan());
-    let at = |point: &Point| (within(point.x, &plane.x.0), within(point.y, &plane.y.0));
+    let at = |point: &PlotPoint| (within(point.x, &plane.x.0), within(point.y, &plane.y.0));
     let spots: Vec<(f64, f64)> = known.clone().map(at).collect();
     match style.dash {
         None => drawn.draw_series(LineSeries::new(spots, style.line_style(14)))?,
@@ -108,13 +110,13 @@ pub(super) fn series(
         ))?,
     };
     for point in known {
-        marker(drawn, at(point), point.is_lower_bound, style)?;
+        draw_marker(drawn, at(point), point.is_lower_bound, style)?;
     }
     Ok(())
 }
 
 /// Draws a method's marker, with an arrow upwards if the value is a lower bound.
-pub(super) fn marker(
+pub(super) fn draw_marker(
     drawn: &mut Drawn<'_, '_>,
     at: (f64, f64),
     is_lower_bound: bool,
@@ -129,7 +131,7 @@ pub(super) fn marker(
             (3.0, 8.0),
             (0.0, 12.0),
         ];
-        let arrow = arrow.map(|(x, up)| (to_units(x), -to_units(up)));
+        let arrow = arrow.map(|(x, up)| (to_drawing_units(x), -to_drawing_units(up)));
         drawn
             .draw_series([EmptyElement::at(at) + PathElement::new(arrow, style.line_style(13))])?;
     }
@@ -157,13 +159,18 @@ pub(super) fn draw_header(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Res
         weight: FontStyle::Bold,
         ..TextFormat::default()
     };
-    text(sheet, title, (MARGIN, 16.0), &format)?;
-    text(sheet, subtitle, (MARGIN, 36.0), &TextFormat::default())
+    draw_text(sheet, title, (CHART_MARGIN, 16.0), &format)?;
+    draw_text(
+        sheet,
+        subtitle,
+        (CHART_MARGIN, 36.0),
+        &TextFormat::default(),
+    )
 }
 
 /// Returns the height of the legend and the remarks, in pixels.
 pub(super) fn footer_height(shown: &[Shown<'_>], remarks: &[&str]) -> f64 {
-    LINE_HEIGHT * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + MARGIN
+    LINE_HEIGHT * (shown.len().div_ceil(LEGEND.0) + remarks.len()) as f64 + CHART_MARGIN
 }
 
 /// Draws the legend, and the remarks below it.
@@ -175,10 +182,17 @@ pub(super) fn draw_footer(
 ) -> Result<()> {
     let (columns, width) = LEGEND;
     for (index, (method, style)) in shown.iter().enumerate() {
-        let left = MARGIN + width * (index % columns) as f64;
+        let left = CHART_MARGIN + width * (index % columns) as f64;
         let middle = top + LINE_HEIGHT * ((index / columns) as f64 + 0.5);
-        let (from, at, to) = (to_units(left), to_units(left + 15.0), to_units(left + 30.0));
-        let line = vec![(from, to_units(middle)), (to, to_units(middle))];
+        let (from, at, to) = (
+            to_drawing_units(left),
+            to_drawing_units(left + 15.0),
+            to_drawing_units(left + 30.0),
+        );
+        let line = vec![
+            (from, to_drawing_units(middle)),
+            (to, to_drawing_units(middle)),
+        ];
         let (dash, gap) = style.dash.unwrap_or((300, 0));
         sheet.draw(&DashedPathElement::new(
             line,
@@ -186,10 +200,10 @@ pub(super) fn draw_footer(
             gap,
             style.line_style(15),
         ))?;
-        sheet.draw(&glyph((at, to_units(middle)), style))?;
+        sheet.draw(&glyph((at, to_drawing_units(middle)), style))?;
         let mark = if style.is_unsafe { " (unsafe)" } else { "" };
         let label = format!("{}: {}{mark}", method.family.title(), method.name);
-        text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;
+        draw_text(sheet, &label, (left + 36.0, middle), &TextFormat::default())?;
     }
     let top = top + LINE_HEIGHT * (shown.len().div_ceil(columns) as f64 + 0.5);
     for (line, remark) in remarks.iter().enumerate() {
@@ -197,10 +211,10 @@ pub(super) fn draw_footer(
             size: FONT_SIZE - 1.0,
             ..TextFormat::default()
         };
-        text(
+        draw_text(
             sheet,
             remark,
-            (MARGIN, top + LINE_HEIGHT * line as f64),
+            (CHART_MARGIN, top + LINE_HEIGHT * line as f64),
             &format,
         )?;
     }

@@ -6,9 +6,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// The width of every chart in pixels, for the text width of a README.
-pub(super) const WIDTH: f64 = 840.0;
+pub(super) const CHART_WIDTH: f64 = 840.0;
 /// The width of the empty margin around a chart, in pixels.
-pub(super) const MARGIN: f64 = 10.0;
+pub(super) const CHART_MARGIN: f64 = 10.0;
 /// The number of drawing units in a pixel.
 const UNITS_PER_PIXEL: f64 = 10.0;
 /// The factor by which the library divides font sizes in its output.
@@ -48,14 +48,14 @@ impl Default for TextFormat {
 }
 
 /// Returns the SVG file that `body` draws on a white sheet of the given size in pixels.
-pub(super) fn svg(
+pub(super) fn draw_svg(
     title: &str,
     size: PixelPosition,
     body: impl FnOnce(&Sheet<'_>) -> Result<()>,
 ) -> Result<String> {
     let (width, height) = (
-        to_units(size.0).unsigned_abs(),
-        to_units(size.1).unsigned_abs(),
+        to_drawing_units(size.0).unsigned_abs(),
+        to_drawing_units(size.1).unsigned_abs(),
     );
     let mut text = String::new();
     {
@@ -76,7 +76,7 @@ pub(super) fn svg(
 }
 
 /// Draws a text whose vertical middle is at the given position.
-pub(super) fn text(
+pub(super) fn draw_text(
     sheet: &Sheet<'_>,
     text: &str,
     (x, y): PixelPosition,
@@ -86,17 +86,22 @@ pub(super) fn text(
         .transform(format.rotation.clone())
         .color(&format.colour)
         .pos(Pos::new(format.alignment, VPos::Center));
-    Ok(sheet.draw(&Text::new(text, (to_units(x), to_units(y)), style))?)
+    Ok(sheet.draw(&Text::new(
+        text,
+        (to_drawing_units(x), to_drawing_units(y)),
+        style,
+    ))?)
 }
 
 /// Fills a rectangle that is given by its upper left corner and its size.
-pub(super) fn rect(
+pub(super) fn fill_rect(
     sheet: &Sheet<'_>,
     (x, y): PixelPosition,
     size: PixelPosition,
     colour: RGBColor,
 ) -> Result<()> {
-    let corners = [(x, y), (x + size.0, y + size.1)].map(|(x, y)| (to_units(x), to_units(y)));
+    let corners =
+        [(x, y), (x + size.0, y + size.1)].map(|(x, y)| (to_drawing_units(x), to_drawing_units(y)));
     Ok(sheet.draw(&Rectangle::new(corners, colour.filled()))?)
 }
 
@@ -116,6 +121,6 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
 
 /// Converts pixels to drawing units; NaN becomes 0.
 // The cast saturates, and a sheet is some thousand pixels wide.
-pub(super) fn to_units(pixels: f64) -> i32 {
+pub(super) fn to_drawing_units(pixels: f64) -> i32 {
     (pixels * UNITS_PER_PIXEL).round() as i32
 }

@@ -1,7 +1,7 @@
 //! Chooses the colour and the marker of each method, the same in every chart.
 
-use super::sheet::to_units;
-use super::{Family, MethodFacts};
+use super::sheet::to_drawing_units;
+use super::{MethodFacts, MethodFamily};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
@@ -44,17 +44,17 @@ const MARKERS: [Marker; 5] = [
 
 /// Returns a style for each method, in the order of the methods. Styles within a family differ; families differ by the
 /// dash.
-pub(super) fn styles(
+pub(super) fn method_styles(
     methods: &[MethodFacts<'_>],
     is_unsafe: impl Fn(&str) -> bool,
 ) -> Vec<MethodStyle> {
     let mut taken = [0; 4];
     let style = |method: &MethodFacts<'_>| {
         let (family, dash) = match method.family {
-            Family::Ours => (0, None),
-            Family::Rival => (1, Some((70, 40))),
-            Family::Peer => (2, Some((20, 30))),
-            Family::Model => (3, None),
+            MethodFamily::Ours => (0, None),
+            MethodFamily::Rival => (1, Some((70, 40))),
+            MethodFamily::Peer => (2, Some((20, 30))),
+            MethodFamily::Model => (3, None),
         };
         let number = taken[family] + family;
         taken[family] += 1;
@@ -80,8 +80,8 @@ impl MethodStyle {
         let corner = |corner: u32| {
             let angle = first + TAU * f64::from(corner) / f64::from(count);
             (
-                to_units(MARKER_RADIUS * angle.cos()),
-                to_units(MARKER_RADIUS * angle.sin()),
+                to_drawing_units(MARKER_RADIUS * angle.cos()),
+                to_drawing_units(MARKER_RADIUS * angle.sin()),
             )
         };
         (0..count).map(corner).collect()

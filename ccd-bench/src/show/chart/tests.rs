@@ -6,19 +6,19 @@ const SCENES: [&str; 3] = ["knot2880", "knot34560", "never measured"];
 const METHODS: [MethodFacts<'_>; 4] = [
     MethodFacts {
         name: "ours",
-        family: Family::Ours,
+        family: MethodFamily::Ours,
     },
     MethodFacts {
         name: "careless <peer> & co",
-        family: Family::Peer,
+        family: MethodFamily::Peer,
     },
     MethodFacts {
         name: "absent",
-        family: Family::Rival,
+        family: MethodFamily::Rival,
     },
     MethodFacts {
         name: "over patches",
-        family: Family::Model,
+        family: MethodFamily::Model,
     },
 ];
 
@@ -60,8 +60,8 @@ fn cells() -> Vec<Cell> {
     cells
 }
 
-fn charts(cells: &[Cell]) -> Charts<'_> {
-    Charts {
+fn charts(cells: &[Cell]) -> ChartData<'_> {
+    ChartData {
         cells,
         scenes: &SCENES,
         methods: &METHODS,
@@ -69,7 +69,7 @@ fn charts(cells: &[Cell]) -> Charts<'_> {
 }
 
 fn svg(cells: &[Cell]) -> String {
-    charts(cells).pareto().unwrap().unwrap()
+    charts(cells).draw_pareto_chart().unwrap().unwrap()
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn an_unsafe_method_is_in_the_strip_only() {
         cell.missed = 0;
     }
     // Peers draw a shape of this colour.
-    let RGBColor(red, green, blue) = style::styles(&METHODS, |_| false)[1].colour;
+    let RGBColor(red, green, blue) = style::method_styles(&METHODS, |_| false)[1].colour;
     let colour = format!("#{red:02X}{green:02X}{blue:02X}");
     let lines = |cells: &[Cell]| {
         let text = svg(cells);
@@ -123,25 +123,25 @@ fn an_unsafe_method_is_in_the_strip_only() {
 
 #[test]
 fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
-    let empty = charts(&[]).pareto();
+    let empty = charts(&[]).draw_pareto_chart();
     assert!(empty.unwrap_err().to_string().contains("nothing to draw"));
     let unknown_cells = [cell("elsewhere", "nobody", 1e-3)];
-    let unknown = charts(&unknown_cells).pareto();
+    let unknown = charts(&unknown_cells).draw_pareto_chart();
     assert!(unknown.unwrap_err().to_string().contains("nothing to draw"));
     let mut lost = [cell("knot2880", "ours", f64::NAN)];
     lost[0].median_us = f64::NAN;
     lost[0].mean_error = None;
     lost[0].mean_steps = f64::NAN;
-    assert_eq!(charts(&lost).pareto().unwrap(), None);
+    assert_eq!(charts(&lost).draw_pareto_chart().unwrap(), None);
 }
 
 #[test]
 fn no_two_methods_look_alike() {
-    let methods: Vec<_> = [Family::Ours, Family::Rival, Family::Peer]
+    let methods: Vec<_> = [MethodFamily::Ours, MethodFamily::Rival, MethodFamily::Peer]
         .into_iter()
         .flat_map(|family| [MethodFacts { name: "", family }; 10])
         .collect();
-    let styles = style::styles(&methods, |_| false);
+    let styles = style::method_styles(&methods, |_| false);
     for (index, style) in styles.iter().enumerate() {
         assert!(!styles[..index].contains(style), "{index}");
     }

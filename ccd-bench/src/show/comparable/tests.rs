@@ -1,8 +1,8 @@
 use super::*;
-use crate::run::contest::{Verdict, summarise};
+use crate::run::contest::{Verdict, summarise_trials};
 use crate::show::tables::tests::trial;
 
-const OURS: &str = "best-first direct";
+const REFERENCE_METHOD: &str = "best-first direct";
 
 /// Returns trials of the default method on four rows, of which the last two are hard, and of a slow method on the first
 /// two.
@@ -12,23 +12,27 @@ fn trials() -> Vec<Trial> {
         rows.map(|(row, micros)| trial("santa", method, &row.to_string(), *micros, Verdict::Right))
             .collect::<Vec<_>>()
     };
-    [of(OURS, &[1.0, 2.0, 90.0, 110.0]), of("slow", &[3.0, 8.0])].concat()
+    [
+        of(REFERENCE_METHOD, &[1.0, 2.0, 90.0, 110.0]),
+        of("slow", &[3.0, 8.0]),
+    ]
+    .concat()
 }
 
 fn cell_of(trials: &[Trial], method: &str) -> Cell {
     let own = trials.iter().filter(|trial| trial.method == method);
-    summarise(&own.cloned().collect::<Vec<_>>())
+    summarise_trials(&own.cloned().collect::<Vec<_>>())
 }
 
 #[test]
 fn a_method_on_easy_rows_only_is_slower_than_the_reference() {
     let trials = trials();
-    let cells = [cell_of(&trials, OURS), cell_of(&trials, "slow")];
+    let cells = [cell_of(&trials, REFERENCE_METHOD), cell_of(&trials, "slow")];
     assert!(
         cells[1].median_us < cells[0].median_us,
         "the plain medians mislead"
     );
-    let moved = Reference::new(OURS, &trials).comparable_cells(&cells);
+    let moved = ReferenceTimes::new(REFERENCE_METHOD, &trials).comparable_cells(&cells);
     assert_eq!(moved[0], cells[0], "the reference keeps its median, 46");
     // The ratios are 3 and 4.
     assert_eq!(moved[1].median_us, 46.0 * 3.5);
@@ -47,15 +51,16 @@ fn a_cell_keeps_its_median_where_there_is_nothing_to_compare() {
         scene: "bunny".to_owned(),
         ..slow.clone()
     };
-    let reference = Reference::new(OURS, &trials);
+    let reference = ReferenceTimes::new(REFERENCE_METHOD, &trials);
     for cell in [&finer, &elsewhere] {
-        assert_eq!(reference.ratio(cell), None);
+        assert_eq!(reference.median_time_ratio(cell), None);
     }
     let both = [finer, elsewhere];
     assert_eq!(reference.comparable_cells(&both), both);
-    trials.retain(|trial| trial.method != OURS);
+    trials.retain(|trial| trial.method != REFERENCE_METHOD);
     assert_eq!(
-        Reference::new(OURS, &trials).comparable_cells(std::slice::from_ref(&slow)),
+        ReferenceTimes::new(REFERENCE_METHOD, &trials)
+            .comparable_cells(std::slice::from_ref(&slow)),
         [slow]
     );
 }

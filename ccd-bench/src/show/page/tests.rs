@@ -1,19 +1,22 @@
 use super::*;
-use crate::scene::{Models, listings};
+use crate::scene::{ModelCache, listings};
 use serde_json::Value;
 
 /// Returns the page of the smallest scene, with a table whose names contain HTML.
 fn page() -> String {
     let listings = listings().unwrap();
     let listing = listings.iter().find(|listing| listing.name == "knot216");
-    let scene = listing.unwrap().make(&mut Models::default()).unwrap();
+    let scene = listing
+        .unwrap()
+        .make_scene(&mut ModelCache::default())
+        .unwrap();
     let table = TextTable {
         title: "A <table>".to_owned(),
         header: vec!["name & kind".to_owned()],
         rows: vec![vec!["{{style}}".to_owned()]],
     };
     let views = Views::new(&[scene]).unwrap();
-    html("<svg></svg>", &views, &[table]).unwrap()
+    page_html("<svg></svg>", &views, &[table]).unwrap()
 }
 
 fn script(html: &str, id: &str) -> Value {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::run::contest::summarise;
+use crate::run::contest::summarise_trials;
 
 /// Returns a trial at tolerance 1e-3.
 pub(crate) fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> Trial {
@@ -35,7 +35,7 @@ fn trials() -> Vec<Trial> {
 #[test]
 fn ratios_are_over_the_rows_common_to_both_methods() {
     let others = ["C2A", "discrete stepping", "parry-f64", "naive direct"];
-    let table = ratios(&trials(), "best-first direct", &others, 1e-3);
+    let table = time_ratio_table(&trials(), "best-first direct", &others, 1e-3);
     // The medians are over rows 0 and 1. The row with time 1000 ran on one method only.
     assert_eq!(
         table.rows,
@@ -48,7 +48,7 @@ fn ratios_are_over_the_rows_common_to_both_methods() {
         ]]
     );
     assert!(
-        ratios(&trials(), "best-first direct", &others, 1e-6)
+        time_ratio_table(&trials(), "best-first direct", &others, 1e-6)
             .rows
             .is_empty()
     );
@@ -60,9 +60,9 @@ fn answers_are_counted_per_method_without_distances() {
     let mut cells: Vec<Cell> = Vec::new();
     for method in ["C2A", "discrete stepping", "parry-f64", "coal-distance"] {
         let of: Vec<Trial> = all.iter().filter(|t| t.method == method).cloned().collect();
-        cells.push(summarise(&of));
+        cells.push(summarise_trials(&of));
     }
-    let table = safety(&cells, &all);
+    let table = safety_table(&cells, &all);
     assert_eq!(
         table.rows,
         [
@@ -75,7 +75,7 @@ fn answers_are_counted_per_method_without_distances() {
 
 #[test]
 fn tables_are_laid_out_as_markdown() {
-    let text = safety(&[summarise(&trials()[3..5])], &trials()).to_string();
+    let text = safety_table(&[summarise_trials(&trials()[3..5])], &trials()).to_string();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 5, "{text}");
     assert_eq!(lines[1], "");

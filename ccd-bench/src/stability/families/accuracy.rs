@@ -2,7 +2,7 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
-use super::{ROD_HALF_SIDES, family, negative_powers_of_ten, onto_slab, rod_beside_wall};
+use super::{ROD_HALF_SIDES, fall_onto_slab, family, negative_powers_of_ten, rod_beside_wall};
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -16,9 +16,9 @@ pub(super) fn families() -> Vec<Family> {
             .with_values("angle to parallel", negative_powers_of_ten(1..=15)),
         family("flat approach", flat_approach)
             .with_values("angle to the face", negative_powers_of_ten(1..=12)),
-        family("cubes that hardly meet", barely_overlapping)
+        family("cubes that hardly meet", barely_overlapping_cubes)
             .with_values("overlap", negative_powers_of_ten(1..=15)),
-        family("rod that hardly reaches", barely_reaching_wall)
+        family("rod that hardly reaches", rod_barely_reaching_wall)
             .with_values("share of its reach", negative_powers_of_ten(1..=12)),
         family("linked rings", linked_rings)
             .with_values("way to contact", negative_powers_of_ten(1..=12)),
@@ -37,15 +37,15 @@ const TIME_ERROR: f64 = 1e-14;
 /// Makes case T1, tilted by an angle: a face falls onto a face.
 fn face_onto_face(angle: f64) -> Result<FamilyStep> {
     let reach = 0.5 * (angle.sin() + angle.cos());
-    let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_y(angle));
-    onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
+    let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_y(angle));
+    fall_onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T8 with rods at a small angle: an edge meets an edge.
 fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
-    let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_z(angle) * on_edge);
-    let lying = BodyMotion::STILL.oriented(on_edge);
+    let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_z(angle) * on_edge);
+    let lying = BodyMotion::STILL.with_orientation(on_edge);
     let expected = contact_at((3.0 - 0.2 * SQRT_2) / 4.0, TIME_ERROR);
     let step = FamilyStep::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
     step.with_rotated_queries(falling, lying, expected)
@@ -55,9 +55,9 @@ fn edge_across_edge(angle: f64) -> Result<FamilyStep> {
 fn corner_onto_face(angle: f64) -> Result<FamilyStep> {
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
     let turned = DQuat::from_rotation_x(angle) * upright;
-    let falling = BodyMotion::FALLING.oriented(turned);
+    let falling = BodyMotion::FALLING.with_orientation(turned);
     let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
-    onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
+    fall_onto_slab(cube()?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T12: a square peg rotates in a square hole that is a little wider; all four corners meet it at once.
@@ -65,7 +65,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
     let half = 0.5;
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
-    let turning = BodyMotion::STILL.spinning(2.0 * angle * DVec3::Z);
+    let turning = BodyMotion::STILL.with_spin(2.0 * angle * DVec3::Z);
     let step = FamilyStep::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
@@ -75,14 +75,14 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyStep> {
 
 /// Makes case T25: a cube falls flat onto a slab, and rotates very little.
 fn slight_rotation(turn: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING.spinning(turn * DVec3::Y);
+    let falling = BodyMotion::FALLING.with_spin(turn * DVec3::Y);
     // The lowest corner is lower by the rotation so far: each round adds a digit.
     let mut time = 0.625;
     for _ in 0..40 {
         let (sin, cos) = (turn * time).sin_cos();
         time = (3.0 - 0.5 * (sin + cos)) / 4.0;
     }
-    onto_slab(cube()?, falling, time)
+    fall_onto_slab(cube()?, falling, time)
 }
 
 /// Makes a cube that comes down on a slab at a small angle, halfway through its flight.
@@ -96,7 +96,7 @@ fn flat_approach(angle: f64) -> Result<FamilyStep> {
     step.with_rotated_queries(flying, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn barely_overlapping(overlap: f64) -> Result<FamilyStep> {
+fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyStep> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = contact_at(1.0 / 3.0, TIME_ERROR);
     let step = FamilyStep::new(cube()?, cube()?);
@@ -104,10 +104,10 @@ fn barely_overlapping(overlap: f64) -> Result<FamilyStep> {
 }
 
 /// Makes case T5: a rod rotates, and its corner reaches a wall shortly before it would pass it.
-fn barely_reaching_wall(share: f64) -> Result<FamilyStep> {
+fn rod_barely_reaching_wall(share: f64) -> Result<FamilyStep> {
     let (long, thin) = ROD_HALF_SIDES;
     let wall = long.hypot(thin) * (1.0 - share);
-    let turning = BodyMotion::STILL.spinning(PI * DVec3::Y);
+    let turning = BodyMotion::STILL.with_spin(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
     let expected = contact_at(time, 1e-15 / share.sqrt());
@@ -121,7 +121,8 @@ fn linked_rings(way: f64) -> Result<FamilyStep> {
     // rims are a small way apart.
     let rim = radius - 2.0 * tube;
     let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
-    let hanging = BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).oriented(upright);
+    let hanging =
+        BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).with_orientation(upright);
     let step = FamilyStep::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
     let expected = contact_at(way, TIME_ERROR);

@@ -14,8 +14,8 @@ pub(super) fn families() -> Vec<Family> {
         family("ball passing a box", ball_passing_a_box),
         family("cubes passing", cubes_passing),
         family("balls passing pole to pole", balls_passing),
-        family("cube sliding over a slab", sliding),
-        family("cube resting then leaving", leaving),
+        family("cube sliding over a slab", cube_sliding_over_slab),
+        family("cube resting then leaving", cube_leaving_slab),
         family("spinning top", spinning_top),
         family("rod turning past a wall", rod_past_a_wall),
         family("peg passing through a hole", peg_through_a_hole),
@@ -28,7 +28,12 @@ fn tolerance(gap: f64) -> f64 {
 }
 
 /// Returns a step with a gap, in rotated worlds too if the gap survives their rounding.
-fn free_step(step: FamilyStep, gap: f64, a: BodyMotion, b: BodyMotion) -> Result<FamilyStep> {
+fn contact_free_step(
+    step: FamilyStep,
+    gap: f64,
+    a: BodyMotion,
+    b: BodyMotion,
+) -> Result<FamilyStep> {
     let step = step.with_tolerance(tolerance(gap));
     step.with_rotated_queries_if(gap >= 1e-12, a, b, Truth::Free)
 }
@@ -36,51 +41,51 @@ fn free_step(step: FamilyStep, gap: f64, a: BodyMotion, b: BodyMotion) -> Result
 fn ball_passing_a_box(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
-    free_step(step, gap, flying, BodyMotion::SLAB_BELOW)
+    contact_free_step(step, gap, flying, BodyMotion::SLAB_BELOW)
 }
 
 fn cubes_passing(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, cube()?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    free_step(step, gap, flying, BodyMotion::STILL)
+    contact_free_step(step, gap, flying, BodyMotion::STILL)
 }
 
 fn balls_passing(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(ball(0.5, 600)?, ball(0.5, 600)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
-    free_step(step, gap, flying, BodyMotion::STILL)
+    contact_free_step(step, gap, flying, BodyMotion::STILL)
 }
 
-fn sliding(gap: f64) -> Result<FamilyStep> {
+fn cube_sliding_over_slab(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, slab()?);
     let sliding = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
-    free_step(step, gap, sliding, BodyMotion::SLAB_BELOW)
+    contact_free_step(step, gap, sliding, BodyMotion::SLAB_BELOW)
 }
 
-fn leaving(gap: f64) -> Result<FamilyStep> {
+fn cube_leaving_slab(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, slab()?);
     let rising = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
-    free_step(step, gap, rising, BodyMotion::SLAB_BELOW)
+    contact_free_step(step, gap, rising, BodyMotion::SLAB_BELOW)
 }
 
 /// Makes case T16: a peg moves through a hole with a gap on all four sides.
 fn peg_through_a_hole(gap: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
     let falling = BodyMotion::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
-    free_step(step, gap, falling, BodyMotion::STILL)
+    contact_free_step(step, gap, falling, BodyMotion::STILL)
 }
 
 fn spinning_top(gap: f64) -> Result<FamilyStep> {
-    let spinning = BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X).spinning(50.0 * DVec3::Z);
+    let spinning = BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X).with_spin(50.0 * DVec3::Z);
     let step = FamilyStep::new(cone(24, 0.7)?, slab()?);
-    free_step(step, gap, spinning, BodyMotion::SLAB_BELOW)
+    contact_free_step(step, gap, spinning, BodyMotion::SLAB_BELOW)
 }
 
 /// Makes a rod of half length 2 that rotates by half a turn about its middle, past a wall that its corners just do not
 /// reach.
 fn rod_past_a_wall(gap: f64) -> Result<FamilyStep> {
     let reach = f64::hypot(ROD_HALF_SIDES.0, ROD_HALF_SIDES.1);
-    let turning = BodyMotion::STILL.spinning(std::f64::consts::PI * DVec3::Y);
+    let turning = BodyMotion::STILL.with_spin(std::f64::consts::PI * DVec3::Y);
     // The reach is rounded, and the gap with it.
     let step = rod_beside_wall(turning, reach + gap, Truth::Free)?;
     Ok(step.with_tolerance(greater(tolerance(gap), 1e-11)))

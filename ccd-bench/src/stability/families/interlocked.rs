@@ -1,7 +1,9 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
-use super::super::shapes::{cuboid, extrude, helicoid, sheet, slit_plate, stacked_squares, torus};
+use super::super::shapes::{
+    cuboid, extrude_cells, helicoid, sheet, slit_plate, stacked_squares, torus,
+};
 use super::{family, negative_powers_of_ten, rod, rod_angle_at_wall};
 use crate::truth::Truth;
 use anyhow::Result;
@@ -14,15 +16,15 @@ pub(super) fn families() -> Vec<Family> {
         family("hooks pulled apart", hooks).with_values("slack", negative_powers_of_ten(1..=12)),
         family("ring onto a ring", ring_onto_ring)
             .with_values("way to contact", negative_powers_of_ten(1..=12)),
-        family("screw in its nut", |turns| threads(turns, 0.5))
+        family("screw in its nut", |turns| screw_in_nut(turns, 0.5))
             .with_values("turns", vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0]),
-        family("screw with little play", |play| threads(1.0, play)).with_values(
+        family("screw with little play", |play| screw_in_nut(1.0, play)).with_values(
             "play against pitch",
             vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
         ),
         family("sheet between two sheets", between)
             .with_values("gap", negative_powers_of_ten(1..=12)),
-        family("plate through a slit", through_slit)
+        family("plate through a slit", plate_through_slit)
             .with_values("gap", negative_powers_of_ten(1..=12)),
         family("turned frames", rod_in_rotated_frame).with_values(
             "degrees",
@@ -35,7 +37,7 @@ pub(super) fn families() -> Vec<Family> {
 fn hooks(slack: f64) -> Result<FamilyStep> {
     // A bar from z = 0 to 0.2 with an arm at either end.
     let bar = 0.2;
-    let hook = extrude(
+    let hook = extrude_cells(
         &[-0.5, -0.3, 0.3, 0.5],
         &[0.0, bar, 2.0],
         0.5 * bar,
@@ -43,7 +45,7 @@ fn hooks(slack: f64) -> Result<FamilyStep> {
     )?;
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
-        .oriented(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
+        .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
     let step = FamilyStep::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
     step.with_rotated_queries(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
 }
@@ -64,13 +66,13 @@ const THREAD_RADII: [f64; 2] = [0.9, 1.0];
 
 /// Makes case T18: the flank of a screw rotates between those of its nut at their common pitch; `play` is its share
 /// between the flanks.
-fn threads(turns: f64, play: f64) -> Result<FamilyStep> {
+fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyStep> {
     // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;
     let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
-        .spinning(TAU * turns * DVec3::Z);
+        .with_spin(TAU * turns * DVec3::Z);
     let step = FamilyStep::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
     step.with_rotated_queries(turning, BodyMotion::STILL, Truth::Free)
 }
@@ -89,11 +91,11 @@ fn between(gap: f64) -> Result<FamilyStep> {
 }
 
 /// Makes case T16: a tilted plate moves through a slit that is wider than its edges by a gap.
-fn through_slit(gap: f64) -> Result<FamilyStep> {
+fn plate_through_slit(gap: f64) -> Result<FamilyStep> {
     let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
     let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
-        .oriented(DQuat::from_rotation_y(tilt));
+        .with_orientation(DQuat::from_rotation_y(tilt));
     free_step(
         FamilyStep::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
@@ -111,7 +113,9 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
     let rod = rod()?.transformed(DAffine3::from_quat(frame.inverse()))?;
-    let turning = BodyMotion::STILL.oriented(frame).spinning(PI * DVec3::Y);
+    let turning = BodyMotion::STILL
+        .with_orientation(frame)
+        .with_spin(PI * DVec3::Y);
     let step = FamilyStep::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
     step.with_rotated_queries(

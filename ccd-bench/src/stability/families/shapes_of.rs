@@ -4,7 +4,7 @@ use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{
     TOOTH_SHARE, ball, comb, cone, cube, field_of_cubes, layers, sliver_slab, with_bad_faces,
 };
-use super::{family, negative_powers_of_ten, onto_slab, powers_of_ten};
+use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -20,9 +20,9 @@ pub(super) fn families() -> Vec<Family> {
             .with_values("triangles at the tip", powers_of_ten(1..=4)),
         family("repeated and collapsed faces", cube_with_bad_faces)
             .with_values("bad faces", powers_of_ten(0..=3)),
-        family("layers close behind each other", onto_layers)
+        family("layers close behind each other", cube_onto_layers)
             .with_values("layers", powers_of_ten(0..=4)),
-        family("slab with a sliver", sliver)
+        family("slab with a sliver", cube_onto_sliver)
             .with_values("width of the sliver", negative_powers_of_ten(0..=12)),
         family("field of solids", field_of_solids).with_values("solids", doubled(2..=12)),
         family("cones tip onto tip", tip_onto_tip)
@@ -37,24 +37,24 @@ fn comb_into_comb(teeth: f64) -> Result<FamilyStep> {
     // TOOTH of the step.
     let shift = 1.0 - (0.5 - TOOTH_SHARE) / teeth;
     let falling = BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
-        .oriented(DQuat::from_rotation_y(PI));
+        .with_orientation(DQuat::from_rotation_y(PI));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
 }
 
 /// Makes case T22: a ball with a vertex at its pole falls onto a slab.
 fn ball_onto_slab(triangles: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING.spinning(2.0 * DVec3::Z);
-    onto_slab(ball(0.5, triangles as usize / 2 + 2)?, falling, 0.625)
+    let falling = BodyMotion::FALLING.with_spin(2.0 * DVec3::Z);
+    fall_onto_slab(ball(0.5, triangles as usize / 2 + 2)?, falling, 0.625)
 }
 
 /// Makes a cone that falls onto a slab, tip first.
 fn tip_onto_slab(sides: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).spinning(2.0 * DVec3::Z);
-    onto_slab(cone(sides as u32, 0.7)?, falling, 0.625)
+    let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z).with_spin(2.0 * DVec3::Z);
+    fall_onto_slab(cone(sides as u32, 0.7)?, falling, 0.625)
 }
 
 /// Makes a cube that falls onto the first of many open sheets.
-fn onto_layers(count: f64) -> Result<FamilyStep> {
+fn cube_onto_layers(count: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, layers(count as u32)?);
     let falling = BodyMotion::FALLING;
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(0.625, 1e-14))
@@ -63,11 +63,11 @@ fn onto_layers(count: f64) -> Result<FamilyStep> {
 /// Makes case T21: a cube with repeated and collapsed faces.
 fn cube_with_bad_faces(count: f64) -> Result<FamilyStep> {
     let cube = with_bad_faces(&cube()?, count as usize)?;
-    onto_slab(cube, BodyMotion::FALLING, 0.625)
+    fall_onto_slab(cube, BodyMotion::FALLING, 0.625)
 }
 
 /// Makes a cube that falls onto a sliver triangle of a slab.
-fn sliver(width: f64) -> Result<FamilyStep> {
+fn cube_onto_sliver(width: f64) -> Result<FamilyStep> {
     let step = FamilyStep::new(cube()?, sliver_slab(width)?);
     let expected = contact_at(0.625, 1e-14);
     step.with_rotated_queries(BodyMotion::FALLING, BodyMotion::SLAB_BELOW, expected)
@@ -89,7 +89,7 @@ fn tip_onto_tip(aside: f64) -> Result<FamilyStep> {
     let cone = cone(sides, radius)?.transformed(DAffine3::from_rotation_z(half_side))?;
     let slope = 1.0 / (radius * half_side.cos());
     let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
-    let upside_down = BodyMotion::STILL.oriented(DQuat::from_rotation_y(PI));
+    let upside_down = BodyMotion::STILL.with_orientation(DQuat::from_rotation_y(PI));
     let step = FamilyStep::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = contact_at((2.0 + aside * slope) / 4.0, 1e-14);
     step.with_rotated_queries(falling, upside_down, expected)

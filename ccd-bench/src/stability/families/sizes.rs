@@ -2,7 +2,7 @@
 
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cone, cube, cuboid, slab};
-use super::{family, negative_powers_of_ten, onto_slab, powers_of_ten};
+use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
@@ -28,7 +28,7 @@ pub(super) fn families() -> Vec<Family> {
         family("one inside the other", cube_inside_cube)
             .with_values("size against size", negative_powers_of_ten(0..=9)),
         family("unit of time", unit_of_time).with_values("duration", sizes(1..=9)),
-        family("moving together", moving_together)
+        family("moving together", cubes_moving_together)
             .with_values("common travel", powers_of_ten(0..=9)),
         family("far centre of rotation", far_centre)
             .with_values("distance in sizes", powers_of_ten(0..=9)),
@@ -75,7 +75,7 @@ fn unit_of_time(duration: f64) -> Result<FamilyStep> {
 }
 
 /// Makes a cube that falls onto another one, while both travel far to the side.
-fn moving_together(travel: f64) -> Result<FamilyStep> {
+fn cubes_moving_together(travel: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = FamilyStep::new(cube()?, cube()?);
@@ -101,7 +101,7 @@ fn far_centre(distance: f64) -> Result<FamilyStep> {
 /// Makes a cone that falls onto a slab on its tip; its sides are long and thin triangles.
 fn needle(width: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
-    onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
+    fall_onto_slab(cone(8, 0.5 * width)?, falling, 0.625)
 }
 
 /// Makes case T20: cubes of half extent 1/2 at a distance whose sum with their displacement is exact.
@@ -121,9 +121,9 @@ fn far_from_the_origin(distance: f64) -> Result<FamilyStep> {
 fn slender_needle(ratio: f64) -> Result<FamilyStep> {
     let thin = 1.0 / ratio;
     let (sin, cos) = 0.3f64.sin_cos();
-    let falling = BodyMotion::FALLING.oriented(DQuat::from_rotation_x(0.3));
+    let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_x(0.3));
     let reach = thin * (sin + cos);
-    onto_slab(cuboid(1.0, thin, thin)?, falling, (3.0 - reach) / 4.0)
+    fall_onto_slab(cuboid(1.0, thin, thin)?, falling, (3.0 - reach) / 4.0)
 }
 
 /// Makes case T13: a bullet travels distance 1; a thin sheet stands halfway.
@@ -152,5 +152,5 @@ fn cube_inside_cube(size: f64) -> Result<FamilyStep> {
     let half = 0.9 * size;
     let step = FamilyStep::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
-    step.with_rotated_queries(moving, BodyMotion::STILL, Truth::Start)
+    step.with_rotated_queries(moving, BodyMotion::STILL, Truth::ContactAtStart)
 }

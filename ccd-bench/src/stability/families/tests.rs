@@ -1,13 +1,13 @@
 //! Compares the exact answers of the families with those of the referee.
 
 use super::families;
-use crate::stability::{Case, Family, FamilyStep};
+use crate::stability::{ExactCase, Family, FamilyStep};
 use crate::truth::{Referee, Surface, Truth};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// The number of triangles above which the referee takes too long for a test.
-const MOST_TRIANGLES: usize = 3000;
+const MAX_TRIANGLES: usize = 3000;
 
 /// The share of a family's values, from the easiest, that are checked; the referee is slow on harder ones.
 const CHECKED_SHARE: f64 = 0.4;
@@ -17,7 +17,12 @@ fn families_have_names_and_steps_of_their_own() {
     let families = families();
     let names: HashSet<&str> = families.iter().map(|family| family.name).collect();
     assert_eq!(names.len(), families.len());
-    for Family { name, values, .. } in &families {
+    for Family {
+        name,
+        parameter_values: values,
+        ..
+    } in &families
+    {
         let distinct: HashSet<u64> = values.iter().map(|value| value.to_bits()).collect();
         assert!(
             distinct.len() == values.len() && values.len() >= 4,
@@ -29,11 +34,15 @@ fn families_have_names_and_steps_of_their_own() {
 #[test]
 fn every_step_can_be_made() {
     families().par_iter().for_each(|family| {
-        for &value in &family.values {
+        for &value in &family.parameter_values {
             let step = (family.make)(value);
             let step = step.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
             assert!(!step.cases.is_empty() && step.tolerance > 0.0);
-            for Case { expected, .. } in &step.cases {
+            for ExactCase {
+                expected_truth: expected,
+                ..
+            } in &step.cases
+            {
                 if let Truth::Hit { lo, hi } = *expected {
                     assert!(
                         0.0 < hi && lo <= hi && lo < step.duration,
@@ -51,8 +60,8 @@ fn the_referee_finds_the_answers_that_are_claimed() {
     let checked: usize = families()
         .par_iter()
         .map(|family| {
-            let count = (CHECKED_SHARE * family.values.len() as f64) as usize;
-            let steps = family.values[..count].iter();
+            let count = (CHECKED_SHARE * family.parameter_values.len() as f64) as usize;
+            let steps = family.parameter_values[..count].iter();
             steps
                 .map(|&value| assert_referee_agrees(family, value))
                 .sum::<usize>()
@@ -65,16 +74,18 @@ fn the_referee_finds_the_answers_that_are_claimed() {
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
     let step = (family.make)(value).unwrap();
     let FamilyStep { meshes, cases, .. } = &step;
-    let many = meshes
-        .iter()
-        .any(|mesh| mesh.faces().len() > MOST_TRIANGLES);
+    let many = meshes.iter().any(|mesh| mesh.faces().len() > MAX_TRIANGLES);
     // The referee has no margin.
     if many || step.margin > 0.0 {
         return 0;
     }
     let [a, b] = meshes.each_ref().map(Surface::new);
     let mut decided = 0;
-    for Case { query, expected } in cases {
+    for ExactCase {
+        query,
+        expected_truth: expected,
+    } in cases
+    {
         let truth = Referee::new(&a, &b).first_contact(query);
         // The referee places points in the world, whose origin may be far away.
         let early = 1e-12 + 1e-15 * query.a.start().translation().length();
@@ -93,7 +104,7 @@ fn assert_referee_agrees(family: &Family, value: f64) -> usize {
             }
             (Truth::Free, Truth::Free) => {}
             // The referee uses surfaces, not solids.
-            (Truth::Free, Truth::Start) => {}
+            (Truth::Free, Truth::ContactAtStart) => {}
             _ => panic!("{at}"),
         }
         decided += 1;

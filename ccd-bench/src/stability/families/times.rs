@@ -14,28 +14,28 @@ pub(super) fn families() -> Vec<Family> {
         family(
             "contact after the start",
             negative_powers_of_ten(1..=12),
-            after_the_start,
+            contact_after_start,
         ),
         family(
             "contact before the end",
             negative_powers_of_ten(1..=14),
-            before_the_end,
+            contact_before_end,
         ),
         family(
             "contact after the end",
             negative_powers_of_ten(1..=12),
-            after_the_end,
+            contact_after_end,
         ),
         family(
             "sheet falling onto a sheet",
             negative_powers_of_ten(1..=12),
-            sheets,
+            sheet_onto_sheet,
         ),
     ]
 }
 
 /// Returns a cube that falls at speed 1 onto a slab, and reaches it at a given time.
-fn falling(time: f64) -> Result<(FamilyStep, BodyMotion)> {
+fn cube_falling_onto_slab(time: f64) -> Result<(FamilyStep, BodyMotion)> {
     let step = FamilyStep::new(cube()?, slab()?);
     Ok((
         step,
@@ -43,28 +43,28 @@ fn falling(time: f64) -> Result<(FamilyStep, BodyMotion)> {
     ))
 }
 
-fn after_the_start(time: f64) -> Result<FamilyStep> {
-    let (step, falling) = falling(time)?;
+fn contact_after_start(time: f64) -> Result<FamilyStep> {
+    let (step, falling) = cube_falling_onto_slab(time)?;
     let step = step.with_tolerance(greater(0.1 * time, 1e-11));
     let expected = contact_at(time, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn before_the_end(before: f64) -> Result<FamilyStep> {
-    let (step, falling) = falling(1.0 - before)?;
+fn contact_before_end(before: f64) -> Result<FamilyStep> {
+    let (step, falling) = cube_falling_onto_slab(1.0 - before)?;
     let expected = contact_at(1.0 - before, 1e-14);
     step.with_rotated_queries(falling, BodyMotion::SLAB_BELOW, expected)
 }
 
-fn after_the_end(after: f64) -> Result<FamilyStep> {
-    let (step, falling) = falling(1.0 + after)?;
+fn contact_after_end(after: f64) -> Result<FamilyStep> {
+    let (step, falling) = cube_falling_onto_slab(1.0 + after)?;
     let step = step.with_tolerance(greater(0.25 * after, 1e-11));
     let slab = BodyMotion::SLAB_BELOW;
     step.with_rotated_queries_if(after > 1e-12, falling, slab, Truth::Free)
 }
 
 /// Makes two flat sheets without thickness, a small distance apart, that meet face to face.
-fn sheets(way: f64) -> Result<FamilyStep> {
+fn sheet_onto_sheet(way: f64) -> Result<FamilyStep> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyStep::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
     step.with_rotated_queries(falling, BodyMotion::STILL, contact_at(way, 1e-14))

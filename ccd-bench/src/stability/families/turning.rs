@@ -3,7 +3,7 @@
 use super::super::family::{BodyMotion, Family, FamilyStep, contact_at};
 use super::super::shapes::{cube, cuboid};
 use super::{
-    ROD_HALF_SIDES, family, onto_slab, powers_of_ten, rod, rod_angle_at_wall, rod_beside_wall,
+    ROD_HALF_SIDES, fall_onto_slab, family, powers_of_ten, rod, rod_angle_at_wall, rod_beside_wall,
 };
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DVec3};
@@ -13,24 +13,26 @@ pub(super) fn families() -> Vec<Family> {
     let spins = vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0];
     vec![
         family("mace", swinging_arm).with_values("radians", spins),
-        family("drilling cube", falling_while_spinning).with_values("turns", powers_of_ten(-2..=4)),
+        family("drilling cube", cube_falling_while_spinning)
+            .with_values("turns", powers_of_ten(-2..=4)),
         family("rod turning into a wall", rod_into_a_wall)
             .with_values("turns", powers_of_ten(0..=4)),
-        family("rods turning against each other", rods).with_values("turns", powers_of_ten(0..=4)),
+        family("rods turning against each other", counter_rotating_rods)
+            .with_values("turns", powers_of_ten(0..=4)),
     ]
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates about the vertical.
-fn falling_while_spinning(turns: f64) -> Result<FamilyStep> {
-    let falling = BodyMotion::FALLING.spinning(TAU * turns * DVec3::Z);
-    onto_slab(cube()?, falling, 0.625)
+fn cube_falling_while_spinning(turns: f64) -> Result<FamilyStep> {
+    let falling = BodyMotion::FALLING.with_spin(TAU * turns * DVec3::Z);
+    fall_onto_slab(cube()?, falling, 0.625)
 }
 
 /// Makes case T4: a rod stands upright, and rotates; its corner meets a wall at 1.2 in the first quarter of a turn.
 fn rod_into_a_wall(turns: f64) -> Result<FamilyStep> {
     let wall = 1.2;
     let spin = TAU * turns;
-    let turning = BodyMotion::STILL.spinning(spin * DVec3::Y);
+    let turning = BodyMotion::STILL.with_spin(spin * DVec3::Y);
     let expected = contact_at(rod_angle_at_wall(wall) / spin, 1e-15);
     rod_beside_wall(turning, wall, expected)
 }
@@ -41,7 +43,7 @@ fn swinging_arm(spin: f64) -> Result<FamilyStep> {
     let (arm, wall): (f64, f64) = (2.0, 1.0);
     let hanging = cuboid(ROD_HALF_SIDES.1, 0.5 * arm, ROD_HALF_SIDES.1)?;
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
-    let swinging = BodyMotion::STILL.spinning(spin * DVec3::Z);
+    let swinging = BodyMotion::STILL.with_spin(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
     let step = FamilyStep::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = contact_at(angle / spin, 1e-15);
@@ -53,10 +55,10 @@ fn swinging_arm(spin: f64) -> Result<FamilyStep> {
 }
 
 /// Makes case T14: two rods rotate against each other, as mirror images.
-fn rods(turns: f64) -> Result<FamilyStep> {
+fn counter_rotating_rods(turns: f64) -> Result<FamilyStep> {
     let (apart, spin) = (3.0, TAU * turns);
     let turning =
-        |spin: f64, x: f64| BodyMotion::resting_at(x * DVec3::X).spinning(spin * DVec3::Y);
+        |spin: f64, x: f64| BodyMotion::resting_at(x * DVec3::X).with_spin(spin * DVec3::Y);
     let angle = rod_angle_at_wall(0.5 * apart);
     debug_assert!(angle < PI);
     let step = FamilyStep::new(rod()?, rod()?);

@@ -4,7 +4,7 @@ use crate::stability::families;
 use crate::truth::Surface;
 use rstest::rstest;
 
-const FREE: Claim = Claim::Free;
+const FREE_CLAIM: Claim = Claim::NoContact;
 
 fn contact(time: f64) -> Claim {
     Claim::Contact { time }
@@ -22,21 +22,21 @@ fn unresolved(safe_until: f64) -> Claim {
 #[case("margin", contact(0.49), Verdict::Early)]
 #[case("margin", contact(0.5001), Verdict::Late)]
 #[case("margin", contact(f64::NAN), Verdict::Late)]
-#[case("margin", FREE, Verdict::Missed)]
+#[case("margin", FREE_CLAIM, Verdict::Missed)]
 #[case("margin", unresolved(0.4), Verdict::Unresolved)]
 #[case("margin", unresolved(0.6), Verdict::Late)]
 #[case("margin", Claim::Refused, Verdict::Refused)]
-#[case("cubes passing", FREE, Verdict::Right)]
-#[case("cubes passing", contact(0.5), Verdict::False)]
+#[case("cubes passing", FREE_CLAIM, Verdict::Right)]
+#[case("cubes passing", contact(0.5), Verdict::FalseContact)]
 #[case("cubes passing", unresolved(0.9), Verdict::Unresolved)]
 #[case("one inside the other", contact(0.0), Verdict::Right)]
 #[case("one inside the other", contact(0.1), Verdict::Late)]
-#[case("one inside the other", FREE, Verdict::Missed)]
+#[case("one inside the other", FREE_CLAIM, Verdict::Missed)]
 #[case("one inside the other", unresolved(0.0), Verdict::Unresolved)]
 #[case("one inside the other", unresolved(0.1), Verdict::Late)]
 fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict: Verdict) {
     let family = families().into_iter().find(|f| f.name == family).unwrap();
-    let step = (family.make)(family.values[1]).unwrap();
+    let step = (family.make)(family.parameter_values[1]).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let outcome = QueryOutcome::Answered(TimedReply {
         reply: Reply::new(claim, 1),
@@ -63,8 +63,8 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
     let step = (family.make)(0.0).unwrap();
     let [a, b] = step.meshes.each_ref().map(Surface::new);
     let case = &step.cases[0];
-    let Truth::Hit { lo, .. } = case.expected else {
-        panic!("{:?}", case.expected)
+    let Truth::Hit { lo, .. } = case.expected_truth else {
+        panic!("{:?}", case.expected_truth)
     };
     let reply = Reply {
         tolerance,

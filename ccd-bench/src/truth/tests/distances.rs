@@ -1,8 +1,8 @@
 //! Compares distances with those of all pairs of triangles, and those of two triangles with a grid of points.
 
-use super::super::triangle::{nearest, nearest_or_common};
+use super::super::triangle::{nearest, nearest_or_common_points};
 use super::super::{Referee, Surface};
-use super::{query, random_motion, random_vector, soup};
+use super::{query, random_motion, random_vector, triangle_soup};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use rand::{Rng, RngExt, SeedableRng};
@@ -13,7 +13,7 @@ fn the_tree_finds_the_nearest_of_all_pairs() {
     let mut rng = Pcg64::seed_from_u64(5);
     let (mut apart, mut common) = (0, 0);
     for _ in 0..200 {
-        let meshes = [soup(&mut rng, 12), soup(&mut rng, 7)];
+        let meshes = [triangle_soup(&mut rng, 12), triangle_soup(&mut rng, 7)];
         let surfaces = meshes.each_ref().map(Surface::new);
         let from = random_vector(&mut rng, 3.0);
         let motions = [from, DVec3::ZERO].map(|from| random_motion(&mut rng, from, -from, 3.0));
@@ -30,7 +30,7 @@ fn the_tree_finds_the_nearest_of_all_pairs() {
         let [a, b] = &placed;
         let pairs = a
             .iter()
-            .flat_map(|a| b.iter().map(move |b| nearest_or_common(a, b)));
+            .flat_map(|a| b.iter().map(move |b| nearest_or_common_points(a, b)));
         let expected = pairs
             .map(|(p, q)| (p - q).length())
             .fold(f64::INFINITY, lesser);
@@ -62,10 +62,10 @@ fn nearest_points_are_as_near_as_a_grid_finds() {
         match round % 4 {
             0 => a[2] = a[0],
             1 => a[2] = a[0].lerp(a[1], 0.3),
-            2 => a = a.map(|p| p + 3.0 * random_unit(&mut rng)),
+            2 => a = a.map(|p| p + 3.0 * random_unit_vector(&mut rng)),
             _ => {}
         }
-        let (p, q) = nearest_or_common(&a, &b);
+        let (p, q) = nearest_or_common_points(&a, &b);
         let found = (p - q).length();
         let grid = triangle_grid(&a, STEPS)
             .flat_map(|p| triangle_grid(&b, STEPS).map(move |q| (p - q).length()));
@@ -81,7 +81,7 @@ fn nearest_points_are_as_near_as_a_grid_finds() {
     }
 }
 
-fn random_unit(rng: &mut impl Rng) -> DVec3 {
+fn random_unit_vector(rng: &mut impl Rng) -> DVec3 {
     random_vector(rng, 1.0).normalize()
 }
 

@@ -1,7 +1,7 @@
 //! Compares sines, cosines and rotations with known values.
 
 use super::super::enclosure::{IntervalMatrix, sin_cos};
-use super::super::interval::{Interval, exact};
+use super::super::interval::{Interval, point_interval};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
 /// Known values: an argument, its sine and its cosine. Sine and cosine are unevaluated sums of two
@@ -25,7 +25,7 @@ const KNOWN_VALUES: [(f64, [f64; 2], [f64; 2]); 11] = [
 #[test]
 fn sines_and_cosines_hold_the_exact_values() {
     for (x, sine, cosine) in KNOWN_VALUES {
-        let enclosed = sin_cos(exact(x));
+        let enclosed = sin_cos(point_interval(x));
         for ([high, low], found) in [(sine, enclosed.0), (cosine, enclosed.1)] {
             // Differences of neighbouring floats are exact.
             assert!(
@@ -76,7 +76,11 @@ fn rotations_are_those_of_floats_and_narrow() {
     ] {
         let expected = DMat3::from_quat(DQuat::from_scaled_axis(spin * time));
         let off = 1e-15 * (2.0 + spin.length() * time);
-        assert_close(&IntervalMatrix::turn(spin, time), expected, off);
+        assert_close(
+            &IntervalMatrix::from_angular_velocity(spin, time),
+            expected,
+            off,
+        );
     }
     let quaternion = DQuat::from_xyzw(0.5, -0.1, 0.3, 0.7).normalize();
     let matrix = IntervalMatrix::from_quaternion(quaternion * 3.0);

@@ -8,14 +8,14 @@ use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// The change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.
-const SCENE_ROUNDED: f64 = 1e-14;
+const SCENE_ROUNDING: f64 = 1e-14;
 
 fn assert_hit(bodies: [&Surface; 2], query: &Motions, exact: f64) {
     let truth = judge(bodies, query);
     let Truth::Hit { lo, hi } = truth else {
         panic!("{truth:?}, expected {exact}");
     };
-    let off = SCENE_ROUNDED * query.duration;
+    let off = SCENE_ROUNDING * query.duration;
     assert!(
         lo <= exact + off && exact - off <= hi,
         "{lo} {hi}, expected {exact}"
@@ -211,7 +211,7 @@ fn contact_at_the_start_is_found_and_the_inside_is_free() {
     };
     assert_eq!(
         [start(0.9), start(1.0), start(1.0 + 1e-9)],
-        [Truth::Start, Truth::Start, Truth::Free]
+        [Truth::ContactAtStart, Truth::ContactAtStart, Truth::Free]
     );
     let inside = query(still(0.0, 0.0, 0.0), still(0.1, 0.2, 0.3), 1.0);
     assert_eq!(judge([&cube, &shell], &inside), Truth::Free);

@@ -1,12 +1,12 @@
 //! Compares interval operations with exact fractions.
 
-use super::super::interval::{Interval, exact};
+use super::super::interval::{Interval, point_interval};
 use dashu_ratio::Relaxed;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// The number of random pairs of operands for each operation.
-const PAIRS: u32 = 20_000;
+const PAIR_COUNT: u32 = 20_000;
 
 /// The extreme floats: the largest and least of all, of the normal ones, and of those with finite and normal squares.
 const EXTREMES: [f64; 12] = [
@@ -51,17 +51,17 @@ fn random_interval(rng: &mut impl Rng) -> Interval {
     }
 }
 
-fn fraction(x: f64) -> Relaxed {
+fn to_rational(x: f64) -> Relaxed {
     Relaxed::try_from(x).expect("a finite number")
 }
 
 /// Returns numbers in an interval to test with: its bounds, and others between them.
-fn numbers(x: Interval) -> [Relaxed; 3] {
-    [x.inf(), x.mid(), x.sup()].map(fraction)
+fn sample_numbers(x: Interval) -> [Relaxed; 3] {
+    [x.inf(), x.mid(), x.sup()].map(to_rational)
 }
 
 fn is_below(x: f64, exact: &Relaxed) -> bool {
-    x == f64::NEG_INFINITY || x < f64::INFINITY && fraction(x) < *exact
+    x == f64::NEG_INFINITY || x < f64::INFINITY && to_rational(x) < *exact
 }
 
 fn is_above(x: f64, exact: &Relaxed) -> bool {
@@ -91,43 +91,59 @@ fn assert_tight(found: Interval, results: &[Relaxed], context: &str) {
     );
 }
 
-fn each_with_each(
+fn results_for_all_pairs(
     x: Interval,
     y: Interval,
     law: impl Fn(&Relaxed, &Relaxed) -> Relaxed,
 ) -> Vec<Relaxed> {
-    let pairs = |a: &Relaxed| numbers(y).map(|b| law(a, &b));
-    numbers(x).iter().flat_map(pairs).collect()
+    let pairs = |a: &Relaxed| sample_numbers(y).map(|b| law(a, &b));
+    sample_numbers(x).iter().flat_map(pairs).collect()
 }
 
 #[test]
 fn sums_products_and_quotients_hold_the_exact_ones_tightly() {
     let mut rng = Pcg64::seed_from_u64(11);
     let mut quotients = 0;
-    for _ in 0..PAIRS {
+    for _ in 0..PAIR_COUNT {
         let [x, y] = [(); 2].map(|()| random_interval(&mut rng));
         let named = |operation: &str| format!("{x:?} {operation} {y:?}");
-        assert_tight(x + y, &each_with_each(x, y, |a, b| a + b), &named("+"));
-        assert_tight(x - y, &each_with_each(x, y, |a, b| a - b), &named("-"));
-        assert_tight(x * y, &each_with_each(x, y, |a, b| a * b), &named("*"));
+        assert_tight(
+            x + y,
+            &results_for_all_pairs(x, y, |a, b| a + b),
+            &named("+"),
+        );
+        assert_tight(
+            x - y,
+            &results_for_all_pairs(x, y, |a, b| a - b),
+            &named("-"),
+        );
+        assert_tight(
+            x * y,
+            &results_for_all_pairs(x, y, |a, b| a * b),
+            &named("*"),
+        );
         if contains(y, &Relaxed::ZERO) {
             assert_eq!(x / y, Interval::ENTIRE);
         } else {
             quotients += 1;
-            assert_tight(x / y, &each_with_each(x, y, |a, b| a / b), &named("/"));
+            assert_tight(
+                x / y,
+                &results_for_all_pairs(x, y, |a, b| a / b),
+                &named("/"),
+            );
         }
     }
-    assert!(quotients > PAIRS / 3, "{quotients}");
+    assert!(quotients > PAIR_COUNT / 3, "{quotients}");
 }
 
 #[test]
 fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
     let mut rng = Pcg64::seed_from_u64(12);
     let mut roots = 0;
-    for _ in 0..PAIRS {
+    for _ in 0..PAIR_COUNT {
         let x = random_interval(&mut rng);
         let straddles = contains(x, &Relaxed::ZERO);
-        let mut squares = numbers(x).map(|a| &a * &a).to_vec();
+        let mut squares = sample_numbers(x).map(|a| &a * &a).to_vec();
         let mut sizes = [x.inf(), x.sup()].map(f64::abs).to_vec();
         if straddles {
             squares.push(Relaxed::ZERO);
@@ -146,8 +162,8 @@ fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
         roots += 1;
         // A root lies between two numbers as its square does between theirs.
         let [inf, sup] = [x.sqrt().inf(), x.sqrt().sup()];
-        let [low, high] = [if straddles { 0.0 } else { x.inf() }, x.sup()].map(fraction);
-        let square = |root: f64| fraction(root) * fraction(root);
+        let [low, high] = [if straddles { 0.0 } else { x.inf() }, x.sup()].map(to_rational);
+        let square = |root: f64| to_rational(root) * to_rational(root);
         assert!(
             inf >= 0.0 && square(inf) <= low && high <= square(sup),
             "{x:?}"
@@ -158,19 +174,19 @@ fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
             "{x:?}"
         );
     }
-    assert!(roots > PAIRS / 3, "{roots}");
+    assert!(roots > PAIR_COUNT / 3, "{roots}");
 }
 
 #[test]
 fn middles_and_radii_reach_both_bounds() {
     let mut rng = Pcg64::seed_from_u64(13);
-    for _ in 0..PAIRS {
+    for _ in 0..PAIR_COUNT {
         let x = random_interval(&mut rng);
         let (mid, rad) = (x.mid(), x.rad());
         assert!(x.inf() <= mid && mid <= x.sup(), "{x:?}");
         let reached = [
-            fraction(mid) - fraction(x.inf()),
-            fraction(x.sup()) - fraction(mid),
+            to_rational(mid) - to_rational(x.inf()),
+            to_rational(x.sup()) - to_rational(mid),
         ];
         assert!(
             reached.iter().all(|reach| !is_below(rad, reach)),
@@ -189,18 +205,24 @@ fn middles_and_radii_reach_both_bounds() {
 #[test]
 fn results_that_are_floats_stay_exact_where_nothing_is_multiplied() {
     let x = Interval::new(-3.0, 5.0);
-    assert_eq!(x + exact(0.25), Interval::new(-2.75, 5.25));
-    assert_eq!(x - exact(5.0), Interval::new(-8.0, 0.0));
+    assert_eq!(x + point_interval(0.25), Interval::new(-2.75, 5.25));
+    assert_eq!(x - point_interval(5.0), Interval::new(-8.0, 0.0));
     assert_eq!(-x, Interval::new(-5.0, 3.0));
-    assert_eq!(x * exact(0.0), exact(0.0));
-    assert_eq!(exact(0.0) / exact(7.0), exact(0.0));
-    assert_eq!([exact(0.0).sqr(), exact(0.0).sqrt()], [exact(0.0); 2]);
+    assert_eq!(x * point_interval(0.0), point_interval(0.0));
+    assert_eq!(
+        point_interval(0.0) / point_interval(7.0),
+        point_interval(0.0)
+    );
+    assert_eq!(
+        [point_interval(0.0).sqr(), point_interval(0.0).sqrt()],
+        [point_interval(0.0); 2]
+    );
     assert_eq!(
         x.intersection(Interval::new(-9.0, 2.0)),
         Interval::new(-3.0, 2.0)
     );
     // 1/3 is not a float: both are neighbours of it.
-    let third = exact(1.0) / exact(3.0);
+    let third = point_interval(1.0) / point_interval(3.0);
     assert!(third.inf() < third.sup() && third.rad() < 1e-16);
 }
 
@@ -216,22 +238,22 @@ fn half_of_pi_is_between_its_bounds() {
 fn undefined_results_are_the_whole_line() {
     let infinity = f64::INFINITY;
     for x in [f64::NAN, infinity, -infinity] {
-        assert_eq!(exact(x), Interval::ENTIRE);
+        assert_eq!(point_interval(x), Interval::ENTIRE);
     }
     for (inf, sup) in [(2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::NAN)] {
         assert_eq!(Interval::new(inf, sup), Interval::ENTIRE);
     }
     let half_line = Interval::new(1.0, infinity);
     let doubtful = [
-        exact(0.0) * half_line,
-        exact(0.0) * Interval::ENTIRE,
-        half_line / exact(0.0),
-        exact(1.0) / exact(0.0),
-        exact(1.0) / exact(-0.0),
-        exact(1.0) / Interval::new(0.0, 1.0),
-        exact(-1.0).sqrt(),
-        exact(1.0).intersection(exact(2.0)),
-        Interval::ENTIRE + exact(1.0),
+        point_interval(0.0) * half_line,
+        point_interval(0.0) * Interval::ENTIRE,
+        half_line / point_interval(0.0),
+        point_interval(1.0) / point_interval(0.0),
+        point_interval(1.0) / point_interval(-0.0),
+        point_interval(1.0) / Interval::new(0.0, 1.0),
+        point_interval(-1.0).sqrt(),
+        point_interval(1.0).intersection(point_interval(2.0)),
+        Interval::ENTIRE + point_interval(1.0),
         Interval::ENTIRE - Interval::ENTIRE,
         half_line - half_line,
     ];
@@ -241,19 +263,19 @@ fn undefined_results_are_the_whole_line() {
 #[test]
 fn half_lines_hold_what_is_beyond_every_float() {
     let half_line = Interval::new(1.0, f64::INFINITY);
-    let overflow = exact(f64::MAX) + exact(f64::MAX);
+    let overflow = point_interval(f64::MAX) + point_interval(f64::MAX);
     assert_eq!(overflow, Interval::new(f64::MAX, f64::INFINITY));
-    assert_eq!(exact(f64::MAX) * exact(-2.0), -overflow);
+    assert_eq!(point_interval(f64::MAX) * point_interval(-2.0), -overflow);
     assert_eq!((half_line + half_line).sup(), f64::INFINITY);
-    assert_eq!((half_line * exact(-2.0)).inf(), f64::NEG_INFINITY);
-    assert!((half_line * exact(-2.0)).sup() >= -2.0);
+    assert_eq!((half_line * point_interval(-2.0)).inf(), f64::NEG_INFINITY);
+    assert!((half_line * point_interval(-2.0)).sup() >= -2.0);
     assert_eq!(half_line.sqr().sup(), f64::INFINITY);
     assert_eq!(half_line.sqrt().sup(), f64::INFINITY);
     assert_eq!(Interval::ENTIRE.sqr(), Interval::new(0.0, f64::INFINITY));
     assert_eq!(Interval::ENTIRE.sqrt(), Interval::new(0.0, f64::INFINITY));
     assert_eq!(Interval::ENTIRE.abs(), Interval::new(0.0, f64::INFINITY));
     // The quotients by ever larger numbers come near 0.
-    let small = exact(1.0) / half_line;
+    let small = point_interval(1.0) / half_line;
     assert!(small.inf() <= 0.0 && 1.0 <= small.sup() && small.sup() < 1.1);
     for quotient in [half_line / half_line, -half_line / -half_line] {
         assert!(quotient.inf() <= 0.0 && quotient.sup() == f64::INFINITY);

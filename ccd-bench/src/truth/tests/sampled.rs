@@ -1,7 +1,7 @@
 //! Compares answers for random triangles with brute force: all pairs of triangles at many times.
 
 use super::super::{Referee, Surface, Truth};
-use super::{query, random_motion, random_vector, soup};
+use super::{query, random_motion, random_vector, triangle_soup};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -16,7 +16,10 @@ fn brackets_agree_with_all_pairs_at_many_times() {
     let mut rng = Pcg64::seed_from_u64(11);
     let (mut hits, mut free, mut initial) = (0, 0, 0);
     for round in 0..300 {
-        let meshes = [soup(&mut rng, 1 + round % 5), soup(&mut rng, 1 + round % 3)];
+        let meshes = [
+            triangle_soup(&mut rng, 1 + round % 5),
+            triangle_soup(&mut rng, 1 + round % 3),
+        ];
         // Every eighth case starts where it may be in contact.
         let far = if round % 8 == 0 { 0.6 } else { 2.4 };
         let from = far * random_vector(&mut rng, 1.0).normalize();
@@ -53,7 +56,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
                 )));
             }
             (Truth::Free, None) => free += 1,
-            (Truth::Start, Some(0.0)) => initial += 1,
+            (Truth::ContactAtStart, Some(0.0)) => initial += 1,
             _ => panic!("{round}: {truth:?}, by samples {first:?}"),
         }
     }

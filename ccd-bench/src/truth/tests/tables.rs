@@ -18,7 +18,7 @@ const TRUTHS: [(&str, Truth); 5] = [
         },
     ),
     ("b", Truth::Free),
-    ("c", Truth::Start),
+    ("c", Truth::ContactAtStart),
     ("d", Truth::Graze { lo: 0.5 }),
     ("e", Truth::Undecided { lo: 0.25 }),
 ];

@@ -7,7 +7,7 @@ use crate::tests::nearest::Triangle;
 use crate::tests::scene::pieces;
 use glam::DVec3;
 
-fn solid(triangles: &[Triangle]) -> Body {
+fn solid_body(triangles: &[Triangle]) -> Body {
     Body::new(&pieces(triangles), Volume::Solid).unwrap()
 }
 
@@ -15,7 +15,7 @@ fn solid(triangles: &[Triangle]) -> Body {
 fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
     for piece in 0..body.pieces().len() as u32 {
         let out = out_of(body.centroid(piece));
-        let Facing::Out(normal) = body.facing(piece) else {
+        let Facing::OutwardNormal(normal) = body.facing(piece) else {
             panic!("{:?}", body.facing(piece));
         };
         assert!(normal.dot(out) > 0.1, "{normal} {out}");
@@ -29,10 +29,9 @@ fn shells_side_by_side_need_not_agree() {
     let middles = [DVec3::ZERO, 10.0 * DVec3::X];
     let mut shells = inside_out(&cube(0.5, 2));
     shells.extend(translated_triangles(&cube(1.5, 2), middles[1]));
-    check(
-        &solid(&shells),
-        |p| if p.x < 5.0 { p } else { p - middles[1] },
-    );
+    check(&solid_body(&shells), |p| {
+        if p.x < 5.0 { p } else { p - middles[1] }
+    });
 }
 
 #[test]
@@ -40,7 +39,7 @@ fn a_cavity_faces_inward_however_the_whole_is_wound() {
     let mut shells = cube(3.0, 2);
     shells.extend(inside_out(&cube(2.0, 2)));
     for shells in [inside_out(&shells), shells] {
-        check(&solid(&shells), |p| {
+        check(&solid_body(&shells), |p| {
             if p.abs().max_element() > 2.5 { p } else { -p }
         });
     }
@@ -51,14 +50,14 @@ fn a_cavity_faces_inward_however_the_whole_is_wound() {
 fn a_thin_wall_has_two_sides() {
     let thin = |p: DVec3| DVec3::new(p.x, p.y, 1e-11 * p.z) + DVec3::splat(1e3);
     let plate: Vec<Triangle> = cube(1.0, 1).iter().map(|t| t.map(thin)).collect();
-    let body = solid(&plate);
+    let body = solid_body(&plate);
     let large = |piece: &u32| body.pieces().get(*piece as usize).points[0].z;
     let flat = (0..12).filter(|&piece| {
         let points = body.pieces().get(piece as usize).points;
         points.iter().all(|p| p.z == points[0].z)
     });
     for piece in flat {
-        let Facing::Out(normal) = body.facing(piece) else {
+        let Facing::OutwardNormal(normal) = body.facing(piece) else {
             panic!("{:?}", body.facing(piece));
         };
         assert_eq!(normal.z > 0.0, large(&piece) > 1e3, "{normal}");
@@ -68,11 +67,11 @@ fn a_thin_wall_has_two_sides() {
 #[test]
 fn faces_back_to_back_and_surfaces_face_neither_way() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    let sheet = solid(&[triangle, [triangle[0], triangle[2], triangle[1]]]);
-    assert_eq!(sheet.facing(0), Facing::Neither);
+    let sheet = solid_body(&[triangle, [triangle[0], triangle[2], triangle[1]]]);
+    assert_eq!(sheet.facing(0), Facing::NoOutwardSide);
     assert_eq!(sheet.point_inside(0), None);
     let surface = Body::new(&pieces(&cube(1.0, 1)), Volume::Surface).unwrap();
-    assert_eq!(surface.facing(0), Facing::Neither);
+    assert_eq!(surface.facing(0), Facing::NoOutwardSide);
 }
 
 /// Tests two lobes of one shell with opposite windings: the cross section is a figure of eight.
@@ -89,9 +88,11 @@ fn a_face_on_which_the_sides_change_is_unclear() {
         let cap = [[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| at(k, z)));
         shell.extend(cap.map(|[a, b, c]| if turned { [a, c, b] } else { [a, b, c] }));
     }
-    let body = solid(&shell);
+    let body = solid_body(&shell);
     let facings: Vec<Facing> = (0..shell.len() as u32).map(|k| body.facing(k)).collect();
     assert!(facings.contains(&Facing::Unclear), "{facings:?}");
-    let known = facings.iter().filter(|f| matches!(f, Facing::Out(_)));
+    let known = facings
+        .iter()
+        .filter(|f| matches!(f, Facing::OutwardNormal(_)));
     assert!(known.count() > 0, "{facings:?}");
 }

@@ -1,11 +1,11 @@
 //! Checks the input nodes of a hull tree and assembles the tree, children before parents.
 
-use super::bottom_up::bottom_up;
+use super::bottom_up::compute_bottom_up;
 use super::edges::check_facets;
 use super::error::{HullFault, HullTreeError};
 use super::hull::{FacetClass, Hull, HullNode};
 use super::identity::PointNumbering;
-use super::inherit::{Child, inherit};
+use super::inherit::{Child, inherit_facet_data};
 use super::inside::PreparedHull;
 use super::node::{FacetData, Node};
 use super::{HullTree, Hulls};
@@ -33,7 +33,7 @@ impl HullTree {
     /// O(n log n) in all points and facets, if few of the points hidden by a hull are near each of its facets.
     pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
         let hierarchy = hierarchy(pieces, nodes)?;
-        let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
+        let done = compute_bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
             (HullNode::Leaf(piece), _) => leaf_node(at, pieces.polytope(*piece as usize)),
             (HullNode::Inner(names, hull), [left, right]) => {
                 inner_node(at, hull, [(names[0], left), (names[1], right)])
@@ -75,7 +75,7 @@ fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
             points: &node.points,
             vertex_ids: &node.vertex_ids,
             facets: node
-                .loops
+                .facets
                 .iter()
                 .zip(node.facet_data.iter().map(|facet| facet.origin)),
             faces: node.faces().copied(),
@@ -94,7 +94,7 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
         count += node.points.len();
     }
     let pairs = nodes.iter().zip(starts).flat_map(|(node, start)| {
-        let facets = node.loops.iter().zip(0..);
+        let facets = node.facets.iter().zip(0..);
         facets.flat_map(move |(corners, k)| corners.iter().map(move |&v| (start + v, k)))
     });
     AdjacencyLists::new(count, pairs)
@@ -112,7 +112,7 @@ fn leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError>
         facet_data,
         has_uniform_radius: true,
         size: size(&piece.points, piece.radius),
-        loops: Cow::Owned(loops.collect()),
+        facets: Cow::Owned(loops.collect()),
         points: Cow::Owned(piece.points),
         vertex_ids: piece.vertex_ids,
         leaf_faces: Some(piece.faces),
@@ -129,19 +129,19 @@ fn inner_node<'a>(
     check_facets(hull).map_err(|fault| fault.at(at))?;
     let identity = PointNumbering::new(hull, children.map(|(_, child)| child))
         .map_err(|fault| fault.at(at))?;
-    check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
+    check_children_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
 
     let [left, right] = children.map(|(_, child)| child);
     let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
     let has_uniform_radius = even(left) && even(right);
-    let of_left = Child::new(left, &identity.of_left);
-    let of_right = Child::new(right, &identity.of_right);
+    let of_left = Child::new(left, &identity.left_numbers);
+    let of_right = Child::new(right, &identity.right_numbers);
     let radius = greater(left.radius, right.radius);
     Ok(Node {
-        facet_data: inherit(hull, &identity.positions, [of_left, of_right]),
+        facet_data: inherit_facet_data(hull, &identity.positions, [of_left, of_right]),
         has_uniform_radius,
         size: size(&hull.points, radius),
-        loops: Cow::Borrowed(&hull.facets),
+        facets: Cow::Borrowed(&hull.facets),
         points: Cow::Borrowed(&hull.points),
         vertex_ids: identity.vertex_ids,
         leaf_faces: None,
@@ -150,17 +150,20 @@ fn inner_node<'a>(
 }
 
 /// Checks that the hull of a node contains all points of its children.
-fn check_inside(
+fn check_children_inside(
     hull: &Hull,
     identity: &PointNumbering,
     children: &[(u32, &Node<'_>); 2],
 ) -> Result<(), HullFault> {
     let container = PreparedHull::new(&hull.points, &hull.facets);
-    for (&(child, node), ids) in children.iter().zip([&identity.of_left, &identity.of_right]) {
+    for (&(child, node), ids) in children
+        .iter()
+        .zip([&identity.left_numbers, &identity.right_numbers])
+    {
         let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
         let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();
         let positions: Vec<DVec3> = hidden.iter().map(|&k| node.points[k as usize]).collect();
-        if let Some(k) = container.first_outside(&positions) {
+        if let Some(k) = container.first_point_outside(&positions) {
             let point = hidden[k];
             return Err(HullFault::ChildOutside { child, point });
         }

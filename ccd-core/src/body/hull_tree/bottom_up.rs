@@ -15,17 +15,17 @@ use std::thread::available_parallelism;
 ///
 /// # Errors
 /// The errors of the function that computes a node's value.
-pub(super) fn bottom_up<T: Default + Send>(
+pub(super) fn compute_bottom_up<T: Default + Send>(
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
     let cores = available_parallelism().map_or(1, NonZero::get);
     // Each of many cores gets several parts, as the sizes of the parts differ.
     let parts = if cores > 1 { 4 * cores } else { 1 };
-    bottom_up_in_parts(parts, hierarchy, make)
+    compute_bottom_up_in_parts(parts, hierarchy, make)
 }
 
-fn bottom_up_in_parts<T: Default + Send>(
+fn compute_bottom_up_in_parts<T: Default + Send>(
     parts: usize,
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,

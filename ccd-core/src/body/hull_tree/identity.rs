@@ -9,8 +9,8 @@ use glam::DVec3;
 ///
 /// Numbers below the hull's count of points name the hull's points. The others name hidden points.
 pub(super) struct PointNumbering {
-    pub(super) of_left: Vec<u32>,
-    pub(super) of_right: Vec<u32>,
+    pub(super) left_numbers: Vec<u32>,
+    pub(super) right_numbers: Vec<u32>,
     /// The position of each number.
     pub(super) positions: Vec<DVec3>,
     /// The mesh's vertex number of each point of the hull.
@@ -49,8 +49,8 @@ impl PointNumbering {
         let vertex_ids = (0..own).map(vertex_id).collect::<Result<_, _>>()?;
         let middle = own + left.points.len();
         Ok(PointNumbering {
-            of_left: numbers[own..middle].to_vec(),
-            of_right: numbers[middle..].to_vec(),
+            left_numbers: numbers[own..middle].to_vec(),
+            right_numbers: numbers[middle..].to_vec(),
             positions,
             vertex_ids,
         })

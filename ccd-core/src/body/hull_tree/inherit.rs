@@ -5,7 +5,7 @@
 
 use super::edges::EdgeMap;
 use super::hull::{FacetClass, Hull};
-use super::inside::{is_coplanar, non_collinear_corners};
+use super::inside::{is_coplanar_and_cooriented, non_collinear_corners};
 use super::node::{FacetData, Node};
 use crate::body::facets::{edges_of, fan_of};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
@@ -14,7 +14,7 @@ use crate::math::point_tree::PointTree;
 use glam::DVec3;
 
 impl FacetData {
-    const BRIDGE: FacetData = FacetData {
+    const VIRTUAL_FACET_DATA: FacetData = FacetData {
         origin: FacetOrigin::Virtual,
         class: FacetClass::Free,
         faces: Vec::new(),
@@ -33,7 +33,7 @@ impl FacetData {
             }
             near.sort_unstable();
             let near = near.iter().map(|&k| piece.faces[k as usize]);
-            let within = |face: &Face| is_coplanar(&corners, face.corners);
+            let within = |face: &Face| is_coplanar_and_cooriented(&corners, face.corners);
             facet_data.push(FacetData {
                 origin: facet.origin,
                 class: match facet.origin {
@@ -75,7 +75,7 @@ impl<'a> Child<'a> {
 }
 
 /// Returns the origin, class and mesh faces of each facet of a hull, taken from the children's facets.
-pub(super) fn inherit(
+pub(super) fn inherit_facet_data(
     hull: &Hull,
     positions: &[DVec3],
     children: [Child<'_>; 2],
@@ -84,13 +84,15 @@ pub(super) fn inherit(
     let sides =
         [0, 1].map(|k| ChildFacets::new(children[k], triangles[k].as_ref(), positions.len()));
     let facet = |corners: &[u32]| {
-        let parts = sides.each_ref().map(|side| side.sharing_an_edge(corners));
+        let parts = sides
+            .each_ref()
+            .map(|side| side.facet_sharing_edge(corners));
         match parts {
             [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.facet.clone(),
             [Some(one), Some(other)] if tiles_facet(positions, corners, [&one, &other]) => {
                 FacetData::merge_facets([&one, &other])
             }
-            _ => FacetData::BRIDGE,
+            _ => FacetData::VIRTUAL_FACET_DATA,
         }
     };
     hull.facets.iter().map(facet).collect()
@@ -147,7 +149,7 @@ impl<'a> ChildFacets<'a> {
         let sides = TRIANGLE_SIDES.iter().map(|corners| &corners[..]);
         let loops = child
             .node
-            .loops
+            .facets
             .iter()
             .chain(sides.filter(|_| single_triangle.is_some()));
         let edges = loops.zip(0..).flat_map(|(corners, k)| {
@@ -163,10 +165,10 @@ impl<'a> ChildFacets<'a> {
 
     fn child_facet(&self, k: usize) -> Option<ChildFacet<'a>> {
         let node = self.child.node;
-        let (corners, facet) = match node.loops.get(k) {
+        let (corners, facet) = match node.facets.get(k) {
             Some(corners) => (corners, node.facet_data.get(k)?),
             None => (
-                &TRIANGLE_SIDES.get(k - node.loops.len())?[..],
+                &TRIANGLE_SIDES.get(k - node.facets.len())?[..],
                 self.single_triangle?,
             ),
         };
@@ -177,7 +179,7 @@ impl<'a> ChildFacets<'a> {
         })
     }
 
-    fn sharing_an_edge(&self, corners: &[u32]) -> Option<ChildFacet<'a>> {
+    fn facet_sharing_edge(&self, corners: &[u32]) -> Option<ChildFacet<'a>> {
         let mut known = edges_of(corners).filter_map(|edge| self.facet_at_edge.get(edge));
         self.child_facet(known.next()? as usize)
     }
@@ -185,7 +187,7 @@ impl<'a> ChildFacets<'a> {
 
 /// Returns the data of a child that is a single triangle, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
-    let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
+    let alone = child.node.facets.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
         origin: match child.node.leaf_faces.as_deref().unwrap_or_default() {
             [face] => FacetOrigin::Face(face.id),

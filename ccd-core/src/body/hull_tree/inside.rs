@@ -40,7 +40,7 @@ impl<'a> PreparedHull<'a> {
     ///
     /// # Complexity
     /// O(n log n) for n points and facets in all, if few points are near each facet.
-    pub(super) fn first_outside(&self, positions: &[DVec3]) -> Option<usize> {
+    pub(super) fn first_point_outside(&self, positions: &[DVec3]) -> Option<usize> {
         if self.fans.is_empty() {
             return positions.iter().position(|&p| !in_simplex(self.points, p));
         }
@@ -84,7 +84,7 @@ fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
 }
 
 /// Returns whether a triangle is in the plane of a polygon, with the same orientation.
-pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
+pub(super) fn is_coplanar_and_cooriented(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     projectable_corners(polygon).is_some_and(|(fan, axis)| {
         let in_plane = |&p: &DVec3| side(fan, p).is_eq();
         let turn = |[a, b, c]: [DVec3; 3]| line_side_along(axis, [a, b], c);

@@ -12,7 +12,7 @@ pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
     /// The mesh's vertex number of each point of the hull.
     pub(super) vertex_ids: Vec<u32>,
-    pub(super) loops: Cow<'a, PolygonList>,
+    pub(super) facets: Cow<'a, PolygonList>,
     /// The origin, class and mesh faces of each facet.
     pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf; `None` for an inner node, which has those of its facets.

@@ -26,7 +26,7 @@ fn corners(lo: DVec3, hi: DVec3) -> Vec<DVec3> {
 }
 
 /// Creates a box between two values of x, 1 high and 1 wide. Its faces are numbered from `first` on.
-fn block(from: f64, to: f64, first: u32) -> Polytope {
+fn box_between(from: f64, to: f64, first: u32) -> Polytope {
     let facet = |(k, corners): (usize, &[u32; 4])| Facet {
         origin: FacetOrigin::Face(first + k as u32),
         corners: corners.to_vec(),
@@ -40,7 +40,7 @@ fn block(from: f64, to: f64, first: u32) -> Polytope {
 }
 
 fn box_hull(from: f64, to: f64) -> Hull {
-    let block = block(from, to, 0);
+    let block = box_between(from, to, 0);
     Hull {
         points: block.points,
         facets: block
@@ -73,7 +73,7 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     use FacetClass::{Free, Original};
     // The boxes are end to end: the sides are tiled, though the corners between them are hidden.
     let whole = tree(
-        &[block(0.0, 1.0, 0), block(1.0, 3.0, 6)],
+        &[box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)],
         box_hull(0.0, 3.0),
     )
     .unwrap();
@@ -93,7 +93,7 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     );
     // The boxes are apart: the sides are bridges.
     let gap = tree(
-        &[block(0.0, 1.0, 0), block(2.0, 3.0, 6)],
+        &[box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)],
         box_hull(0.0, 3.0),
     )
     .unwrap();
@@ -106,9 +106,9 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
 
 #[test]
 fn virtual_facets_stay_contained() {
-    let mut left = block(0.0, 1.0, 0);
+    let mut left = box_between(0.0, 1.0, 0);
     left.facets[5].origin = FacetOrigin::Virtual;
-    let whole = tree(&[left, block(1.0, 3.0, 6)], box_hull(0.0, 3.0)).unwrap();
+    let whole = tree(&[left, box_between(1.0, 3.0, 6)], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.facet_classes(1)[5], FacetClass::Contained);
     assert_eq!(whole.facet_classes(0)[5], FacetClass::Contained);
     assert_eq!(
@@ -120,7 +120,7 @@ fn virtual_facets_stay_contained() {
 #[test]
 fn features_take_the_best_class_of_their_facets() {
     let gap = tree(
-        &[block(0.0, 1.0, 0), block(2.0, 3.0, 6)],
+        &[box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)],
         box_hull(0.0, 3.0),
     )
     .unwrap();
@@ -147,16 +147,16 @@ fn features_take_the_best_class_of_their_facets() {
 fn thick_and_thin_pieces_are_bridged_everywhere() {
     let thick = Polytope {
         radius: 0.5,
-        ..block(1.0, 3.0, 6)
+        ..box_between(1.0, 3.0, 6)
     };
-    let whole = tree(&[block(0.0, 1.0, 0), thick], box_hull(0.0, 3.0)).unwrap();
+    let whole = tree(&[box_between(0.0, 1.0, 0), thick], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.hulls().get(0).radius, 0.5);
     assert_eq!(whole.facet_classes(0), [FacetClass::Free; 6]);
     assert_eq!(whole.class_of(0, &Combination::point(0)), FacetClass::Free);
     assert_eq!(whole.facet_classes(2), [FacetClass::Original; 6]);
 }
 
-fn flat(points: &[DVec3]) -> Polytope {
+fn polytope_without_facets(points: &[DVec3]) -> Polytope {
     Polytope {
         points: points.to_vec(),
         ..Polytope::default()
@@ -189,15 +189,18 @@ fn triangles_segments_and_points_join() {
         facets: PolygonList::default(),
     };
     let beads = [
-        flat(&[along(0.0), along(1.0)]),
-        flat(&[along(3.0), along(2.0)]),
+        polytope_without_facets(&[along(0.0), along(1.0)]),
+        polytope_without_facets(&[along(3.0), along(2.0)]),
     ];
     assert!(tree(&beads, segment.clone()).is_ok());
-    let beads = [flat(&[along(0.0), along(3.0)]), flat(&[along(2.0)])];
+    let beads = [
+        polytope_without_facets(&[along(0.0), along(3.0)]),
+        polytope_without_facets(&[along(2.0)]),
+    ];
     assert!(tree(&beads, segment.clone()).is_ok());
     let off = [
-        flat(&[along(0.0), along(3.0)]),
-        flat(&[DVec3::new(2.0, 1e-300, 0.0)]),
+        polytope_without_facets(&[along(0.0), along(3.0)]),
+        polytope_without_facets(&[DVec3::new(2.0, 1e-300, 0.0)]),
     ];
     assert!(matches!(
         tree(&off, segment.clone()),
@@ -207,12 +210,12 @@ fn triangles_segments_and_points_join() {
         })
     ));
     let off = [
-        flat(&[along(0.0), along(3.0)]),
-        flat(&[DVec3::new(2.0, 1e-80, 0.0)]),
+        polytope_without_facets(&[along(0.0), along(3.0)]),
+        polytope_without_facets(&[DVec3::new(2.0, 1e-80, 0.0)]),
     ];
     let outside = HullFault::ChildOutside { child: 2, point: 0 };
     assert_eq!(fault(&off, segment), outside);
-    let same = [flat(&[c]), flat(&[c])];
+    let same = [polytope_without_facets(&[c]), polytope_without_facets(&[c])];
     let point = Hull {
         points: vec![c],
         facets: PolygonList::default(),
@@ -226,8 +229,14 @@ fn flat_hulls_contain_only_points_in_their_plane_and_outline() {
         points: corners(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0))[..4].to_vec(),
         facets: PolygonList::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
     };
-    let plate = flat(&square.points);
-    let holds = |p: DVec3| tree(&[plate.clone(), flat(&[p])], square.clone()).is_ok();
+    let plate = polytope_without_facets(&square.points);
+    let holds = |p: DVec3| {
+        tree(
+            &[plate.clone(), polytope_without_facets(&[p])],
+            square.clone(),
+        )
+        .is_ok()
+    };
     assert!(holds(DVec3::new(0.5, 0.25, 0.0)));
     assert!(holds(DVec3::new(1.0, 0.25, 0.0)));
     assert!(holds(DVec3::new(0.5, 0.25, -0.0)));
@@ -244,7 +253,16 @@ fn containment_is_exact() {
         points: tetrahedron.to_vec(),
         facets: PolygonList::from_iter([[0, 1, 2], [1, 0, 3], [2, 1, 3], [0, 2, 3]]),
     };
-    let holds = |p: DVec3| tree(&[flat(&tetrahedron), flat(&[p])], hull.clone()).is_ok();
+    let holds = |p: DVec3| {
+        tree(
+            &[
+                polytope_without_facets(&tetrahedron),
+                polytope_without_facets(&[p]),
+            ],
+            hull.clone(),
+        )
+        .is_ok()
+    };
     let on = DVec3::new(1.0, 1.0, 1.0);
     assert!(holds(on));
     for k in 0..3 {
@@ -259,7 +277,7 @@ fn containment_is_exact() {
 
 #[test]
 fn invalid_hulls_are_refused() {
-    let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
+    let pieces = [box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)];
     let good = box_hull(0.0, 3.0);
     let refused = |change: &dyn Fn(&mut Vec<Vec<u32>>)| {
         let points = good.points.clone();
@@ -303,7 +321,7 @@ fn invalid_hulls_are_refused() {
 
 #[test]
 fn nodes_that_are_no_hierarchy_are_refused() {
-    let pieces = Pieces::polytopes(&[block(0.0, 1.0, 0), block(1.0, 3.0, 6)]).unwrap();
+    let pieces = Pieces::polytopes(&[box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)]).unwrap();
     let refused = |nodes: &[HullNode]| HullTree::new(&pieces, nodes).unwrap_err();
     let root = |children| HullNode::Inner(children, box_hull(0.0, 3.0));
     let missing = refused(&[HullNode::Leaf(0)]);
@@ -317,7 +335,7 @@ fn nodes_that_are_no_hierarchy_are_refused() {
 
 #[test]
 fn bodies_take_the_trees_of_their_pieces_only() {
-    let polytopes = [block(5.0, 7.0, 0), block(0.0, 1.0, 6)];
+    let polytopes = [box_between(5.0, 7.0, 0), box_between(0.0, 1.0, 6)];
     let nodes = [
         HullNode::Inner([1, 2], box_hull(0.0, 7.0)),
         HullNode::Leaf(0),
@@ -335,7 +353,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
             assert_eq!(piece.points, kept.hulls().get(at).points);
         }
     }
-    let others = Pieces::polytopes(&[polytopes[0].clone(), block(0.0, 2.0, 6)]).unwrap();
+    let others = Pieces::polytopes(&[polytopes[0].clone(), box_between(0.0, 2.0, 6)]).unwrap();
     let other = Body::new(&others, Volume::Surface).unwrap();
     let refused = other.with_hull_tree(tree.clone()).unwrap_err();
     assert_eq!(refused, HullFault::NotAPiece.at(2));
@@ -350,7 +368,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
 #[test]
 fn values_are_made_ahead_for_pieces_and_hulls_once() {
     struct PointCount(usize);
-    let polytopes = [block(0.0, 1.0, 0), block(2.0, 3.0, 6)];
+    let polytopes = [box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)];
     let pieces = Pieces::polytopes(&polytopes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
     let tree = tree(&polytopes, box_hull(0.0, 3.0)).unwrap();
@@ -375,7 +393,7 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
 
 #[test]
 fn nodes_are_given_back() {
-    let pieces = Pieces::polytopes(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)]).unwrap();
+    let pieces = Pieces::polytopes(&[box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)]).unwrap();
     let nodes = vec![
         HullNode::Inner([2, 1], box_hull(0.0, 3.0)),
         HullNode::Leaf(1),

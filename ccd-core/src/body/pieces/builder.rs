@@ -1,6 +1,6 @@
 //! Builds a list of pieces, one by one.
 
-use super::{Pieces, Polytopes, Shape};
+use super::{PieceShapes, Pieces, Polytopes};
 use crate::body::polytope::{Face, FacetOrigin, Polytope};
 use crate::error::InputError;
 use glam::DVec3;
@@ -85,12 +85,12 @@ impl PiecesBuilder {
     /// # Errors
     /// The errors of [`Pieces::polytopes`].
     pub(crate) fn into_pieces(self) -> Result<Pieces, InputError> {
-        self.into_unchecked_pieces().checked()
+        self.into_unchecked_pieces().into_validated()
     }
 
     /// Returns the finished list of pieces, which are known to be valid.
     pub(super) fn into_unchecked_pieces(self) -> Pieces {
-        let shape = Shape::Polytopes(Box::new(self.polytopes));
+        let shape = PieceShapes::Polytopes(Box::new(self.polytopes));
         Pieces::with_shape(self.points, self.vertex_ids, shape)
     }
 }

@@ -1,13 +1,13 @@
 //! Serialisation of lists of pieces. Pieces that are read are checked like pieces that are built.
 
-use super::{Pieces, Shape};
+use super::{PieceShapes, Pieces};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 #[derive(Serialize, Deserialize)]
-pub(super) enum Stored {
+pub(super) enum StoredPieces {
     Triangles {
         corners: Vec<DVec3>,
         vertex_ids: Vec<u32>,
@@ -16,28 +16,28 @@ pub(super) enum Stored {
     Polytopes(Vec<Polytope>),
 }
 
-impl From<Pieces> for Stored {
+impl From<Pieces> for StoredPieces {
     fn from(pieces: Pieces) -> Self {
         match pieces.shape {
-            Shape::Triangles { face_ids } => Stored::Triangles {
+            PieceShapes::Triangles { face_ids } => StoredPieces::Triangles {
                 corners: pieces.points,
                 vertex_ids: pieces.vertex_ids,
                 face_ids,
             },
-            Shape::Polytopes(_) => {
-                Stored::Polytopes((0..pieces.len()).map(|k| pieces.polytope(k)).collect())
+            PieceShapes::Polytopes(_) => {
+                StoredPieces::Polytopes((0..pieces.len()).map(|k| pieces.polytope(k)).collect())
             }
         }
     }
 }
 
-impl TryFrom<Stored> for Pieces {
+impl TryFrom<StoredPieces> for Pieces {
     type Error = InputError;
 
-    fn try_from(stored: Stored) -> Result<Self, InputError> {
+    fn try_from(stored: StoredPieces) -> Result<Self, InputError> {
         let (points, vertex_ids, face_ids) = match stored {
-            Stored::Polytopes(polytopes) => return Pieces::polytopes(&polytopes),
-            Stored::Triangles {
+            StoredPieces::Polytopes(polytopes) => return Pieces::polytopes(&polytopes),
+            StoredPieces::Triangles {
                 corners,
                 vertex_ids,
                 face_ids,
@@ -58,6 +58,6 @@ impl TryFrom<Stored> for Pieces {
                 vertices: points.len(),
             });
         }
-        Pieces::with_shape(points, vertex_ids, Shape::Triangles { face_ids }).checked()
+        Pieces::with_shape(points, vertex_ids, PieceShapes::Triangles { face_ids }).into_validated()
     }
 }

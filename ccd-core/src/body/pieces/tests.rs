@@ -6,7 +6,7 @@ use crate::body::polytope::{Face, Facet, Polytope};
 use crate::tests::scene::rng;
 use proptest::prelude::*;
 
-const CORNERS: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+const TETRAHEDRON_CORNERS: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
 
 fn ball(radius: f64) -> Polytope {
     Polytope {
@@ -20,7 +20,7 @@ fn ball(radius: f64) -> Polytope {
 fn invalid_triangles_are_refused() {
     let made = |faces: &[[u32; 3]]| {
         let ids: Vec<u32> = (0..faces.len() as u32).collect();
-        Pieces::triangles(&CORNERS, faces, &ids).map(|pieces| pieces.len())
+        Pieces::triangles(&TETRAHEDRON_CORNERS, faces, &ids).map(|pieces| pieces.len())
     };
     assert_eq!(made(&[[0, 1, 2], [1, 2, 3]]), Ok(2));
     assert_eq!(made(&[]), Err(InputError::NoPieces));
@@ -38,7 +38,7 @@ fn invalid_triangles_are_refused() {
 fn invalid_points_are_refused_by_piece_and_point() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1.1e12, -1.1e12] {
         for axis in 0..3 {
-            let mut points = CORNERS;
+            let mut points = TETRAHEDRON_CORNERS;
             points[3][axis] = bad;
             let made = Pieces::triangles(&points, &[[0, 1, 2], [2, 3, 0]], &[0, 1]);
             let expected = InputError::BadPoint { piece: 1, point: 1 };
@@ -54,7 +54,7 @@ fn invalid_points_are_refused_by_piece_and_point() {
         }
     }
     // A vertex that no face uses may have any coordinates.
-    let mut points = CORNERS;
+    let mut points = TETRAHEDRON_CORNERS;
     points[3].x = f64::NAN;
     assert!(Pieces::triangles(&points, &[[0, 1, 2]], &[0]).is_ok());
 }
@@ -78,7 +78,7 @@ fn invalid_polytopes_are_refused() {
             corners,
         };
         let polytope = Polytope {
-            points: CORNERS.to_vec(),
+            points: TETRAHEDRON_CORNERS.to_vec(),
             facets: vec![facet(vec![0, 1, 2]), facet(corners)],
             ..Polytope::default()
         };
@@ -88,10 +88,14 @@ fn invalid_polytopes_are_refused() {
     let face = |x: f64| Face {
         id: 0,
         vertices: [0, 1, 2],
-        corners: [CORNERS[0], CORNERS[1], DVec3::splat(x)],
+        corners: [
+            TETRAHEDRON_CORNERS[0],
+            TETRAHEDRON_CORNERS[1],
+            DVec3::splat(x),
+        ],
     };
     let polytope = Polytope {
-        points: CORNERS.to_vec(),
+        points: TETRAHEDRON_CORNERS.to_vec(),
         faces: vec![face(1.0), face(f64::NAN)],
         ..Polytope::default()
     };
@@ -101,7 +105,8 @@ fn invalid_polytopes_are_refused() {
 
 #[test]
 fn triangles_name_vertices_edges_and_faces_of_the_mesh() {
-    let pieces = Pieces::triangles(&CORNERS, &[[0, 1, 2], [3, 2, 1]], &[10, 20]).unwrap();
+    let pieces =
+        Pieces::triangles(&TETRAHEDRON_CORNERS, &[[0, 1, 2], [3, 2, 1]], &[10, 20]).unwrap();
     assert_eq!(pieces.feature(0, &mean(&[2])), Feature::Vertex(2));
     assert_eq!(pieces.feature(1, &mean(&[0])), Feature::Vertex(3));
     assert_eq!(pieces.feature(1, &mean(&[2, 0])), Feature::Edge(1, 3));
@@ -161,7 +166,7 @@ proptest! {
         let pieces = Pieces::polytopes(&polytopes).unwrap();
         let mut order: Vec<u32> = (0..count as u32).collect();
         order.shuffle(&mut rng(seed));
-        let other = pieces.reordered(&order);
+        let other = pieces.with_piece_order(&order);
         for (k, &from) in order.iter().enumerate() {
             let (piece, same) = (other.get(k), pieces.get(from as usize));
             prop_assert_eq!(piece.points, same.points);
@@ -237,7 +242,7 @@ fn a_polytope_of_virtual_facets_has_no_names() {
         corners: corners.to_vec(),
     });
     let hull = Polytope {
-        points: CORNERS.to_vec(),
+        points: TETRAHEDRON_CORNERS.to_vec(),
         facets: facets.to_vec(),
         ..Polytope::default()
     };

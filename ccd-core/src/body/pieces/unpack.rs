@@ -1,6 +1,6 @@
 //! Converts pieces back to polytopes.
 
-use super::{Pieces, Shape};
+use super::{PieceShapes, Pieces};
 use crate::body::polytope::{Face, Facet, Polytope};
 
 impl Pieces {
@@ -20,8 +20,8 @@ impl Pieces {
             vertex_ids: self.vertex_ids(index).to_vec(),
             facets: facets.map(facet).collect(),
             faces: match &self.shape {
-                Shape::Polytopes(_) => piece.facets.faces.to_vec(),
-                Shape::Triangles { face_ids } => vec![Face {
+                PieceShapes::Polytopes(_) => piece.facets.faces.to_vec(),
+                PieceShapes::Triangles { face_ids } => vec![Face {
                     id: face_ids[index],
                     vertices: [0, 1, 2].map(|k| self.vertex_ids(index)[k]),
                     corners: self.triangle(index),

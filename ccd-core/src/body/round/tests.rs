@@ -45,18 +45,18 @@ fn enclosures_hold_their_shapes_exactly() {
             let about = round.enclose(share * radius).expect("it can be had");
             let points = &about.polytope().points;
             let (base, rest) = points.split_at(match round.kind {
-                Kind::Cylinder => points.len() / 2,
-                Kind::Cone => points.len() - 1,
+                SolidKind::Cylinder => points.len() / 2,
+                SolidKind::Cone => points.len() - 1,
             });
             assert_encloses_disc(base, radius);
             assert!(base.iter().all(|p| p.z == -half_height));
             match round.kind {
-                Kind::Cylinder => {
+                SolidKind::Cylinder => {
                     assert!(base.iter().zip(rest).all(|(low, high)| {
                         high.truncate() == low.truncate() && high.z == half_height
                     }));
                 }
-                Kind::Cone => assert_eq!(rest, [half_height * DVec3::Z]),
+                SolidKind::Cone => assert_eq!(rest, [half_height * DVec3::Z]),
             }
             counts.push(base.len());
         }
@@ -112,7 +112,12 @@ fn facets_close_the_polytope_and_point_outward() {
             assert!(above.fold(0.0, greater) <= 1e-14);
             volume += a.dot(normal) / 6.0;
         }
-        let true_volume = PI * 4.0 * 2.0 / if round.kind == Kind::Cone { 3.0 } else { 1.0 };
+        let true_volume = PI * 4.0 * 2.0
+            / if round.kind == SolidKind::Cone {
+                3.0
+            } else {
+                1.0
+            };
         assert!(
             volume > true_volume && volume < 1.1 * true_volume,
             "{volume}"

@@ -5,7 +5,7 @@ use super::tree::bounding_ball;
 use crate::body::adjacency::AdjacencyLists;
 use crate::body::facets::{Facets, edges_of};
 use crate::math::order::greater;
-use crate::rounding::HEIGHT_F64;
+use crate::rounding::HEIGHT_ERROR_F64;
 use crate::tuning::MAX_PLATEAU_POINTS;
 use glam::DVec3;
 
@@ -44,7 +44,7 @@ impl SupportTable {
         };
         let mut at = first;
         for (number, direction) in directions::all_directions().enumerate() {
-            at = table.climb(at, direction);
+            at = table.hill_climb(at, direction);
             table.starts[number] = at;
         }
         Some(table)
@@ -57,7 +57,7 @@ impl SupportTable {
     /// the hull.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
-        self.climb(
+        self.hill_climb(
             self.starts[directions::nearest_direction(direction)],
             direction,
         )
@@ -69,7 +69,7 @@ impl SupportTable {
     pub fn extremal_from(&self, start: u32, direction: DVec3) -> u32 {
         match self.neighbours(start) {
             [] => self.extremal(direction),
-            _ => self.climb(start, direction),
+            _ => self.hill_climb(start, direction),
         }
     }
 
@@ -91,8 +91,8 @@ impl SupportTable {
     /// neighbour is the highest. Heights are rounded: on such a path a corner may seem lower than an earlier one, by
     /// at most twice the rounding. The search therefore visits all corners connected by corners no lower than that.
     /// One of them is the highest, or higher than the current one.
-    fn climb(&self, start: u32, direction: DVec3) -> u32 {
-        let slack = 2.0 * HEIGHT_F64 * self.reach * direction.abs().element_sum();
+    fn hill_climb(&self, start: u32, direction: DVec3) -> u32 {
+        let slack = 2.0 * HEIGHT_ERROR_F64 * self.reach * direction.abs().element_sum();
         let (mut at, mut height) = (start, self.height(start, direction));
         // Each round ends higher than the last one.
         for _ in 0..self.points.len() {
@@ -139,7 +139,9 @@ impl SupportTable {
                     continue;
                 }
                 let Some(place) = level.get_mut(count) else {
-                    return self.highest(direction).filter(|&(_, here)| here > height);
+                    return self
+                        .highest_corner(direction)
+                        .filter(|&(_, here)| here > height);
                 };
                 *place = neighbour;
                 count += 1;
@@ -148,7 +150,7 @@ impl SupportTable {
         None
     }
 
-    fn highest(&self, direction: DVec3) -> Option<(u32, f64)> {
+    fn highest_corner(&self, direction: DVec3) -> Option<(u32, f64)> {
         let all = (0..).zip(&self.points).map(|(k, p)| (k, direction.dot(*p)));
         all.max_by(|a, b| a.1.total_cmp(&b.1))
     }

@@ -7,7 +7,7 @@ use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
 use crate::math::order::greater;
-use crate::rounding::HEIGHT_F64;
+use crate::rounding::HEIGHT_ERROR_F64;
 use crate::tests::scene::{RngExt, direction, magnitude, rng};
 
 fn polytope(points: Vec<DVec3>, facets: Vec<Vec<u32>>) -> Pieces {
@@ -50,7 +50,7 @@ fn paraboloid_grid(side: u32) -> Pieces {
 }
 
 /// Creates the cyclic polytope, whose slivers all meet in the first or the last point.
-fn cyclic(count: u32) -> Pieces {
+fn cyclic_polytope(count: u32) -> Pieces {
     let curve = |t: u32| f64::from(t) - 0.5 * f64::from(count);
     let point = |t: u32| DVec3::new(curve(t), curve(t).powi(2), curve(t).powi(3));
     let first = (1..count - 1).map(|i| vec![0, i, i + 1]);
@@ -81,7 +81,7 @@ fn prism(corners: u32) -> Pieces {
 
 fn shapes() -> Vec<Pieces> {
     let bowls = [2, 3, 5, 17, 40].map(paraboloid_grid);
-    let curves = [4, 5, 30, 200].map(cyclic);
+    let curves = [4, 5, 30, 200].map(cyclic_polytope);
     let prisms = [3, 4, 50, 300].map(prism);
     bowls.into_iter().chain(curves).chain(prisms).collect()
 }
@@ -114,7 +114,7 @@ fn climbing_agrees_with_a_scan() {
             let highest = (0..piece.points.len() as u32)
                 .map(height)
                 .fold(f64::NEG_INFINITY, greater);
-            let slack = 2.0 * HEIGHT_F64 * reach * look.abs().element_sum();
+            let slack = 2.0 * HEIGHT_ERROR_F64 * reach * look.abs().element_sum();
             let start = rng.random_range(0..piece.points.len() as u32);
             for found in [
                 table.extremal(look),

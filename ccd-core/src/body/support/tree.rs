@@ -4,7 +4,7 @@ use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::bounding_box;
 use crate::math::vector::distance;
-use crate::rounding::{DISC_F32, DISC_TILT_F32, FRAME_F64};
+use crate::rounding::{DISC_HEIGHT_ERROR_F32, DISC_TILT_ERROR_F32, FRAME_ERROR_F64};
 use glam::{DMat3, DVec3, Vec3};
 
 /// The number of points in a block, and of children in a group.
@@ -21,7 +21,7 @@ pub struct SupportTree {
     blocks: Vec<Block>,
     groups: Vec<Discs>,
     /// The start of each level's groups, from the blocks upward. The last level is one group.
-    levels: Vec<usize>,
+    level_starts: Vec<usize>,
     ball: (DVec3, f64),
 }
 
@@ -65,12 +65,12 @@ impl SupportTree {
                 .map(|of| Block::new(&placed, of))
                 .collect(),
             groups: Vec::new(),
-            levels: Vec::new(),
+            level_starts: Vec::new(),
             ball: bounding_ball(points),
         };
         let mut width = LANES;
         while width < sorted.len() {
-            tree.levels.push(tree.groups.len());
+            tree.level_starts.push(tree.groups.len());
             let groups = sorted.chunks(LANES * width);
             tree.groups
                 .extend(groups.map(|points| Discs::new(points, width)));
@@ -88,8 +88,8 @@ impl SupportTree {
     /// About logarithmic in the number of points of a curved surface; linear if all are equally far.
     pub fn extremal(&self, direction: DVec3) -> u32 {
         let mut search = Search::new(direction);
-        self.descend(self.levels.len(), 0, &mut search);
-        search.found
+        self.descend(self.level_starts.len(), 0, &mut search);
+        search.highest_point
     }
 
     /// Returns the centre and radius of a ball around the points.
@@ -100,9 +100,9 @@ impl SupportTree {
 
     /// Returns the number of nodes that a search along a direction visits.
     #[cfg(test)]
-    pub(super) fn visits(&self, direction: DVec3) -> usize {
+    pub(super) fn visited_node_count(&self, direction: DVec3) -> usize {
         let mut search = Search::new(direction);
-        self.descend(self.levels.len(), 0, &mut search);
+        self.descend(self.level_starts.len(), 0, &mut search);
         search.visits
     }
 
@@ -115,7 +115,7 @@ impl SupportTree {
         let Some(below) = level.checked_sub(1) else {
             return search.at(&self.blocks[at]);
         };
-        let mut bounds = self.groups[self.levels[below] + at].bounds(search.scaled_direction);
+        let mut bounds = self.groups[self.level_starts[below] + at].bounds(search.scaled_direction);
         for _ in 0..LANES {
             let lane = index_of_highest(&bounds);
             // Written so that NaN ends the loop.
@@ -137,7 +137,7 @@ struct Search {
     highest: f64,
     /// The height above which a disc is visited.
     min_height: f32,
-    found: u32,
+    highest_point: u32,
     #[cfg(test)]
     visits: usize,
 }
@@ -152,7 +152,7 @@ impl Search {
             size,
             highest: f64::NEG_INFINITY,
             min_height: f32::NEG_INFINITY,
-            found: 0,
+            highest_point: 0,
             #[cfg(test)]
             visits: 0,
         }
@@ -169,7 +169,7 @@ impl Search {
         if heights[lane] > self.highest {
             self.highest = heights[lane];
             self.min_height = ((self.highest / self.size) as f32).next_down();
-            self.found = block.numbers[lane];
+            self.highest_point = block.numbers[lane];
         }
     }
 }
@@ -200,7 +200,7 @@ impl Discs {
             }
             discs.radius[lane] = disc.radius;
             discs.thickness[lane] = disc.thickness;
-            discs.rounding[lane] = DISC_F32;
+            discs.rounding[lane] = DISC_HEIGHT_ERROR_F32;
         }
         discs
     }
@@ -208,7 +208,7 @@ impl Discs {
     /// Returns an upper bound of the heights in each disc, along a direction whose largest component is 1.
     #[inline]
     fn bounds(&self, d: Vec3) -> [f32; LANES] {
-        let square = d.length_squared() * (1.0 + DISC_TILT_F32);
+        let square = d.length_squared() * (1.0 + DISC_TILT_ERROR_F32);
         let ([x, y, z], [u, v, w]) = (&self.centre, &self.normal);
         let mut bounds = [0.0; LANES];
         for k in 0..LANES {
@@ -236,7 +236,7 @@ impl Disc {
     fn enclosing(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
         // An axis that is not of unit length, due to rounding or underflow, is not used.
-        let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
+        let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_ERROR_F64;
         let frame = if [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
             frame
         } else {
@@ -294,8 +294,8 @@ pub(super) fn bounding_ball(points: &[DVec3]) -> (DVec3, f64) {
 
 /// Returns the least power of two above a number; 1 for a number too small to divide by.
 fn power_of_two_above(x: f64) -> f64 {
-    const EXPONENT: u64 = 0x7ff << 52;
-    match f64::from_bits(x.to_bits() & EXPONENT) {
+    const EXPONENT_MASK: u64 = 0x7ff << 52;
+    match f64::from_bits(x.to_bits() & EXPONENT_MASK) {
         below if below > 0.0 => 2.0 * below,
         _ => 1.0,
     }

@@ -1,13 +1,13 @@
 //! Tests that results are the same on any number of threads.
 
-use super::{for_each_in, join};
+use super::{join, parallel_for_each_on};
 
 #[test]
 fn every_element_is_met_once_on_any_number_of_threads() {
     for count in [0, 1, 63, 64, 65, 5_000] {
         for threads in [1, 2, 3, 16] {
             let mut list = vec![0; count];
-            for_each_in(threads, &mut list, &(), |(), k, element| *element += k + 1);
+            parallel_for_each_on(threads, &mut list, &(), |(), k, element| *element += k + 1);
             assert!(list.into_iter().eq(1..=count));
         }
     }
@@ -16,7 +16,7 @@ fn every_element_is_met_once_on_any_number_of_threads() {
 #[test]
 fn a_workspace_is_one_threads_own() {
     let mut list = vec![(0, 0); 5_000];
-    for_each_in(
+    parallel_for_each_on(
         4,
         &mut list,
         &Vec::new(),

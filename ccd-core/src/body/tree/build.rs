@@ -8,7 +8,7 @@ use super::{
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
-use crate::body::threads::for_each;
+use crate::body::threads::parallel_for_each;
 use crate::error::InputError;
 use crate::math::order::greater;
 use glam::DVec3;
@@ -16,9 +16,9 @@ use glam::DVec3;
 /// The nodes and groups of a tree before boxes are fitted to their pieces.
 #[derive(Default)]
 pub(crate) struct Layout {
-    nodes: Vec<NodeSlot>,
-    boxes: Vec<BoxesBelow>,
-    triangles: Vec<TrianglesBelow>,
+    nodes: Vec<NodeLayout>,
+    boxes: Vec<ChildBoxes>,
+    triangles: Vec<ChildTriangles>,
 }
 
 /// Returns the largest distance of a point from the origin, rounding radii included.
@@ -76,21 +76,21 @@ impl PieceRanges {
 }
 
 /// A node of the wide tree: its pieces, and its children.
-struct NodeSlot {
+struct NodeLayout {
     start: u32,
     end: u32,
-    below: NodeChildren,
+    children: NodeChildren,
 }
 
 /// The children of a node that are nodes, by the index of the first.
-struct BoxesBelow {
+struct ChildBoxes {
     parent: u32,
     first: u32,
     count: u32,
 }
 
 /// The children of a node that are triangles, by the index of the first.
-struct TrianglesBelow {
+struct ChildTriangles {
     parent: u32,
     start: u32,
     end: u32,
@@ -100,7 +100,7 @@ struct TrianglesBelow {
 ///
 /// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
 /// just exceed it are split into two.
-const TYPICAL_FULL_GROUPS: u64 = 6;
+const TRIANGLE_GROUPS_PER_NODE_GROUP: u64 = 6;
 
 impl Layout {
     /// Arranges the nodes of the tree, and returns the pieces in the tree's order.
@@ -113,7 +113,7 @@ impl Layout {
     ) -> Result<(Self, Pieces), InputError> {
         let ranges = PieceRanges::new(hierarchy, pieces.len())?;
         let layout = Layout::build_layout(hierarchy, &ranges, pieces.all_triangles());
-        Ok((layout, pieces.reordered(&ranges.order)))
+        Ok((layout, pieces.with_piece_order(&ranges.order)))
     }
 
     fn build_layout(hierarchy: &Hierarchy, ranges: &PieceRanges, triangles: bool) -> Self {
@@ -134,7 +134,7 @@ impl Layout {
         while let Some((parent, at)) = waiting.pop() {
             let (start, end) = ranges.of[at as usize];
             let below = if triangles && ranges.len(at) <= LANES {
-                layout.triangles.push(TrianglesBelow { parent, start, end });
+                layout.triangles.push(ChildTriangles { parent, start, end });
                 NodeChildren::Triangles(layout.triangles.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
                 let (members, count) = opener.choose_children(at);
@@ -144,7 +144,7 @@ impl Layout {
                     waiting.push((child, member));
                 }
                 let count = count as u32;
-                layout.boxes.push(BoxesBelow {
+                layout.boxes.push(ChildBoxes {
                     parent,
                     first,
                     count,
@@ -153,7 +153,7 @@ impl Layout {
             } else {
                 NodeChildren::Piece(start)
             };
-            layout.nodes[parent as usize].below = below;
+            layout.nodes[parent as usize].children = below;
         }
         layout
     }
@@ -162,19 +162,23 @@ impl Layout {
         let (start, end) = opener.ranges.of[at as usize];
         // The group is created when the node is visited.
         let below = NodeChildren::Piece(start);
-        self.nodes.push(NodeSlot { start, end, below });
+        self.nodes.push(NodeLayout {
+            start,
+            end,
+            children: below,
+        });
     }
 
     /// Fits boxes to the nodes, and creates the groups. Each of them depends on its own pieces alone, so that all can
     /// be computed in parallel.
-    pub(crate) fn fit_nodes(&self, pieces: &Pieces) -> Tree {
+    pub(crate) fn fit_tree(&self, pieces: &Pieces) -> Tree {
         let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
-        for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
+        parallel_for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
             *node = self.nodes[k].fit_nodes(pieces, sample);
         });
         let mut boxes = vec![BoxGroup::default(); self.boxes.len()];
-        for_each(&mut boxes, &(), |(), k, group| {
-            let BoxesBelow {
+        parallel_for_each(&mut boxes, &(), |(), k, group| {
+            let ChildBoxes {
                 parent,
                 first,
                 count,
@@ -185,8 +189,8 @@ impl Layout {
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
         let mut triangles = vec![StoredTriangleGroup::default(); self.triangles.len()];
-        for_each(&mut triangles, &(), |(), k, group| {
-            let TrianglesBelow { parent, start, end } = self.triangles[k];
+        parallel_for_each(&mut triangles, &(), |(), k, group| {
+            let ChildTriangles { parent, start, end } = self.triangles[k];
             let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;
             *group =
                 StoredTriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
@@ -211,7 +215,7 @@ impl Layout {
         if !pieces.all_triangles() {
             return Vec::new();
         }
-        let slab = |(id, (slot, node)): (NodeId, (&NodeSlot, &Node))| {
+        let slab = |(id, (slot, node)): (NodeId, (&NodeLayout, &Node))| {
             if !node.is_thin() {
                 return None;
             }
@@ -225,9 +229,9 @@ impl Layout {
     }
 }
 
-impl NodeSlot {
+impl NodeLayout {
     fn fit_nodes(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
-        fit(&self.node_points(pieces), self.below, sample)
+        fit(&self.node_points(pieces), self.children, sample)
     }
 
     /// Returns the points and radii that the node's box has to contain.
@@ -260,7 +264,7 @@ struct ChildChooser<'a> {
 /// Returns the largest number of pieces of a node, for each layer from the bottom. Full groups come first, then by even
 /// ratios as many layers as needed.
 fn layer_capacities(pieces: usize) -> Vec<usize> {
-    let (full, pieces) = (LANES as u64 * TYPICAL_FULL_GROUPS, pieces as u64);
+    let (full, pieces) = (LANES as u64 * TRIANGLE_GROUPS_PER_NODE_GROUP, pieces as u64);
     let mut count = 1;
     while full * (LANES as u64).pow(count) < pieces {
         count += 1;

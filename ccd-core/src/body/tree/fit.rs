@@ -7,7 +7,7 @@ use super::group::{Node, NodeChildren};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{bounding_box, length, unit};
-use crate::rounding::{FRAME_F64, UNIT_ROUNDOFF_F64};
+use crate::rounding::{FRAME_ERROR_F64, UNIT_ROUNDOFF_F64};
 use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
 
@@ -82,7 +82,7 @@ pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
 fn is_orthonormal(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is rejected.
-    let within = |v: DVec3| v.abs().cmple(DVec3::splat(FRAME_F64)).all();
+    let within = |v: DVec3| v.abs().cmple(DVec3::splat(FRAME_ERROR_F64)).all();
     within(off.x_axis) && within(off.y_axis) && within(off.z_axis)
 }
 

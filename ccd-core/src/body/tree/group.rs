@@ -20,9 +20,9 @@ pub(crate) struct BoxGroup {
     pub(crate) half: Rows3,
     pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
-    pub(crate) members: GroupHeader,
+    pub(crate) header: GroupHeader,
     /// The lanes whose child is a single piece, as bits.
-    pub(crate) leaves: u8,
+    pub(crate) leaf_mask: u8,
 }
 
 /// The stored data of a group of up to eight triangles. Their corners are in the pieces.
@@ -62,7 +62,7 @@ impl BoxGroup {
     /// Creates a group of consecutive nodes; `first` is the id of the first one.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {
         let mut group = BoxGroup {
-            members: GroupHeader {
+            header: GroupHeader {
                 origin,
                 reach: 0.0,
                 first,
@@ -86,9 +86,9 @@ impl BoxGroup {
             group.rounding[lane] = node.rounding;
             group.radius[lane] = (node.radius + off).next_up();
             let reach = round_up_to_f32(length(way) + f64::from(node.radius));
-            group.members.reach = greater(group.members.reach, reach);
+            group.header.reach = greater(group.header.reach, reach);
             if matches!(node.below, NodeChildren::Piece(_)) {
-                group.leaves |= 1 << lane;
+                group.leaf_mask |= 1 << lane;
             }
         }
         group

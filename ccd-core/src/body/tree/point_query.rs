@@ -3,7 +3,7 @@
 use super::waiting::NodeStack;
 use super::{NodeChildren, Tree};
 use crate::body::pieces::Pieces;
-use crate::rounding::DETERMINANT_F64;
+use crate::rounding::DETERMINANT_ERROR_F64;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub(crate) fn pieces_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterato
 }
 
 /// Returns whether a point is certainly farther than `reach` from all triangles and mesh faces.
-pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
+pub(crate) fn is_far_from_surface(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     leaves_near(tree, point, reach).all(|leaf| match leaf {
         Leaf::Triangles(mut triangles) => {
             triangles.all(|piece| is_farther_than(pieces.triangle(piece as usize), point, reach))
@@ -55,12 +55,12 @@ fn leaves_near(tree: &Tree, point: DVec3, reach: f64) -> impl Iterator<Item = Le
             }
             match node.below {
                 NodeChildren::Boxes(group) => {
-                    let members = &tree.boxes[group as usize].members;
+                    let members = &tree.boxes[group as usize].header;
                     stack.extend(members.first..members.first + members.count);
                 }
                 NodeChildren::Piece(piece) => return Some(Leaf::Piece(piece)),
                 NodeChildren::Triangles(group) => {
-                    let members = tree.triangle_members(group);
+                    let members = tree.triangle_group_header(group);
                     let first = members.first - tree.nodes.len() as u32;
                     return Some(Leaf::Triangles(first..first + members.count));
                 }
@@ -76,7 +76,8 @@ pub(crate) fn is_farther_than(triangle: [DVec3; 3], point: DVec3, reach: f64) ->
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();
     let separates = |axis: DVec3| {
-        let beyond = |p: &DVec3| axis.dot(*p) > (reach + DETERMINANT_F64 * size(*p)) * size(axis);
+        let beyond =
+            |p: &DVec3| axis.dot(*p) > (reach + DETERMINANT_ERROR_F64 * size(*p)) * size(axis);
         corners.iter().all(beyond)
     };
     let [a, b, c] = corners;

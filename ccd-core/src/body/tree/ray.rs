@@ -4,14 +4,14 @@ use super::waiting::NodeStack;
 use super::{Node, NodeChildren, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
-use crate::rounding::{DETERMINANT_F64, UNIT_ROUNDOFF_F64};
+use crate::rounding::{DETERMINANT_ERROR_F64, UNIT_ROUNDOFF_F64};
 use crate::tuning::MAX_RAYS;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// The signed crossings of a ray with a surface: 1 where the ray leaves, −1 where it enters.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Crossings {
+pub(crate) struct RayCrossings {
     /// The sum of the crossings beyond the ray's start. For a closed surface this is the winding number about points
     /// just ahead of the start.
     pub(crate) sum_ahead: i32,
@@ -34,9 +34,9 @@ pub(crate) fn crossings(
     pieces: &Pieces,
     from: DVec3,
     slack: f64,
-) -> Option<Crossings> {
+) -> Option<RayCrossings> {
     let start = Start { from, slack };
-    (0..MAX_RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
+    (0..MAX_RAYS).find_map(|k| crossings_along(tree, pieces, start, direction(k)))
 }
 
 /// The start of a ray, with the accuracy of its position.
@@ -56,8 +56,13 @@ fn direction(k: u32) -> DVec3 {
     DVec3::new(radius * cos, radius * sin, height)
 }
 
-fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Crossings> {
-    let mut found = Crossings {
+fn crossings_along(
+    tree: &Tree,
+    pieces: &Pieces,
+    start: Start,
+    along: DVec3,
+) -> Option<RayCrossings> {
+    let mut found = RayCrossings {
         sum_ahead: 0,
         sum_at_start: 0,
         triangles_at_start: 0,
@@ -71,11 +76,11 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
         }
         match node.below {
             NodeChildren::Boxes(group) => {
-                let members = &tree.boxes[group as usize].members;
+                let members = &tree.boxes[group as usize].header;
                 stack.extend(members.first..members.first + members.count);
             }
             NodeChildren::Triangles(group) => {
-                let members = tree.triangle_members(group);
+                let members = tree.triangle_group_header(group);
                 let first = members.first - tree.nodes.len() as u32;
                 for piece in first..first + members.count {
                     found.add(pieces.triangle(piece as usize), start)?;
@@ -117,10 +122,10 @@ enum Sign {
 }
 
 impl Sign {
-    /// Returns the sign of a number with an error of at most [`DETERMINANT_F64`] times `size`.
+    /// Returns the sign of a number with an error of at most [`DETERMINANT_ERROR_F64`] times `size`.
     fn of_number(number: f64, size: f64) -> Sign {
         // Written so that NaN is unclear. Products that underflow are off by less than the added term.
-        let rounding = DETERMINANT_F64 * size + f64::MIN_POSITIVE;
+        let rounding = DETERMINANT_ERROR_F64 * size + f64::MIN_POSITIVE;
         match () {
             () if number > rounding => Sign::Positive,
             () if number < -rounding => Sign::Negative,
@@ -129,7 +134,7 @@ impl Sign {
     }
 }
 
-impl Crossings {
+impl RayCrossings {
     /// Adds the crossing of the ray with a triangle; `None` if it is uncertain.
     fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
         let along = self.direction;
@@ -148,8 +153,8 @@ impl Crossings {
         }
         if sides.contains(&Sign::Unclear) {
             // The ray may pass a triangle that is too small or too thin for its edges to decide.
-            let reach =
-                greater(size(b - a), size(c - a)) + DETERMINANT_F64 * (size(a) + size(b) + size(c));
+            let reach = greater(size(b - a), size(c - a))
+                + DETERMINANT_ERROR_F64 * (size(a) + size(b) + size(c));
             return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());
         }
         let sign = match sides[0] {

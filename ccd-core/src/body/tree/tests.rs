@@ -50,12 +50,12 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
         }
         NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
-            for child in members(&group.members) {
-                let lane = (child - group.members.first) as usize;
+            for child in members(&group.header) {
+                let lane = (child - group.header.first) as usize;
                 let inside = visit(tree, pieces, child, seen);
-                check_row(group, lane, pieces, &inside);
+                check_lane(group, lane, pieces, &inside);
                 let leaf = tree.piece(child).is_some();
-                assert_eq!(group.leaves >> lane & 1 == 1, leaf);
+                assert_eq!(group.leaf_mask >> lane & 1 == 1, leaf);
                 below.extend(inside);
             }
         }
@@ -107,10 +107,10 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
 }
 
 /// Checks that the box and ball in a group's lane contain the points, with the rounded centre of the group.
-fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
+fn check_lane(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
-    let centre = group.members.origin + at(&group.centre);
+    let centre = group.header.origin + at(&group.centre);
     for &piece in below {
         let piece = pieces.get(piece as usize);
         for &point in piece.points {
@@ -122,8 +122,8 @@ fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
                 let half = f64::from(group.half[k][lane]) + f64::from(group.rounding[lane]);
                 assert!(reach <= half + slack);
             }
-            let from_origin = (point - group.members.origin).length() + piece.radius;
-            assert!(from_origin <= f64::from(group.members.reach) + slack);
+            let from_origin = (point - group.header.origin).length() + piece.radius;
+            assert!(from_origin <= f64::from(group.header.reach) + slack);
         }
     }
 }

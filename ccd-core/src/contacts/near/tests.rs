@@ -8,7 +8,7 @@ use crate::problem::Problem;
 use crate::rounding::RAY_BOX_WIDENING_F64;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
-use crate::tests::scene::{direction, long_box};
+use crate::tests::scene::{direction, random_box_corners};
 use crate::tests::worst::{Worst, share};
 
 /// Compares the projection of a box on a direction, without the widening, with that of the box's points.
@@ -17,7 +17,7 @@ fn worst_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::sphere(0.1).unwrap();
     let found = Worst::of("RAY_BOX_WIDENING_F64", 10_000).search(|tape| {
-        let points = long_box(tape);
+        let points = random_box_corners(tape);
         let of = Polytope {
             points: points.clone(),
             ..Polytope::default()

@@ -17,7 +17,7 @@ impl NearSurface<'_> {
     pub(super) fn add_triangles(&mut self, index: u32) {
         let piece = self.body.pieces().get(index as usize);
         for (name, corners) in self.triangles(index, &piece) {
-            let corners = corners.map(|(point, id)| self.corner_index_of(point, id));
+            let corners = corners.map(|(point, id)| self.find_or_add_corner(point, id));
             self.faces.push(Face {
                 corners,
                 piece: index,
@@ -120,11 +120,11 @@ impl NearSurface<'_> {
         }
     }
 
-    fn corner_index_of(&mut self, point: DVec3, id: Option<u32>) -> u32 {
+    fn find_or_add_corner(&mut self, point: DVec3, id: Option<u32>) -> u32 {
         let place = point_bits(point);
         *self.corner_index.entry((place, id)).or_insert_with(|| {
             self.corners.push(Corner {
-                at: self.to_a.point(point),
+                at: self.body_to_a.point(point),
                 position_bits: place,
                 id,
             });

@@ -151,7 +151,7 @@ fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
         let pieces = Pieces::polytopes(&limbs).unwrap();
         let body = Body::new(&pieces, Volume::Surface).unwrap();
         let pairs = contacts(&point, &body, at(0.0, 0.0, 1.0), 0.6);
-        assert_eq!(names(&pairs), ["v0 v0"], "{radii:?}");
+        assert_eq!(feature_names(&pairs), ["v0 v0"], "{radii:?}");
         check_bounds(&pairs, 0.5, -DVec3::Z);
     }
 }

@@ -17,9 +17,9 @@ pub(super) struct Mesh {
 }
 
 /// The expected pairs of features with their distances, and the pairs that depend on rounding.
-pub(super) struct Expected {
-    pub(super) certain: BTreeMap<String, f64>,
-    pub(super) uncertain: BTreeSet<String>,
+pub(super) struct ExpectedPairs {
+    pub(super) certain_pairs: BTreeMap<String, f64>,
+    pub(super) uncertain_pairs: BTreeSet<String>,
 }
 
 impl Mesh {
@@ -145,12 +145,12 @@ impl Mesh {
 type Key = [Feature; 2];
 
 /// Returns the pairs of features of two meshes within reach.
-pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expected {
+pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> ExpectedPairs {
     let mut offers = CollectedPairs {
         reach,
         rounding,
-        sure: BTreeMap::new(),
-        doubtful: BTreeSet::new(),
+        certain_pairs: BTreeMap::new(),
+        uncertain_pairs: BTreeSet::new(),
     };
     for (one, other, order) in [(a, b, [0, 1]), (b, a, [1, 0])] {
         let used: BTreeSet<u32> = one.faces.iter().flatten().copied().collect();
@@ -172,15 +172,15 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
             offers.edges(ends(a, e), ends(b, f), names);
         }
     }
-    offers.reported([a, b])
+    offers.into_expected_pairs([a, b])
 }
 
 /// The pairs of features within reach: those that certainly are, with their distances, and those that may be.
 struct CollectedPairs {
     reach: f64,
     rounding: f64,
-    sure: BTreeMap<Key, f64>,
-    doubtful: BTreeSet<Key>,
+    certain_pairs: BTreeMap<Key, f64>,
+    uncertain_pairs: BTreeSet<Key>,
 }
 
 impl CollectedPairs {
@@ -188,10 +188,10 @@ impl CollectedPairs {
     fn add_if_near(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
-            let least = self.sure.entry(key).or_insert(distance);
+            let least = self.certain_pairs.entry(key).or_insert(distance);
             *least = lesser(*least, distance);
         } else {
-            self.doubtful.insert(key);
+            self.uncertain_pairs.insert(key);
         }
     }
 
@@ -259,7 +259,7 @@ impl CollectedPairs {
     }
 
     /// Drops pairs that follow from others, and replaces edges inside flat parts by faces.
-    fn reported(self, meshes: [&Mesh; 2]) -> Expected {
+    fn into_expected_pairs(self, meshes: [&Mesh; 2]) -> ExpectedPairs {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {
                 let corner = matches!(key[1 - k], Feature::Vertex(_)) && key[1 - k] == other[1 - k];
@@ -296,8 +296,8 @@ impl CollectedPairs {
             greater(of_side(0), of_side(1))
         };
         let (mut sure, mut doubtful) = (BTreeMap::new(), BTreeSet::new());
-        for (key, &distance) in &self.sure {
-            if self.sure.keys().any(|other| larger(key, other)) {
+        for (key, &distance) in &self.certain_pairs {
+            if self.certain_pairs.keys().any(|other| larger(key, other)) {
                 continue;
             }
             let nearer = nearer(key, distance);
@@ -305,16 +305,16 @@ impl CollectedPairs {
                 continue;
             }
             let brink = nearer > 0.25 * self.rounding;
-            if brink || self.doubtful.iter().any(|other| larger(key, other)) {
+            if brink || self.uncertain_pairs.iter().any(|other| larger(key, other)) {
                 doubtful.insert(name(key));
             } else {
                 sure.insert(name(key), distance);
             }
         }
-        doubtful.extend(self.doubtful.iter().map(name));
-        Expected {
-            certain: sure,
-            uncertain: doubtful,
+        doubtful.extend(self.uncertain_pairs.iter().map(name));
+        ExpectedPairs {
+            certain_pairs: sure,
+            uncertain_pairs: doubtful,
         }
     }
 }

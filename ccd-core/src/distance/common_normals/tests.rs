@@ -5,17 +5,17 @@ use glam::DQuat;
 
 const SLACK: f64 = 1e-13;
 
-fn common(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
+fn common_normals(a: &[DVec3], b: &[DVec3]) -> CommonNormals {
     let mut normals = CommonNormals::default();
     normals.reset(SLACK);
     a.iter().for_each(|&offset| normals.add_offset_of_a(offset));
     b.iter().for_each(|&offset| normals.add_offset_of_b(offset));
-    normals.sort();
+    normals.sort_offsets();
     normals
 }
 
 /// Returns the vectors from a corner of a cube to its other corners, which are on this side of it.
-fn corner(side: DVec3) -> Vec<DVec3> {
+fn cube_corner_offsets(side: DVec3) -> Vec<DVec3> {
     vec![side.x * DVec3::X, side.y * DVec3::Y, side.z * DVec3::Z]
 }
 
@@ -33,9 +33,9 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
     let rng = &mut rng(81);
     for _ in 0..200 {
         let turn = rotation(rng);
-        let below = turned(turn, &corner(DVec3::new(1.0, 1.0, -1.0)));
-        let above = turned(turn, &corner(DVec3::new(1.0, 1.0, 1.0)));
-        let normals = common(&above, &below);
+        let below = turned(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, -1.0)));
+        let above = turned(turn, &cube_corner_offsets(DVec3::new(1.0, 1.0, 1.0)));
+        let normals = common_normals(&above, &below);
         let expected = -(turn * DVec3::Z);
         for towards in [direction(rng), expected, direction(rng)] {
             // A direction away from the cone is turned towards it, unless there is none but the opposite.
@@ -69,7 +69,7 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
     let (mut some, mut none) = (0, 0);
     for _ in 0..2000 {
         let [a, b] = [-DVec3::Z, DVec3::Z].map(|about| random_cone_vectors(rng, about));
-        let normals = common(&a, &b);
+        let normals = common_normals(&a, &b);
         let towards = direction(rng);
         let offsets = normals.offsets.clone();
         let flat = |offset: DVec3| towards.reject_from(offset);
@@ -110,7 +110,10 @@ fn the_nearest_normal_is_the_best_of_all_candidates() {
 
 #[test]
 fn surfaces_that_enclose_each_other_have_no_common_normal() {
-    let normals = common(&level(), &[DVec3::Z, -DVec3::Z]);
+    let normals = common_normals(&level(), &[DVec3::Z, -DVec3::Z]);
     assert_eq!(normals.nearest_normal(DVec3::Z), None);
-    assert_eq!(common(&[DVec3::NAN], &[]).nearest_normal(DVec3::X), None);
+    assert_eq!(
+        common_normals(&[DVec3::NAN], &[]).nearest_normal(DVec3::X),
+        None
+    );
 }

@@ -4,7 +4,7 @@ use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::across;
 use crate::math::vector::unit_or_any;
-use crate::rounding::BESIDE_EDGE;
+use crate::rounding::BESIDE_EDGE_DISTANCE;
 use glam::DVec3;
 
 /// Returns points of a thin piece beside the edges of `other` that lie on it: two for each edge, on either side of the
@@ -33,7 +33,7 @@ pub(crate) fn points_beside_edges(
         level
             .filter_map(move |ends| flat.points_beside(ends))
             .flatten()
-            .filter(move |&point| flat.holds(point))
+            .filter(move |&point| flat.contains_point(point))
     })
 }
 
@@ -95,7 +95,7 @@ impl<'a> FlatOutline<'a> {
         })
     }
 
-    fn holds(&self, point: DVec3) -> bool {
+    fn contains_point(&self, point: DVec3) -> bool {
         self.side_points()
             .all(|(from, inward)| inward.dot(point - from) > 0.0)
     }
@@ -115,7 +115,7 @@ impl<'a> FlatOutline<'a> {
         }
         (leave > enter).then(|| {
             let middle = from + way * (0.5 * (enter + leave));
-            let beside = self.normal.cross(way) * (BESIDE_EDGE * (leave - enter));
+            let beside = self.normal.cross(way) * (BESIDE_EDGE_DISTANCE * (leave - enter));
             [middle + beside, middle - beside]
         })
     }

@@ -18,7 +18,7 @@ fn solid(triangles: &[Triangle]) -> Body {
     Body::new(&pieces(triangles), Volume::Solid).unwrap()
 }
 
-fn contained(a: &Body, b: &Body) -> Option<Overlap> {
+fn containment_overlap(a: &Body, b: &Body) -> Option<Overlap> {
     match containment_of(a, b, &[]) {
         Some(Outcome::Overlapping { overlap, .. }) => Some(overlap),
         None => None,
@@ -103,9 +103,9 @@ fn a_cavity_is_outside_and_a_solid_in_it_inside() {
     // A body in the cavity is no overlap. A body in the core or the wall is one.
     let part = |x: f64| solid(&translated_triangles(&cube(0.1, 1), x * DVec3::X));
     for (x, inside) in [(0.0, true), (1.5, false), (2.5, true), (3.5, false)] {
-        let overlap = contained(&part(x), &body);
+        let overlap = containment_overlap(&part(x), &body);
         assert_eq!(matches!(overlap, Some(Overlap::AInsideB(_))), inside, "{x}");
-        let overlap = contained(&body, &part(x));
+        let overlap = containment_overlap(&body, &part(x));
         assert_eq!(matches!(overlap, Some(Overlap::BInsideA(_))), inside, "{x}");
     }
 }
@@ -122,9 +122,9 @@ fn only_one_of_many_parts_need_be_inside() {
     let outer = solid(&cube(1.0, 2));
     let mut parts = translated_triangles(&cube(0.1, 1), 5.0 * DVec3::X);
     parts.extend(translated_triangles(&cube(0.1, 1), -5.0 * DVec3::X));
-    assert_eq!(contained(&solid(&parts), &outer), None);
+    assert_eq!(containment_overlap(&solid(&parts), &outer), None);
     parts.extend(cube(0.1, 1));
-    let Some(Overlap::AInsideB(point)) = contained(&solid(&parts), &outer) else {
+    let Some(Overlap::AInsideB(point)) = containment_overlap(&solid(&parts), &outer) else {
         panic!("a part is inside");
     };
     assert!(point.abs().max_element() <= 0.1);
@@ -134,10 +134,10 @@ fn only_one_of_many_parts_need_be_inside() {
 fn a_surface_contains_nothing() {
     let surface = Body::new(&pieces(&cube(1.0, 2)), Volume::Surface).unwrap();
     let small = solid(&cube(0.1, 1));
-    assert_eq!(contained(&small, &surface), None);
+    assert_eq!(containment_overlap(&small, &surface), None);
     // A surface, however, may be inside a solid.
     let inner = Body::new(&pieces(&cube(0.1, 2)), Volume::Surface).unwrap();
-    let overlap = contained(&solid(&cube(1.0, 1)), &inner);
+    let overlap = containment_overlap(&solid(&cube(1.0, 1)), &inner);
     assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
 }
 
@@ -175,7 +175,7 @@ fn placement_and_size_do_not_matter() {
             solid(&place(cube(1.0, n), DVec3::ZERO)),
             solid(&place(cube(0.05, 1), at)),
         );
-        let overlap = contained(&inner, &outer);
+        let overlap = containment_overlap(&inner, &outer);
         assert_eq!(
             matches!(overlap, Some(Overlap::AInsideB(_))),
             inside,

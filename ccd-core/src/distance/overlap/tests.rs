@@ -11,7 +11,7 @@ use crate::motion::pose::{Frame, Pose};
 use crate::tests::double::{Double, Double3};
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{RngExt, couple, point_in_ball, rng, rotation};
+use crate::tests::scene::{RngExt, point_in_ball, rng, rotation, two_random_triangles};
 use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
@@ -84,8 +84,8 @@ fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     let mut rng = rng(1);
     let mut counts = [0; 2];
     for _ in 0..20_000 {
-        let pair = couple(&mut rng);
-        let exact = overlap_by_axes(&PiecePair {
+        let pair = two_random_triangles(&mut rng);
+        let exact = overlaps_by_separating_axes(&PiecePair {
             a: Piece::from_points(&pair[0]),
             b: Piece::from_points(&pair[1]),
             b_to_a: Frame::IDENTITY,
@@ -203,7 +203,7 @@ fn false_claims_do_not_change_the_decision() {
             a: Combination::point(rng.random_range(0..8)),
             b: Combination::point(rng.random_range(0..8)),
         };
-        let exact = overlap_by_axes(&pair);
+        let exact = overlaps_by_separating_axes(&pair);
         assert_eq!(assert_decided(&pair, &lie), exact, "{pose:?}");
         overlaps += usize::from(exact);
         others += usize::from(!exact);
@@ -309,9 +309,9 @@ fn balls_that_touch_exactly_do_not_intersect() {
 /// Returns whether no axis of the separating axis theorem separates the pieces, in slow double-double arithmetic. The
 /// axes are the normals of both pieces and the cross products of their edges; for flat pieces also the normals of their
 /// edges within either plane.
-fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
-    let a = Directions::of_piece(&pair.a, |p| p);
-    let b = Directions::of_piece(&pair.b, |p| pair.b_to_a.point(p));
+fn overlaps_by_separating_axes(pair: &PiecePair<'_>) -> bool {
+    let a = PieceFeatures::of_piece(&pair.a, |p| p);
+    let b = PieceFeatures::of_piece(&pair.b, |p| pair.b_to_a.point(p));
     let across = |p: &[Double3], q: &[Double3]| -> Vec<Double3> {
         let crossed = p.iter().flat_map(|e| q.iter().map(|f| e.cross(*f)));
         crossed.collect()
@@ -341,13 +341,13 @@ fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
 }
 
 /// The points of a piece, its edges, each once, and the normals of its facets.
-struct Directions {
+struct PieceFeatures {
     points: Vec<Double3>,
     edges: Vec<Double3>,
     normals: Vec<Double3>,
 }
 
-impl Directions {
+impl PieceFeatures {
     fn of_piece(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
         let points: Vec<Double3> = piece.points.iter().map(|&p| place(p).into()).collect();
         let all: Vec<u32> = (0..points.len() as u32).collect();
@@ -366,7 +366,7 @@ impl Directions {
             }
             normals.push((at(1) - at(0)).cross(at(2) - at(0)));
         }
-        Directions {
+        PieceFeatures {
             points,
             edges,
             normals,

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// Draws two triangles and the frame between them, and computes their exact distance.
 fn random_triangle_pair(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
-    let pair = scene::couple(rng);
+    let pair = scene::two_random_triangles(rng);
     let pose = Pose::new(point_in_ball(rng, 0.5), rotation(rng)).unwrap();
     let frame = Frame::from(pose);
     let distance = nearest(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
@@ -168,7 +168,7 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
 }
 
 /// Checks that a tilted claim can be improved to the distance, and returns whether it was poor.
-fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
+fn check_axis_improvement(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     let checked = check(pair, tilted, ROUNDING);
     let CheckedClaim {
         lower,
@@ -208,7 +208,7 @@ fn features_have_better_axes_than_near_points() {
             axis: DVec3::Z + point_in_ball(&mut rng, 1e-11),
             ..claim
         };
-        poor += usize::from(is_sharpened(&pair, &tilted, distance));
+        poor += usize::from(check_axis_improvement(&pair, &tilted, distance));
     }
     assert!(poor > 2_000, "{poor}");
 }
@@ -249,7 +249,7 @@ fn facets_have_better_axes_than_corners_across_them() {
             a: Combination::point(0),
             b: across,
         };
-        poor += usize::from(is_sharpened(&pair, &tilted, distance));
+        poor += usize::from(check_axis_improvement(&pair, &tilted, distance));
     }
     assert!(poor > 900, "{poor}");
 }
@@ -269,7 +269,7 @@ fn searches_for_extremal_points_change_no_gap() {
         let pose = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
         let pair = |is_searched: bool| {
             let [a, b] = [0, 1].map(|k| Piece {
-                support: is_searched.then_some(&supports[k]),
+                support_map: is_searched.then_some(&supports[k]),
                 ..Piece::from_points(&points[k])
             });
             let b_to_a = Frame::from(pose);

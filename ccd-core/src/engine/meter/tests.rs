@@ -19,7 +19,7 @@ fn ball() -> Body {
     Body::sphere(1.0).unwrap()
 }
 
-fn with_deadline(deadline: Duration) -> Settings {
+fn settings_with_deadline(deadline: Duration) -> Settings {
     Settings {
         deadline: Some(deadline),
         ..Settings::DEFAULT
@@ -45,7 +45,7 @@ fn visits_and_looks_at_points_spend_the_same_budget() {
 #[test]
 fn a_deadline_that_is_past_ends_the_first_visit() {
     let ball = ball();
-    let settings = with_deadline(Duration::ZERO);
+    let settings = settings_with_deadline(Duration::ZERO);
     let problem = limited_problem(&ball, &settings);
     assert_eq!(
         Meter::new(&problem).count_visit(&problem),
@@ -56,7 +56,7 @@ fn a_deadline_that_is_past_ends_the_first_visit() {
 #[test]
 fn a_deadline_is_seen_within_the_work_between_two_looks() {
     let ball = ball();
-    let settings = with_deadline(Duration::from_millis(1));
+    let settings = settings_with_deadline(Duration::from_millis(1));
     let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert_eq!(meter.count_visit(&problem), Ok(()));
@@ -100,7 +100,7 @@ fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_lo
 #[test]
 fn an_unreachable_deadline_counts_as_none() {
     let ball = ball();
-    let settings = with_deadline(Duration::MAX);
+    let settings = settings_with_deadline(Duration::MAX);
     let problem = limited_problem(&ball, &settings);
     let mut meter = Meter::new(&problem);
     assert!((0..10_000).all(|_| meter.count_visit(&problem) == Ok(())));

@@ -23,7 +23,7 @@ impl SearchBuffers {
     }
 
     /// Returns all pairs of pieces that no axis separates, and the list of pieces as scratch memory.
-    pub(crate) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
+    pub(crate) fn touching_pairs_and_scratch(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
         (&self.touching_pairs, &mut self.pieces)
     }
 }

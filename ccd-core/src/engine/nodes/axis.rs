@@ -1,12 +1,12 @@
 //! Finds separating axes of eight pairs of nodes at once.
 
 use super::shape::{Children, OtherNode};
-use crate::math::simd::{TINY, Vec3x8, choose, splat};
+use crate::math::simd::{LEAST_DIVISOR, Vec3x8, choose, splat};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
 #[derive(Clone, Copy)]
-pub(crate) struct Axis<L: Simd> {
+pub(crate) struct AxesX8<L: Simd> {
     pub(crate) n: Vec3x8<L>,
     pub(crate) gap: f32x8<L>,
     pub(crate) split_extent: f32x8<L>,
@@ -18,16 +18,16 @@ pub(crate) struct Axis<L: Simd> {
 ///
 /// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
-pub(crate) fn widest_axis<L: Simd, C: Children, P: OtherNode>(
+pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     offset: Vec3x8<L>,
-) -> Axis<L> {
+) -> AxesX8<L> {
     let level = offset.level();
     let between = children.offset_to(other.offset_near(offset));
     let between = axis_along(children, other, offset, between);
     let own = oriented_towards(children.normal(level), offset);
-    let own = Axis::new(
+    let own = AxesX8::new(
         own,
         offset,
         children.extent_along_normal(own),
@@ -35,9 +35,9 @@ pub(crate) fn widest_axis<L: Simd, C: Children, P: OtherNode>(
     );
     let others = oriented_towards(Vec3x8::splat(level, other.normal()), offset);
     let reach = other.extent_along_normal(others);
-    let others = Axis::new(others, offset, children.extent_along(others), reach);
+    let others = AxesX8::new(others, offset, children.extent_along(others), reach);
     // The gap along the axis between the nodes is available last.
-    wider_of(wider_of(own, others), between)
+    wider_gap_axis(wider_gap_axis(own, others), between)
 }
 
 /// Returns the axis between the centres at their time of nearest approach, if their relative displacement is `travel`.
@@ -47,8 +47,8 @@ pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     other: &P,
     offset: Vec3x8<L>,
     travel: Vec3x8<L>,
-) -> Axis<L> {
-    let nearest = offset.dot(travel) / travel.dot(travel).max(TINY);
+) -> AxesX8<L> {
+    let nearest = offset.dot(travel) / travel.dot(travel).max(LEAST_DIVISOR);
     let nearest = nearest.min(1.0).max(0.0);
     axis_along(children, other, offset, offset - travel * nearest)
 }
@@ -63,10 +63,10 @@ pub(crate) fn axis_along<L: Simd, C: Children, P: OtherNode>(
     other: &P,
     offset: Vec3x8<L>,
     v: Vec3x8<L>,
-) -> Axis<L> {
-    let axis = Axis::new(v, offset, children.extent_along(v), other.extent_along(v));
+) -> AxesX8<L> {
+    let axis = AxesX8::new(v, offset, children.extent_along(v), other.extent_along(v));
     let unit = v.reciprocal_length();
-    Axis {
+    AxesX8 {
         n: v * unit,
         gap: axis.gap * unit,
         split_extent: axis.split_extent * unit,
@@ -74,10 +74,10 @@ pub(crate) fn axis_along<L: Simd, C: Children, P: OtherNode>(
     }
 }
 
-impl<L: Simd> Axis<L> {
+impl<L: Simd> AxesX8<L> {
     #[inline(always)]
     fn new(n: Vec3x8<L>, offset: Vec3x8<L>, split_reach: f32x8<L>, other_reach: f32x8<L>) -> Self {
-        Axis {
+        AxesX8 {
             n,
             gap: n.dot(offset) - split_reach - other_reach,
             split_extent: split_reach,
@@ -95,9 +95,9 @@ pub(crate) fn oriented_towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3
 }
 
 #[inline(always)]
-fn wider_of<L: Simd>(a: Axis<L>, b: Axis<L>) -> Axis<L> {
+fn wider_gap_axis<L: Simd>(a: AxesX8<L>, b: AxesX8<L>) -> AxesX8<L> {
     let pick = b.gap.simd_gt(a.gap);
-    Axis {
+    AxesX8 {
         n: choose(pick, b.n, a.n),
         gap: pick.select(b.gap, a.gap),
         split_extent: pick.select(b.split_extent, a.split_extent),

@@ -3,7 +3,7 @@
 //! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
 //! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
-use super::axis::{self, Axis};
+use super::axis::{self, AxesX8};
 use super::eight_pairs::{EightPairs, LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherNode};
 use crate::body::tree::LANES;
@@ -14,7 +14,7 @@ use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 /// The bounds of eight pairs, and hints for the next step of each.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
+pub(crate) struct EightPairBounds {
     /// The time for which each pair is certainly farther apart than the required gap.
     pub(crate) free_times: FreeTimes,
     /// The pairs that are far apart for their size, as bits. A second visit after their time is worth more than a
@@ -38,9 +38,9 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     other: &P,
     motion: &RelativeMotionF32,
     lanes: u8,
-) -> Bounds {
+) -> EightPairBounds {
     let pairs = EightPairs::new(level, children, other, motion);
-    let widest = axis::widest_axis(children, other, pairs.offset);
+    let widest = axis::widest_gap_axis(children, other, pairs.offset);
     let travel = pairs.velocity * splat(level, motion.horizon);
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
@@ -48,26 +48,26 @@ pub(crate) fn bound<L: Simd, C: Children, P: OtherNode>(
     let split_child = (widest.split_extent + radius * ADDED_THICKNESS)
         - (widest.other_extent + ADDED_THICKNESS * other.radius());
     let mut free = pairs.free(widest).max(pairs.free(passing));
-    let mut revisit = bits(revisit.simd_gt(0.0));
+    let mut revisit = mask_bits(revisit.simd_gt(0.0));
     if let Some(past) = PassingNode::new(&pairs, widest) {
         free = free.max(past.turning_plane_time);
-        revisit |= bits(past.revisit(free, widest.gap - motion.slack));
+        revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.slack));
     }
     let split_child = if other.is_piece() {
         u8::MAX
     } else {
-        bits(split_child.simd_gt(0.0))
+        mask_bits(split_child.simd_gt(0.0))
     };
-    Bounds {
+    EightPairBounds {
         free_times: FreeTimes::pack(free, lanes),
         revisit_mask: revisit,
-        split_child_mask: split_child & !bits(children.pieces(level)),
+        split_child_mask: split_child & !mask_bits(children.pieces(level)),
         other_is_piece: other.is_piece(),
     }
 }
 
 #[inline(always)]
-fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
+fn mask_bits<L: Simd>(mask: mask32x8<L>) -> u8 {
     mask.to_bitmask() as u8
 }
 
@@ -80,7 +80,7 @@ struct PassingNode<L: Simd> {
     arm: f32x8<L>,
     /// The radius of the large node.
     large_radius: f32x8<L>,
-    small: f32x8<L>,
+    small_radius: f32x8<L>,
     /// Set if the large node is a single piece. Then only the size of the small node decides whether it is far.
     other_is_piece: mask32x8<L>,
 }
@@ -90,7 +90,7 @@ impl<L: Simd> PassingNode<L> {
     #[inline(always)]
     fn new<C: Children, P: OtherNode>(
         pairs: &EightPairs<'_, L, C, P>,
-        axis: Axis<L>,
+        axis: AxesX8<L>,
     ) -> Option<Self> {
         let EightPairs {
             children,
@@ -100,20 +100,20 @@ impl<L: Simd> PassingNode<L> {
         } = *pairs;
         let level = pairs.level();
         match motion.larger? {
-            LargerBody::Split => Some(PassingNode {
+            LargerBody::SplitBody => Some(PassingNode {
                 turning_plane_time: pairs.free_with_split(axis),
                 spin: motion.split.rate,
                 arm: splat(level, motion.split.distance_from_centre(other.centre())),
                 large_radius: children.radius(level),
-                small: splat(level, other.radius()),
+                small_radius: splat(level, other.radius()),
                 other_is_piece: children.pieces(level),
             }),
-            LargerBody::Other => Some(PassingNode {
+            LargerBody::OtherBody => Some(PassingNode {
                 turning_plane_time: pairs.free_with_other(axis),
                 spin: motion.other.rate,
                 arm: motion.other.distances_from_centre(children.centre(level)),
                 large_radius: splat(level, other.radius()),
-                small: children.radius(level),
+                small_radius: children.radius(level),
                 other_is_piece: mask32x8::splat(level, other.is_piece()),
             }),
         }
@@ -121,9 +121,9 @@ impl<L: Simd> PassingNode<L> {
 
     /// Returns the pairs for which a second visit is worth more than a split.
     #[inline(always)]
-    fn revisit(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
+    fn revisit_mask(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
         let swept = free * self.spin * self.arm - self.large_radius * MIN_SWEEP;
-        let clear = apart - self.small * REVISIT_DISTANCE;
+        let clear = apart - self.small_radius * REVISIT_DISTANCE;
         swept.simd_gt(0.0) | self.other_is_piece & clear.simd_gt(0.0)
     }
 }
@@ -139,7 +139,7 @@ pub(crate) struct FreeTimes([u32; LANES]);
 const LANE_BITS: u32 = LANES as u32 - 1;
 
 /// The value of a finished pair, greater than all others.
-const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
+const FINISHED_BITS: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 
 impl FreeTimes {
     /// Creates the times of a single pair, in the first lane, with a free time of 0.
@@ -167,7 +167,7 @@ impl FreeTimes {
 
     /// Creates the times of a single pair in this lane, with a free time of 0.
     pub(crate) fn single_in_lane(lane: usize) -> Self {
-        let mut times = [FINISHED; LANES];
+        let mut times = [FINISHED_BITS; LANES];
         times[lane] = lane as u32;
         FreeTimes(times)
     }
@@ -180,11 +180,11 @@ impl FreeTimes {
 
     /// Marks the pair with the least free time as finished, and returns its lane.
     #[inline]
-    pub(crate) fn take_least(&mut self) -> usize {
+    pub(crate) fn finish_least_lane(&mut self) -> usize {
         let least = self.least_bits();
         // All lanes are written at once, so that the next read need not wait for a single store.
         for bits in &mut self.0 {
-            *bits = if *bits == least { FINISHED } else { *bits };
+            *bits = if *bits == least { FINISHED_BITS } else { *bits };
         }
         (least & LANE_BITS) as usize
     }
@@ -199,7 +199,7 @@ impl FreeTimes {
 
     /// Marks the pair in a lane as finished.
     pub(crate) fn finish(&mut self, lane: usize) {
-        self.0[lane] = FINISHED;
+        self.0[lane] = FINISHED_BITS;
     }
 
     /// Returns the free time of a lane.

@@ -5,7 +5,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::relative::RelativePath;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
-use crate::rounding::{ARM_DISTANCE_SHARE, LEAST_GAP_F32, RATE_F32};
+use crate::rounding::{ARM_DISTANCE_SHARE, LEAST_GAP_F32, RATE_ERROR_F32};
 use crate::shortcuts::Shortcut;
 use crate::tuning::{CLOSED_GAP, MUCH_LARGER_RATIO};
 use glam::Vec3;
@@ -20,7 +20,7 @@ pub(crate) struct NodeContext<'p> {
     relative_paths: [OnceCell<RelativePath>; 2],
     /// The angular velocities of A and of B in their own frames, and the angular speeds, rounded up; `None` for a body
     /// that does not turn.
-    spins: [Option<(Vec3, f32)>; 2],
+    angular_velocities: [Option<(Vec3, f32)>; 2],
     /// The gap that every clock proves, rounded up.
     pub(crate) gap: f32,
     /// The gap, [`Problem::node_gap`], that two nodes keep until the clock of their pair, unless `gap` and the rounding
@@ -65,7 +65,7 @@ impl<'p> NodeContext<'p> {
         NodeContext {
             problem,
             relative_paths: [const { OnceCell::new() }; 2],
-            spins: [&problem.a.path, &problem.b.path].map(|path| {
+            angular_velocities: [&problem.a.path, &problem.b.path].map(|path| {
                 path.is_turning().then(|| {
                     (
                         path.local_angular_velocity.as_vec3(),
@@ -76,7 +76,7 @@ impl<'p> NodeContext<'p> {
             gap: round_up_to_f32(problem.gap()),
             node_gap: round_up_to_f32(problem.node_gap()),
             rounding: round_up_to_f32(problem.rounding),
-            rate_slack: RATE_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
+            rate_slack: RATE_ERROR_F32 * round_up_to_f32(speed(&problem.a, &problem.b)),
             closed_gap: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
             much_larger_ratio: if problem.uses(Shortcut::TurningNodes) {
                 MUCH_LARGER_RATIO
@@ -98,7 +98,7 @@ impl<'p> NodeContext<'p> {
     /// does not turn.
     #[inline(always)]
     pub(crate) fn spin(&self, body: WhichBody) -> Option<(Vec3, f32)> {
-        self.spins[body as usize]
+        self.angular_velocities[body as usize]
     }
 }
 

@@ -1,11 +1,12 @@
 //! Eight pairs of nodes, each a child of one group with the same other node, and their closing rates.
 
-use super::axis::Axis;
+use super::axis::AxesX8;
 use super::clock;
 use super::shape::{Children, OtherNode};
 use crate::math::simd::{Vec3x8, splat};
 use crate::rounding::{
-    CROSS_PRODUCT_F32, LEAST_SECOND_DERIVATIVE_F32, RATE_F32, SECOND_DERIVATIVE_FACTOR_F32,
+    CROSS_PRODUCT_ERROR_F32, LEAST_SECOND_DERIVATIVE_F32, RATE_ERROR_F32,
+    SECOND_DERIVATIVE_FACTOR_F32,
 };
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
@@ -24,7 +25,7 @@ pub(crate) struct RelativeMotionF32 {
     /// The gap to keep, plus the rounding of a gap.
     pub(crate) slack: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
-    pub(crate) closed: f32,
+    pub(crate) closed_gap: f32,
     /// A bound of the rounding of a closing rate.
     pub(crate) rate_slack: f32,
     pub(crate) larger: Option<LargerBody>,
@@ -33,8 +34,8 @@ pub(crate) struct RelativeMotionF32 {
 /// The body that turns and whose nodes are much larger than the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LargerBody {
-    Split,
-    Other,
+    SplitBody,
+    OtherBody,
 }
 
 /// The children of a group, each paired with the same other node.
@@ -49,7 +50,7 @@ pub(crate) struct EightPairs<'a, L: Simd, C, P> {
     /// Upper bounds of the speeds of the children's points due to rotation.
     pub(crate) speed: f32x8<L>,
     /// The velocity of the other node's centre due to rotation.
-    pub(crate) other_turning: Vec3x8<L>,
+    pub(crate) other_rotational_velocity: Vec3x8<L>,
     /// An upper bound of the speeds of the other node's points due to rotation.
     pub(crate) other_speed: f32x8<L>,
 }
@@ -81,7 +82,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             speed: turning.length()
                 + children.radius(level) * motion.split.rate
                 + motion.rate_slack,
-            other_turning,
+            other_rotational_velocity: other_turning,
             other_speed: other_turning.length()
                 + motion.other.rate * other.radius()
                 + motion.rate_slack,
@@ -90,7 +91,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
 
     /// Returns the times for which fixed planes perpendicular to the axes keep the pairs apart.
     #[inline(always)]
-    pub(crate) fn free(&self, axis: Axis<L>) -> f32x8<L> {
+    pub(crate) fn free(&self, axis: AxesX8<L>) -> f32x8<L> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
@@ -108,17 +109,17 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         let apart = axis.gap - motion.slack;
         if let Some(acceleration) = motion.acceleration {
             let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
-            let rounding = splat(axis.n.level(), RATE_F32 * acceleration.length());
+            let rounding = splat(axis.n.level(), RATE_ERROR_F32 * acceleration.length());
             clock::free_time_decelerating(
                 apart,
-                motion.closed,
+                motion.closed_gap,
                 rate,
                 second_derivative + along + rounding,
             )
         } else if motion.split.is_turning || motion.other.is_turning {
-            clock::free_time(apart, motion.closed, rate, second_derivative)
+            clock::free_time(apart, motion.closed_gap, rate, second_derivative)
         } else {
-            clock::free_time_at_constant_rate(apart, motion.closed, rate)
+            clock::free_time_at_constant_rate(apart, motion.closed_gap, rate)
         }
     }
 }
@@ -131,7 +132,7 @@ pub(crate) fn second_derivative_bound<L: Simd>(
     rate: f32,
     speed: f32x8<L>,
 ) -> f32x8<L> {
-    (m.length() * SECOND_DERIVATIVE_FACTOR_F32 + CROSS_PRODUCT_F32 * rate) * speed
+    (m.length() * SECOND_DERIVATIVE_FACTOR_F32 + CROSS_PRODUCT_ERROR_F32 * rate) * speed
 }
 
 /// The angular velocity of a body, with its centre of rotation.

@@ -1,6 +1,6 @@
 //! Splits one node of a pair: its children are bounded against the other node, at the poses at the pair's clock.
 
-use super::bounds::{Bounds, bound};
+use super::bounds::{EightPairBounds, bound};
 use super::common::NodeContext;
 use super::eight_pairs::BodyRotation;
 use super::eight_pairs::{LargerBody, RelativeMotionF32};
@@ -12,7 +12,7 @@ use crate::math::order::greater;
 use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
 use crate::motion::relative::{RelativePath, RelativeState};
 use crate::problem::{BodyWithPath, WhichBody};
-use crate::rounding::{GAP_PER_DISTANCE_F32, GAP_PER_RADIUS_F32};
+use crate::rounding::{GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32};
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
@@ -20,7 +20,7 @@ use glam::{DVec3, Vec3};
 /// The bounds of a split node's children against the other node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
-    pub(crate) bounds: Bounds,
+    pub(crate) bounds: EightPairBounds,
     pub(crate) first: NodeId,
 }
 
@@ -105,7 +105,7 @@ fn split_node<L: Simd>(
     let (bounds, first) = match node.below {
         NodeChildren::Boxes(group) => {
             let group = tree.box_group(group);
-            let members = &group.members;
+            let members = &group.header;
             (motion.bound(group, members), members.first)
         }
         NodeChildren::Triangles(group) => {
@@ -126,7 +126,7 @@ struct RelativeMotion<'p, L: Simd> {
     split_side: &'p BodyWithPath<'p>,
     other_side: &'p BodyWithPath<'p>,
     /// The other body's present pose and motion in the split body's frame.
-    seen: RelativeState<L>,
+    relative_state: RelativeState<L>,
     relative_path: &'p RelativePath,
     /// The time left to the end of the duration.
     horizon: f32,
@@ -150,7 +150,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             split,
             split_side: split.body.of(common.problem),
             other_side: split.body.other().of(common.problem),
-            seen: view.at(level, s),
+            relative_state: view.at(level, s),
             relative_path: view,
             horizon: (1.0 - s) as f32,
             closing_rate,
@@ -159,10 +159,10 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 
     /// Bounds the children in a group against the other body's node.
     #[inline(always)]
-    fn bound<C: Children>(&self, group: &C, members: &GroupHeader) -> Bounds {
+    fn bound<C: Children>(&self, group: &C, members: &GroupHeader) -> EightPairBounds {
         let RelativeState {
             rotation, offset, ..
-        } = self.seen;
+        } = self.relative_state;
         let centre =
             self.relative_path.centre(self.level) - PackedVector::new(self.level, members.origin);
         let other_centre = centre + offset;
@@ -199,10 +199,10 @@ struct GroupMotion<'m, L: Simd> {
 
 impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
-    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
+    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairBounds {
         let motion = match self.motion.closing_rate {
             ClosingRate::OfMotion => self.motion_in_f32(other.centre(), other.radius()),
-            ClosingRate::Unit => self.at_unit_rate(other.centre(), other.radius()),
+            ClosingRate::Unit => self.motion_at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.members.count);
         bound(self.motion.level, group, other, &motion, lanes)
@@ -251,7 +251,7 @@ impl<L: Simd> GroupMotion<'_, L> {
     }
 
     #[inline(always)]
-    fn split_turn(&self) -> BodyRotation {
+    fn split_rotation(&self) -> BodyRotation {
         match self.motion.common.spin(self.motion.split.body) {
             Some((spin, rate)) => BodyRotation {
                 is_turning: true,
@@ -268,7 +268,7 @@ impl<L: Simd> GroupMotion<'_, L> {
         match self.motion.common.spin(self.motion.split.body.other()) {
             Some((_, rate)) => BodyRotation {
                 is_turning: true,
-                spin: self.motion.seen.spin.as_vec3(),
+                spin: self.motion.relative_state.spin.as_vec3(),
                 rate,
                 centre: self.other_centre.as_vec3(),
             },
@@ -279,25 +279,29 @@ impl<L: Simd> GroupMotion<'_, L> {
     /// Returns the motion in f32, for a node with this centre and radius.
     #[inline(always)]
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
-        let (split, other) = (self.split_turn(), self.other_rotation());
+        let (split, other) = (self.split_rotation(), self.other_rotation());
         let reach = self.members.reach;
         let common = self.motion.common;
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
         let slack = greater((common.gap + rounding).next_up(), common.node_gap);
         RelativeMotionF32 {
-            velocity: self.motion.seen.velocity.as_vec3(),
-            acceleration: self.motion.seen.acceleration.map(|change| change.as_vec3()),
+            velocity: self.motion.relative_state.velocity.as_vec3(),
+            acceleration: self
+                .motion
+                .relative_state
+                .acceleration
+                .map(|change| change.as_vec3()),
             split,
             other,
             horizon: self.motion.horizon,
             slack,
-            closed: common.closed_gap,
+            closed_gap: common.closed_gap,
             rate_slack: common.rate_slack,
             larger: if split.is_turning && reach > common.much_larger_ratio * radius {
-                Some(LargerBody::Split)
+                Some(LargerBody::SplitBody)
             } else if other.is_turning && radius > common.much_larger_ratio * reach {
-                Some(LargerBody::Other)
+                Some(LargerBody::OtherBody)
             } else {
                 None
             },
@@ -306,7 +310,7 @@ impl<L: Simd> GroupMotion<'_, L> {
 
     /// Returns a motion in which all gaps close at a rate of 1, so that free times are lower bounds of distances.
     #[inline(always)]
-    fn at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
+    fn motion_at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
             acceleration: None,
@@ -314,7 +318,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             other: BodyRotation::NONE,
             horizon: 0.0,
             slack: self.rounding(centre, radius),
-            closed: 0.0,
+            closed_gap: 0.0,
             rate_slack: 1.0,
             larger: None,
         }
@@ -324,8 +328,8 @@ impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();
-        let rounding =
-            GAP_PER_DISTANCE_F32 * (x + y + z) + GAP_PER_RADIUS_F32 * (radius + self.members.reach);
+        let rounding = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
+            + GAP_ERROR_PER_RADIUS_F32 * (radius + self.members.reach);
         (rounding + self.motion.common.rounding).next_up()
     }
 }

@@ -1,7 +1,7 @@
 //! The geometry of nodes, in the coordinates of the split group.
 
 use crate::body::tree::{BoxGroup, TriangleGroup};
-use crate::math::simd::{TINY, Vec3x8, choose, load, splat};
+use crate::math::simd::{LEAST_DIVISOR, Vec3x8, choose, load, splat};
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 
@@ -100,7 +100,7 @@ impl Children for BoxGroup {
     }
     #[inline(always)]
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
-        mask32x8::from_bitmask(level, self.leaves.into())
+        mask32x8::from_bitmask(level, self.leaf_mask.into())
     }
 }
 
@@ -113,7 +113,7 @@ impl Children for TriangleGroup {
     #[inline(always)]
     fn normal<L: Simd>(&self, level: L) -> Vec3x8<L> {
         // The products are relative to the radius: the square of a small area would be lost in f32.
-        let scale = splat(level, 1.0) / self.radius(level).max(TINY);
+        let scale = splat(level, 1.0) / self.radius(level).max(LEAST_DIVISOR);
         let [a, b, c] = self.corners(level);
         ((b - a) * scale).cross((c - a) * scale).unit()
     }
@@ -179,7 +179,7 @@ impl OtherNode for OtherBox {
     }
     #[inline(always)]
     fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
-        let [u, v, w] = splats(offset.level(), self.axes);
+        let [u, v, w] = splat_vectors(offset.level(), self.axes);
         let x = offset.dot(u).min(self.half[0]).max(-self.half[0]);
         let y = offset.dot(v).min(self.half[1]).max(-self.half[1]);
         let z = offset.dot(w).min(self.half[2]).max(-self.half[2]);
@@ -191,7 +191,7 @@ impl OtherNode for OtherBox {
         let [x, y, z] = self.half;
         let half = [splat(level, x), splat(level, y), splat(level, z)];
         let grown = [splat(level, self.rounding), splat(level, self.radius)];
-        box_extent(n, splats(level, self.axes), half, grown)
+        box_extent(n, splat_vectors(level, self.axes), half, grown)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -229,11 +229,11 @@ impl OtherNode for OtherTriangle {
     fn offset_near<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
         let level = offset.level();
         let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
-        offset + nearest_of_edges(splats(level, self.corners), from)
+        offset + nearest_of_edges(splat_vectors(level, self.corners), from)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let [a, b, c] = splats(n.level(), self.corners);
+        let [a, b, c] = splat_vectors(n.level(), self.corners);
         -n.dot(a).min(n.dot(b)).min(n.dot(c))
     }
     #[inline(always)]
@@ -243,7 +243,7 @@ impl OtherNode for OtherTriangle {
 }
 
 #[inline(always)]
-fn splats<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
+fn splat_vectors<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
     [
         Vec3x8::splat(level, a),
         Vec3x8::splat(level, b),
@@ -256,20 +256,20 @@ fn splats<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
 #[inline(always)]
 fn nearest_of_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
     let (p, q, r) = (foot(a, b, to), foot(b, c, to), foot(c, a, to));
-    let first = nearer(p, q, to);
-    nearer(first, r, to)
+    let first = nearer_points(p, q, to);
+    nearer_points(first, r, to)
 }
 
 /// Returns the points of segments that are nearest to `to`.
 #[inline(always)]
 fn foot<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
     let edge = b - a;
-    let t = (to - a).dot(edge) / edge.dot(edge).max(TINY);
+    let t = (to - a).dot(edge) / edge.dot(edge).max(LEAST_DIVISOR);
     a + edge * t.min(1.0).max(0.0)
 }
 
 #[inline(always)]
-fn nearer<L: Simd>(p: Vec3x8<L>, q: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
+fn nearer_points<L: Simd>(p: Vec3x8<L>, q: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
     let (from_p, from_q) = (p - to, q - to);
     let pick = from_p.dot(from_p).simd_lt(from_q.dot(from_q));
     choose(pick, p, q)

@@ -29,7 +29,7 @@ pub(crate) struct Siblings {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum NextStep {
     /// Two pieces, of A and of B, whose distance the oracle computes next.
-    Measure(u32, u32),
+    MeasurePieces(u32, u32),
     /// One of the two nodes is split next.
     Split(Split),
 }
@@ -40,7 +40,7 @@ impl NextStep {
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
-            (Some(a), Some(b)) => return NextStep::Measure(a, b),
+            (Some(a), Some(b)) => return NextStep::MeasurePieces(a, b),
             (None, None) if !(b.radius() < a.radius()) => WhichBody::A,
             (None, Some(_)) => WhichBody::A,
             _ => WhichBody::B,
@@ -131,9 +131,9 @@ impl Siblings {
     }
 
     /// Removes the pair with the least clock, and returns it as siblings of its own with a later clock.
-    pub(crate) fn remove_least(&mut self, clock: f64) -> Self {
+    pub(crate) fn remove_least_pair(&mut self, clock: f64) -> Self {
         Siblings {
-            free: FreeTimes::single_in_lane(self.free.take_least()),
+            free: FreeTimes::single_in_lane(self.free.finish_least_lane()),
             start_clock: clock,
             times_advanced: self.times_advanced.saturating_add(1),
             ..*self
@@ -145,7 +145,7 @@ impl Siblings {
     #[inline(always)]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> NextStep {
         let advanced = s > self.start_clock;
-        let lane = self.free.take_least();
+        let lane = self.free.finish_least_lane();
         let Split {
             body, node, other, ..
         } = self.split;
@@ -172,7 +172,7 @@ impl Siblings {
 fn measure_step(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> NextStep {
     let piece = |side: &BodyWithPath<'_>, node| side.body.tree().piece(node);
     match (piece(&problem.a, a), piece(&problem.b, b)) {
-        (Some(a), Some(b)) => NextStep::Measure(a, b),
+        (Some(a), Some(b)) => NextStep::MeasurePieces(a, b),
         _ => unreachable!("only single pieces are thin beside a single piece"),
     }
 }

@@ -6,7 +6,7 @@ use crate::math::vector::length;
 use crate::motion::pose::Frame;
 use crate::motion::track::{Angle, AxisMotion, RotatingVector, Track};
 use crate::problem::BodyWithPath;
-use crate::rounding::{RATE_F64, TURNED_SUPPORT};
+use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use glam::DVec3;
 
 /// The heights of a piece's points along a fixed axis while their body moves.
@@ -28,7 +28,7 @@ pub(crate) struct Heights<'a> {
     /// The magnitude of the centre's acceleration.
     acceleration: f64,
     least_height: f64,
-    few_tracks: FewTracks,
+    point_tracks: PointTracks,
     /// A bound of the second derivatives of all points' heights, if there are many points.
     second_derivative: f64,
     /// The error of the lowest height of many points. Times the angular speed, it is the error of the least rate.
@@ -49,9 +49,9 @@ const MAX_TRACKED_POINTS: usize = 3;
 
 /// The tracks of up to three points; unused entries repeat the last.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FewTracks([(Track, f64); MAX_TRACKED_POINTS]);
+pub(crate) struct PointTracks([(Track, f64); MAX_TRACKED_POINTS]);
 
-impl FewTracks {
+impl PointTracks {
     /// Returns the heights and rates of the points after a time `tau`, in which the body turns by `angle`.
     #[inline]
     pub(crate) fn at(&self, angle: Angle, tau: f64) -> [Point; MAX_TRACKED_POINTS] {
@@ -85,19 +85,19 @@ impl<'a> Heights<'a> {
             speed: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
             least_height: f64::INFINITY,
-            few_tracks: FewTracks([(Track::default(), 0.0); MAX_TRACKED_POINTS]),
+            point_tracks: PointTracks([(Track::default(), 0.0); MAX_TRACKED_POINTS]),
             second_derivative: 0.0,
             support_error: 0.0,
         };
         match piece.bounding_ball() {
-            Some((middle, radius)) => heights.init_many(middle, radius),
-            None => heights.init_few(),
+            Some((middle, radius)) => heights.init_many_points(middle, radius),
+            None => heights.init_few_points(),
         }
         heights
     }
 
-    fn init_few(&mut self) {
-        let (mut least_height, mut farthest, mut few) = (f64::INFINITY, 0.0, self.few_tracks);
+    fn init_few_points(&mut self) {
+        let (mut least_height, mut farthest, mut few) = (f64::INFINITY, 0.0, self.point_tracks);
         for (k, (track, arm)) in self.tracks().enumerate() {
             least_height = lesser(least_height, track.height_at(0.0, Angle::ZERO));
             farthest = greater(farthest, arm.length_squared());
@@ -105,23 +105,23 @@ impl<'a> Heights<'a> {
                 rest.fill((track, track.second_derivative()));
             }
         }
-        (self.least_height, self.few_tracks) = (least_height, few);
+        (self.least_height, self.point_tracks) = (least_height, few);
         self.speed += self.omega * farthest.sqrt();
     }
 
-    fn init_many(&mut self, middle: DVec3, radius: f64) {
+    fn init_many_points(&mut self, middle: DVec3, radius: f64) {
         self.least_height = self.lowest_track(self.normal).height_at(0.0, Angle::ZERO);
         if self.is_nonrotating() {
             return;
         }
         let arm = self.frame.rotation * (middle - self.centre);
-        let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
+        let farthest = (length(arm) + radius) * (1.0 + RATE_ERROR_F64);
         self.speed += self.omega * farthest;
         self.second_derivative = self
             .axis_motion
             .second_derivative(length(self.axis.cross(arm)) + radius)
-            * (1.0 + RATE_F64);
-        self.support_error = TURNED_SUPPORT * (farthest + length(middle) + radius);
+            * (1.0 + RATE_ERROR_F64);
+        self.support_error = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
     }
 
     /// Returns an upper bound of the speed of any point at any time.
@@ -146,12 +146,12 @@ impl<'a> Heights<'a> {
         }
     }
 
-    pub(crate) fn few_tracks(&self) -> Option<&FewTracks> {
-        (self.piece.points.len() <= MAX_TRACKED_POINTS).then_some(&self.few_tracks)
+    pub(crate) fn few_tracks(&self) -> Option<&PointTracks> {
+        (self.piece.points.len() <= MAX_TRACKED_POINTS).then_some(&self.point_tracks)
     }
 
     /// Returns lower bounds of the heights and rates of all points after `tau`.
-    pub(crate) fn bound_all(&self, tau: f64) -> Point {
+    pub(crate) fn bound_all_points(&self, tau: f64) -> Point {
         let start = Point {
             height: f64::INFINITY,
             rate: f64::INFINITY,
@@ -169,14 +169,14 @@ impl<'a> Heights<'a> {
 
     /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`;
     /// `None` if there are many points.
-    pub(crate) fn descent_until(&self, horizon: f64) -> Option<f64> {
+    pub(crate) fn max_descent_until(&self, horizon: f64) -> Option<f64> {
         if self.piece.bounding_ball().is_some() {
             return None;
         }
         let end = self.angle(horizon);
         let least_height = self
             .tracks()
-            .map(|(track, _)| track.least_until(horizon, end))
+            .map(|(track, _)| track.least_rotational_height(horizon, end))
             .fold(f64::INFINITY, lesser);
         Some(self.least_height - least_height)
     }
@@ -193,14 +193,14 @@ impl<'a> Heights<'a> {
 
     /// Returns a lower bound of the second derivative of the points' heights without rotation.
     pub(crate) fn least_linear_acceleration(&self) -> f64 {
-        self.axis_motion.linear_acceleration() - RATE_F64 * self.acceleration
+        self.axis_motion.linear_acceleration() - RATE_ERROR_F64 * self.acceleration
     }
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
     pub(crate) fn least_value_after(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         match self.piece.bounding_ball() {
-            Some(_) => of(&self.bound_all(tau)),
+            Some(_) => of(&self.bound_all_points(tau)),
             None => self
                 .points_at(tau)
                 .map(|point| of(&point))
@@ -271,18 +271,18 @@ pub(crate) fn least_free_time(
 /// Returns a lower bound of the least free time over all pairs of points. The points of one body, each by itself, are
 /// paired with a bound of the other body's. The lowest point and the one with the least rate may differ, and a bound of
 /// both bodies would treat them as one. A body that does not turn loses nothing by its bound.
-pub(crate) fn least_free_time_of_many(
+pub(crate) fn least_free_time_of_many_points(
     above: &Heights<'_>,
     below: &Heights<'_>,
     tau: f64,
     free: impl Fn(&Point, &Point) -> f64,
 ) -> f64 {
     let of_below = || {
-        let bound = above.bound_all(tau);
+        let bound = above.bound_all_points(tau);
         below.least_value_after(tau, |x| free(&bound, x))
     };
     let of_above = || {
-        let bound = below.bound_all(tau);
+        let bound = below.bound_all_points(tau);
         above.least_value_after(tau, |y| free(y, &bound))
     };
     match (above.is_nonrotating(), below.is_nonrotating()) {

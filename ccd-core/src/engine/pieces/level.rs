@@ -1,13 +1,13 @@
 //! Handles pieces that touch beside the plane of the contact at the start: an inner edge of flat ground is no obstacle.
 
-use super::snapshot::{Plane, Snapshot};
+use super::snapshot::{SeparatingPlane, Snapshot};
 use crate::answer::Contact;
 use crate::body::facing::Facing;
 use crate::math::order::greater;
 use crate::problem::{Problem, WhichBody};
 use crate::rounding::RESTING_DECREASE;
 use crate::touching_plane::TouchingPlane;
-use crate::tuning::RESTED_SLACK;
+use crate::tuning::MIN_RESTING_SLACK;
 use glam::DVec3;
 
 /// How a [`TouchingPlane`] keeps two pieces apart.
@@ -28,7 +28,7 @@ impl TouchingPlane {
         let problem = given.as_ref().unwrap_or(problem);
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;
-        let from = frame_a.inverse_point(problem.local(contact.separation.witness_a));
+        let from = frame_a.inverse_point(problem.to_local_point(contact.separation.witness_a));
         let gap = snapshot.gap_across(normal, from);
         let resting = RESTING_DECREASE * problem.rounding;
         // Written so that NaN is an overlap.
@@ -78,8 +78,8 @@ impl Snapshot<'_> {
         };
         let slack = self.gap_across(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
-        if slack > RESTED_SLACK * self.problem.rounding {
-            self.plane_free_time(&Plane { normal, slack })
+        if slack > MIN_RESTING_SLACK * self.problem.rounding {
+            self.plane_free_time(&SeparatingPlane { normal, slack })
         } else {
             Some(0.0)
         }
@@ -116,13 +116,13 @@ impl Snapshot<'_> {
         match (of_a.body.facing(a), of_b.body.facing(b)) {
             // The side to keep to is unknown.
             (Facing::Unclear, _) | (_, Facing::Unclear) => false,
-            (Facing::Neither, Facing::Neither) => false,
+            (Facing::NoOutwardSide, Facing::NoOutwardSide) => false,
             // Solids on the same side slide along the plane.
-            (Facing::Out(n), Facing::Out(m)) => {
+            (Facing::OutwardNormal(n), Facing::OutwardNormal(m)) => {
                 is_ahead(frame_a.rotation * n) || is_ahead(frame_b.rotation * -m)
             }
-            (Facing::Out(n), Facing::Neither) => is_ahead(frame_a.rotation * n),
-            (Facing::Neither, Facing::Out(m)) => is_ahead(frame_b.rotation * -m),
+            (Facing::OutwardNormal(n), Facing::NoOutwardSide) => is_ahead(frame_a.rotation * n),
+            (Facing::NoOutwardSide, Facing::OutwardNormal(m)) => is_ahead(frame_b.rotation * -m),
         }
     }
 }

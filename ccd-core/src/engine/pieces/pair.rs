@@ -44,7 +44,7 @@ enum Goal {
 
 /// What an advance of a pair found out.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Step {
+pub(crate) enum PairStep {
     /// The pair is certified apart until this clock, which is later than before. A clock beyond 1 means forever.
     FreeUntil(f64),
     /// The pair is within the tolerance. At the start it may intersect, which the search for the nearest pieces
@@ -76,14 +76,14 @@ impl<C: Default + Clone> Pair<C> {
         oracle: &mut O,
         meter: &mut Meter,
         s: f64,
-    ) -> Step {
+    ) -> PairStep {
         let snapshot = Snapshot::new(problem, self.a, self.b, s);
         let known = std::mem::replace(&mut self.was_advanced, true);
         self.advance_with(&snapshot, oracle, meter, |snapshot, checked, kept| {
             if known {
                 snapshot.free_time(checked, kept)
             } else {
-                snapshot.first_free_time(checked, kept)
+                snapshot.first_visit_free_time(checked, kept)
             }
         })
     }
@@ -96,20 +96,20 @@ impl<C: Default + Clone> Pair<C> {
         oracle: &mut O,
         meter: &mut Meter,
         free_time: impl FnOnce(&Snapshot<'_>, &CheckedClaim, f64) -> Option<f64>,
-    ) -> Step {
+    ) -> PairStep {
         let (problem, s) = (snapshot.problem, snapshot.clock);
         let Some(checked) = snapshot.query_oracle(oracle, &mut self.cache, meter) else {
-            return Step::GaveUp;
+            return PairStep::GaveUp;
         };
         let ids = [self.a, self.b];
-        let in_contact = |checked| Step::Contact(contact(snapshot, ids, checked));
+        let in_contact = |checked| PairStep::Contact(contact(snapshot, ids, checked));
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
                 let inner = &mut meter.scratch_memory().inner;
                 match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
                     Intersection::Certain => {
-                        return Step::Overlap(contact(snapshot, ids, &checked));
+                        return PairStep::Overlap(contact(snapshot, ids, &checked));
                     }
                     // The search for the nearest pieces decides this.
                     Intersection::Undecided => return in_contact(&checked),
@@ -171,7 +171,7 @@ impl<C: Default + Clone> Pair<C> {
         match step {
             Some(step) => step,
             None if is_resting => in_contact(&checked),
-            None => Step::Stalled,
+            None => PairStep::Stalled,
         }
     }
 
@@ -202,12 +202,12 @@ impl<C: Default + Clone> Pair<C> {
 }
 
 /// Converts a free time at clock `s` to a step; `None` if the time is too short for the clock to advance.
-fn step_after(s: f64, free: Option<f64>) -> Option<Step> {
+fn step_after(s: f64, free: Option<f64>) -> Option<PairStep> {
     match free {
-        None => Some(Step::FreeUntil(f64::INFINITY)),
+        None => Some(PairStep::FreeUntil(f64::INFINITY)),
         Some(tau) => {
             let next = (s + tau).next_down();
-            (next > s).then_some(Step::FreeUntil(next))
+            (next > s).then_some(PairStep::FreeUntil(next))
         }
     }
 }

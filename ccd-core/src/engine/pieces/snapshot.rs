@@ -1,6 +1,6 @@
 //! Two pieces at one instant, and how long planes keep them apart from then on.
 
-use super::heights::{Heights, Point, least_free_time, least_free_time_of_many};
+use super::heights::{Heights, Point, least_free_time, least_free_time_of_many_points};
 use crate::body::facing::Facing;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
@@ -12,11 +12,12 @@ use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::{RATE_F64, RESTING_DECREASE};
+use crate::rounding::{RATE_ERROR_F64, RESTING_DECREASE};
 use crate::shortcuts::Shortcut;
 use crate::shortcuts::turning_pieces::{MovingPiece, TurningPiece};
 use crate::tuning::{
-    ASSUMED_STEPS, MAX_NEWTON_STEPS, RESTED_SLACK, ROTATION_GAP_SHARE, SUFFICIENT_FIRST_FREE_TIME,
+    ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_RESTING_SLACK, ROTATION_GAP_SHARE,
+    SUFFICIENT_FIRST_FREE_TIME,
 };
 use glam::DVec3;
 use std::cell::Cell;
@@ -77,8 +78,8 @@ impl<'p> Snapshot<'p> {
         let before = oracle.effort().steps;
         let claim = oracle.separation(&self.pieces, cache);
         stats.point_evaluations += match oracle.effort().steps.saturating_sub(before) {
-            0 => ASSUMED_STEPS * self.pieces.points(),
-            steps => ASSUMED_STEPS * steps,
+            0 => ASSUMED_ORACLE_STEPS * self.pieces.points(),
+            steps => ASSUMED_ORACLE_STEPS * steps,
         };
         match claim {
             Ok(claim) => Some(separation::check(
@@ -95,7 +96,7 @@ impl<'p> Snapshot<'p> {
 
     /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
     /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
-    pub(crate) fn first_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
+    pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
         match self.fixed_axis_time(direct.normal, direct.slack)? {
             free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
@@ -117,7 +118,7 @@ impl<'p> Snapshot<'p> {
         &self,
         checked: &CheckedClaim,
         kept: f64,
-        direct: &Plane,
+        direct: &SeparatingPlane,
         mut free: f64,
     ) -> Option<f64> {
         let passing = self.plane_of_closest_approach(checked, kept);
@@ -163,7 +164,7 @@ impl<'p> Snapshot<'p> {
         }
         let gap = Gap {
             gap: checked.lower - kept,
-            rate: rate + RATE_F64 * speed,
+            rate: rate + RATE_ERROR_F64 * speed,
             second_derivative: 0.0,
         };
         let free = gap.free_time();
@@ -195,7 +196,7 @@ impl<'p> Snapshot<'p> {
         let rounding = self.problem.rounding;
         let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
         // Written so that NaN counts as no slack.
-        let is_left = |slack: f64| slack > RESTED_SLACK * rounding;
+        let is_left = |slack: f64| slack > MIN_RESTING_SLACK * rounding;
         let anyhow = || {
             if is_left(checked.lower - kept) {
                 self.free_time(checked, kept)
@@ -216,20 +217,20 @@ impl<'p> Snapshot<'p> {
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
             // The side to keep to is unknown, and the pieces are not let go.
             (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
-            (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
+            (Facing::OutwardNormal(n), Facing::OutwardNormal(m)) => match -(turn * m) {
                 // The solids are on the same side of the plane: their faces slide, and cannot meet.
                 into_b if n.dot(into_b) < 0.0 => longer_time(along(n), along(into_b)),
                 _ => along(n),
             },
-            (Facing::Out(n), Facing::Neither) => along(n),
-            (Facing::Neither, Facing::Out(m)) => along(-(turn * m)),
-            (Facing::Neither, Facing::Neither) => anyhow(),
+            (Facing::OutwardNormal(n), Facing::NoOutwardSide) => along(n),
+            (Facing::NoOutwardSide, Facing::OutwardNormal(m)) => along(-(turn * m)),
+            (Facing::NoOutwardSide, Facing::NoOutwardSide) => anyhow(),
         }
     }
 
     /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is fixed,
     /// or turns with one of the bodies.
-    pub(crate) fn plane_free_time(&self, plane: &Plane) -> Option<f64> {
+    pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> Option<f64> {
         let free = self.fixed_axis_time(plane.normal, plane.slack)?;
         Some(greater(
             self.turning_plane_time(&self.moving_pieces(), plane, free)?,
@@ -245,8 +246,8 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Returns the plane perpendicular to the claim's axis.
-    fn plane_of_claim(&self, checked: &CheckedClaim, kept: f64) -> Plane {
-        Plane {
+    fn plane_of_claim(&self, checked: &CheckedClaim, kept: f64) -> SeparatingPlane {
+        SeparatingPlane {
             normal: self.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
         }
@@ -254,7 +255,11 @@ impl<'p> Snapshot<'p> {
 
     /// Returns the plane perpendicular to the vector between the nearest points at their time of closest approach, for
     /// constant velocities; `None` if it does not keep the pieces apart now.
-    fn plane_of_closest_approach(&self, checked: &CheckedClaim, kept: f64) -> Option<Plane> {
+    fn plane_of_closest_approach(
+        &self,
+        checked: &CheckedClaim,
+        kept: f64,
+    ) -> Option<SeparatingPlane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
             - self.problem.b.path.velocity_at(b, self.clock);
@@ -263,7 +268,7 @@ impl<'p> Snapshot<'p> {
         let normal = unit(way)?;
         let axis = self.frames[0].inverse_vector(normal);
         let slack = self.gap_along(axis, checked.witness_a) - kept;
-        (slack > 0.0).then_some(Plane { normal, slack })
+        (slack > 0.0).then_some(SeparatingPlane { normal, slack })
     }
 
     /// Like [`Snapshot::fixed_axis_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
@@ -271,7 +276,7 @@ impl<'p> Snapshot<'p> {
     pub(crate) fn turning_plane_time(
         &self,
         members: &[MovingPiece<'_>; 2],
-        plane: &Plane,
+        plane: &SeparatingPlane,
         free: f64,
     ) -> Option<f64> {
         if !self.problem.uses(Shortcut::TurningPieces) {
@@ -285,7 +290,7 @@ impl<'p> Snapshot<'p> {
             if uses_up(holder.relative_speed) && uses_up(holder.relative_speed_along(normal)) {
                 let sweep = TurningPiece::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.time_left());
-                self.count_evaluations(sweep.looks.get());
+                self.count_evaluations(sweep.evaluations.get());
                 longest = greater(longest, free?);
             }
         }
@@ -327,7 +332,7 @@ impl<'p> Snapshot<'p> {
         let clock = self.clock;
         let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
-        let rounding = RATE_F64 * (a.speed() + b.speed());
+        let rounding = RATE_ERROR_F64 * (a.speed() + b.speed());
         let linear_acceleration = a.least_linear_acceleration() + b.least_linear_acceleration();
         let rounds = if a.is_nonrotating() && b.is_nonrotating() {
             1
@@ -340,7 +345,7 @@ impl<'p> Snapshot<'p> {
                 gap: slack + (above.height - b.least_height()) + (below.height - a.least_height()),
                 rate: -below.rate - above.rate + rounding,
                 second_derivative: (above.second_derivative + below.second_derivative)
-                    * (1.0 + RATE_F64)
+                    * (1.0 + RATE_ERROR_F64)
                     - linear_acceleration,
             };
             gap.free_time()
@@ -358,7 +363,7 @@ impl<'p> Snapshot<'p> {
             }),
             _ => first_crossing(self.time_left(), rounds, |tau| {
                 self.count_evaluations(points);
-                least_free_time_of_many(&b, &a, tau, free)
+                least_free_time_of_many_points(&b, &a, tau, free)
             }),
         }?;
         if self.rotation_keeps_slack(&a, &b, slack) {
@@ -377,18 +382,18 @@ impl<'p> Snapshot<'p> {
             a.linear_acceleration() + b.linear_acceleration(),
             horizon,
         );
-        let left = slack + displacement - RATE_F64 * (a.speed() + b.speed()) * horizon;
+        let left = slack + displacement - RATE_ERROR_F64 * (a.speed() + b.speed()) * horizon;
         // Written so that NaN is not past.
         if (a.is_nonrotating() && b.is_nonrotating()) || !(left > 0.0) {
             return false;
         }
-        let descents = || Some(a.descent_until(horizon)? + b.descent_until(horizon)?);
+        let descents = || Some(a.max_descent_until(horizon)? + b.max_descent_until(horizon)?);
         descents().is_some_and(|descents| left - descents > 0.0)
     }
 }
 
 /// A plane that keeps two pieces apart.
-pub(crate) struct Plane {
+pub(crate) struct SeparatingPlane {
     /// The unit normal from A to B, in the problem's coordinates.
     pub(crate) normal: DVec3,
     /// The present excess of the gap over the required gap.

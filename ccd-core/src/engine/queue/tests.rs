@@ -32,7 +32,7 @@ fn least_clock_first_then_piece_pairs_then_the_newest() {
         queue.push(clock, rank, item).unwrap();
     }
     assert_eq!(drain(&mut queue), [0, 1, 2, 3, 4, 5, 6]);
-    assert_eq!(queue.peak(), 7);
+    assert_eq!(queue.peak_length(), 7);
     assert!(queue.next().is_none());
     queue.remove();
 }
@@ -69,9 +69,9 @@ fn places_are_used_again() {
         assert_eq!(out, (0..10).rev().collect::<Vec<_>>(), "round {round}");
     }
     assert_eq!(queue.items.len(), 10);
-    assert_eq!(queue.peak(), 10);
+    assert_eq!(queue.peak_length(), 10);
     queue.clear();
-    assert_eq!(queue.peak(), 0);
+    assert_eq!(queue.peak_length(), 0);
     assert!(queue.next().is_none());
     queue.remove();
 }
@@ -133,6 +133,6 @@ proptest! {
         list.sort_by(|x, y| x.partial_cmp(y).unwrap());
         let rest: Vec<u32> = list.iter().map(|item| item.3).collect();
         prop_assert_eq!(drain(&mut queue), rest);
-        prop_assert_eq!(queue.peak(), peak as u64);
+        prop_assert_eq!(queue.peak_length(), peak as u64);
     }
 }

@@ -4,7 +4,7 @@ use crate::answer::{Answer, Limit, Outcome, Unresolved};
 use crate::body::Body;
 use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, GiveUpReason};
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -22,7 +22,7 @@ use glam::DVec3;
 use std::time::Duration;
 
 /// Returns one solver for each schedule.
-fn schedules() -> Vec<Box<dyn Solve<ExhaustiveOracle>>> {
+fn schedules() -> Vec<Box<dyn EngineSchedule<ExhaustiveOracle>>> {
     vec![
         Box::new(BestFirst::default()),
         Box::new(Naive::default()),
@@ -36,13 +36,13 @@ fn solve(problem: &Problem<'_>) -> Answer {
 }
 
 /// Creates two tori with the same cuts, one at the origin, the other at `x`.
-fn tori<R>(
+fn with_two_tori<R>(
     cuts: TorusSegments,
     x: f64,
     config: &Settings,
     then: impl FnOnce(&Problem<'_>) -> R,
 ) -> R {
-    let torus = body(&torus(cuts.around_axis, cuts.about));
+    let torus = body(&torus(cuts.around_axis, cuts.around_tube));
     let moving =
         |x: f64| MovingBody::from((&torus, Motion::still(Pose::at(x * DVec3::X).unwrap())));
     then(&Problem::about(moving(x), moving(0.0), 1.0, config).unwrap())
@@ -52,21 +52,21 @@ fn tori<R>(
 #[derive(Clone, Copy)]
 struct TorusSegments {
     around_axis: usize,
-    about: usize,
+    around_tube: usize,
 }
 
-const FINE: TorusSegments = TorusSegments {
+const FINE_SEGMENTS: TorusSegments = TorusSegments {
     around_axis: 64,
-    about: 32,
+    around_tube: 32,
 };
 
-const COARSE: TorusSegments = TorusSegments {
+const COARSE_SEGMENTS: TorusSegments = TorusSegments {
     around_axis: 8,
-    about: 6,
+    around_tube: 6,
 };
 
 /// Draws a scene with a margin of up to a hundred times its size. Most scenes begin within the margin.
-fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
+fn scene_within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     let mut scene = scene(rng, Kind::Any, most);
     let size = scene.bodies.each_ref().map(|body| body.tree().radius());
     let size = f64::from(size[0]) + f64::from(size[1]);
@@ -87,7 +87,7 @@ fn a_start_within_any_margin_costs_one_distance() {
             margin,
             ..Settings::DEFAULT
         };
-        let answer = tori(FINE, 3.0, &config, solve);
+        let answer = with_two_tori(FINE_SEGMENTS, 3.0, &config, solve);
         let Outcome::Touching { contact } = answer.outcome else {
             panic!("{margin}: {answer:?}");
         };
@@ -107,7 +107,7 @@ fn a_budget_that_ends_at_the_start_is_unresolved() {
             budget,
             ..Settings::DEFAULT
         };
-        let answer = tori(FINE, 1.5, &config, solve);
+        let answer = with_two_tori(FINE_SEGMENTS, 1.5, &config, solve);
         assert!(
             match answer.outcome {
                 Outcome::Overlapping { .. } => true,
@@ -130,7 +130,7 @@ fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
     let mut rng = rng(31);
     let (mut touching, mut ended) = (0, 0);
     for number in 0..400 {
-        let mut scene = within_margin(&mut rng, 12);
+        let mut scene = scene_within_margin(&mut rng, 12);
         let problem = scene.problem();
         let full = solve(&problem);
         let Outcome::Touching { contact } = full.outcome else {
@@ -166,7 +166,7 @@ fn all_schedules_say_the_same_of_a_start() {
     let mut rng = rng(32);
     let mut touching = 0;
     for number in 0..400 {
-        let scene = within_margin(&mut rng, 8);
+        let scene = scene_within_margin(&mut rng, 8);
         let answers: Vec<Outcome> = schedules()
             .into_iter()
             .map(|mut schedule| {
@@ -199,7 +199,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
             ..Settings::DEFAULT
         };
         for mut schedule in schedules() {
-            let answer = tori(COARSE, 3.0, &config, |problem| {
+            let answer = with_two_tori(COARSE_SEGMENTS, 3.0, &config, |problem| {
                 schedule.solve(problem, &mut ExhaustiveOracle)
             });
             let Outcome::Unresolved(Unresolved {
@@ -216,7 +216,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     // A deadline that is long enough changes nothing.
     let mut rng = rng(33);
     for _ in 0..50 {
-        let mut scene = within_margin(&mut rng, 8);
+        let mut scene = scene_within_margin(&mut rng, 8);
         let free = solve(&scene.problem());
         scene.config.deadline = Some(Duration::from_secs(3600));
         assert_eq!(solve(&scene.problem()), free);
@@ -229,7 +229,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut rng = rng(34);
     let mut touching = 0;
     for _ in 0..300 {
-        let mut scene = within_margin(&mut rng, 6);
+        let mut scene = scene_within_margin(&mut rng, 6);
         scene.config.budget = 5_000;
         let problem = scene.problem();
         let found = distance(&problem, 0.0);

@@ -7,7 +7,7 @@ use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use glam::DVec3;
 
 /// Draws a number of any magnitude, down to the least.
-fn any(rng: &mut Pcg64) -> f64 {
+fn random_number_of_any_magnitude(rng: &mut Pcg64) -> f64 {
     let exponent = rng.random_range(-1074..1000);
     let sign = if rng.random_range(0..2) == 0 {
         1.0
@@ -27,13 +27,17 @@ fn any(rng: &mut Pcg64) -> f64 {
 /// Draws a vector of any magnitude, with components of similar or different magnitudes.
 fn vector(rng: &mut Pcg64) -> DVec3 {
     match rng.random_range(0..2) {
-        0 => DVec3::new(any(rng), any(rng), any(rng)),
-        _ => direction(rng) * any(rng),
+        0 => DVec3::new(
+            random_number_of_any_magnitude(rng),
+            random_number_of_any_magnitude(rng),
+            random_number_of_any_magnitude(rng),
+        ),
+        _ => direction(rng) * random_number_of_any_magnitude(rng),
     }
 }
 
 /// Scales a vector so that its largest component is near 1.
-fn near_one(v: DVec3) -> DVec3 {
+fn scaled_near_one(v: DVec3) -> DVec3 {
     let largest = v.abs().max_element();
     let half = 2f64.powf((-0.5 * largest.log2()).round());
     v * half * half
@@ -55,7 +59,9 @@ fn units_are_units_of_the_same_direction() {
             (n.length().get() - 1.0).abs() <= 4.0 * UNIT_ROUNDOFF_F64,
             "{v:?}"
         );
-        let off = (n - Double3::from(near_one(v)).unit()).length().get();
+        let off = (n - Double3::from(scaled_near_one(v)).unit())
+            .length()
+            .get();
         assert!(off <= 4.0 * UNIT_ROUNDOFF_F64, "{v:?}: {off:e}");
     }
     assert!(denormal > 1_000, "{denormal}");

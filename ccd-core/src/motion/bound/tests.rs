@@ -1,6 +1,6 @@
 use super::{Velocities, published_bound, sound_bound};
 use crate::math::vector::{length, unit};
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
@@ -19,7 +19,7 @@ fn worst_sound_bound() {
         let exact = n3.dot(v) + n3.cross(spin).length() * Double::from(reach);
         let lost = exact - Double::from(sound_bound(&motion, n, reach));
         let speed = length(motion.linear) + length(motion.spin) * reach;
-        Some(share(lost.get(), RATE_F64 * speed))
+        Some(share(lost.get(), RATE_ERROR_F64 * speed))
     });
     found.is_within(16.0);
 }

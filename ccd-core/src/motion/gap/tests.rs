@@ -1,5 +1,5 @@
 use super::Gap;
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::Double;
 use crate::tests::scene::{RngExt, magnitude, rng};
 use crate::tests::worst::{Worst, share};
@@ -22,8 +22,11 @@ fn worst_free_time() {
         } else {
             (root - rate) / second_derivative
         };
-        let free = Double::from(gap.free_time()) / Double::from(1.0 - RATE_F64);
-        Some(share((free / exact - Double::from(1.0)).get(), RATE_F64))
+        let free = Double::from(gap.free_time()) / Double::from(1.0 - RATE_ERROR_F64);
+        Some(share(
+            (free / exact - Double::from(1.0)).get(),
+            RATE_ERROR_F64,
+        ))
     });
     found.is_within(8.0);
 }

@@ -77,17 +77,18 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
 }
 
 /// Returns the exact position of a body's point on a path as it is stored.
-fn exact_place(path: &Path, s: Double, x: DVec3) -> Double3 {
+fn exact_position(path: &Path, s: Double, x: DVec3) -> Double3 {
     let arm = Double3::from(x) - Double3::from(path.centre);
     let rotated = |m: &DMat3| {
         let row = |k: usize| Double3::from(m.row(k)).dot(arm);
         Double3([row(0), row(1), row(2)])
     };
     let (sin, cos) = (Double::from(path.rate) * s).sin_cos();
-    let turned = rotated(&path.cosine).scale(cos) + rotated(&path.sine).scale(sin);
+    let turned =
+        rotated(&path.cosine_coefficient).scale(cos) + rotated(&path.sine_coefficient).scale(sin);
     let half = Double::from(0.5) * s;
     let change = Double3::from(path.velocity) + Double3::from(path.acceleration).scale(half);
-    Double3::from(path.start) + change.scale(s) + turned + rotated(&path.constant)
+    Double3::from(path.start) + change.scale(s) + turned + rotated(&path.constant_part)
 }
 
 /// Compares positions on a part of a path with those on the whole path.
@@ -100,7 +101,7 @@ fn worst_part() {
             let centre = tape.vector(-20..=4);
             let motion = Motion::about(start, tape.vector(-20..=10), spin, centre).ok()?;
             let path = Path::new(&motion, DVec3::ZERO, 1.0);
-            let path = path.accelerated(tape.vector(-20..=4).into());
+            let path = path.with_acceleration(tape.vector(-20..=4).into());
             let (from, time, share_of_time) = (tape.fraction(), tape.fraction(), tape.fraction());
             let to = from + (1.0 - from) * time;
             let arm = DVec3::from(tape.vector(-20..=4));
@@ -108,7 +109,7 @@ fn worst_part() {
             let [begins, ends, share_of_time] = [from, to, share_of_time].map(Double::from);
             let s = begins + share_of_time * (ends - begins);
             let x = path.centre + arm;
-            let error = exact_place(&part, share_of_time, x) - exact_place(&path, s, x);
+            let error = exact_position(&part, share_of_time, x) - exact_position(&path, s, x);
             let way = path.centre_at(0.0).length() + path.speed();
             let allowed = position_rounding(x.distance(path.centre), path.rate, way);
             Some(share(error.length().get(), allowed))

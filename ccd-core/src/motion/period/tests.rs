@@ -25,7 +25,7 @@ fn distances_change_by_no_more_than_said() {
             let start = Pose::new(point_in_ball(&mut rng, 3.0), rotation(&mut rng)).unwrap();
             let centre = point_in_ball(&mut rng, 3.0);
             let motion = Motion::about(start, velocities[k], spins[k], centre).unwrap();
-            Path::new(&motion, DVec3::ZERO, 1.0).accelerated(pull)
+            Path::new(&motion, DVec3::ZERO, 1.0).with_acceleration(pull)
         });
         if number % 3 == 0 {
             paths.swap(0, 1);

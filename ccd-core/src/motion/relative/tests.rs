@@ -28,7 +28,7 @@ fn path(rng: &mut Pcg64) -> Path {
     .unwrap();
     let path = Path::new(&motion, point_in_ball(rng, 9.0), 1.0);
     if rng.random_bool(0.5) {
-        path.accelerated(point_in_ball(rng, 5.0))
+        path.with_acceleration(point_in_ball(rng, 5.0))
     } else {
         path
     }

@@ -7,7 +7,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{Velocities, published_bound, sound_bound};
 use crate::motion::gap::{Gap, first_crossing};
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::Double;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
 use crate::tests::worst::{Worst, share};
@@ -258,7 +258,7 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         motion.linear = DVec3::ZERO;
         let track = Track::new(&motion, n, 0.3, arm);
         let horizon = rng.random_range(0.0..1.0);
-        let least = track.least_until(horizon, Angle::new(track.omega * horizon));
+        let least = track.least_rotational_height(horizon, Angle::new(track.omega * horizon));
         let times = (0..=400).map(|k| horizon * f64::from(k) / 400.0);
         let seen = times.map(|tau| track.at(tau)).fold(f64::INFINITY, lesser);
         // Samples are rounded, too.
@@ -300,7 +300,7 @@ fn worst_least_until() {
             _ => lesser(1.0, tape.near(trough / track.omega)),
         };
         let turn = track.omega * horizon;
-        let least = track.least_until(horizon, Angle::new(turn));
+        let least = track.least_rotational_height(horizon, Angle::new(turn));
         let [p, q, omega, time] = [track.p, track.q, track.omega, horizon].map(Double::from);
         let swing = (p * p + q * q).sqrt();
         let half = omega * time * Double::from(0.5);
@@ -313,7 +313,7 @@ fn worst_least_until() {
         } else {
             at_end.min(Double::ZERO)
         };
-        let allowance = RATE_F64 * swing.get() * (1.0 + turn);
+        let allowance = RATE_ERROR_F64 * swing.get() * (1.0 + turn);
         let above = (Double::from(least) + Double::from(allowance) - exact).get();
         (swing.get() > 0.0 && horizon > 0.0).then(|| share(above, allowance))
     });
@@ -336,7 +336,7 @@ fn worst_bend() {
         let [p, q, omega] = [track.p, track.q, track.omega].map(Double::from);
         let exact = omega * omega * (p * p + q * q).sqrt();
         let lost = exact - Double::from(track.second_derivative());
-        (exact.get() > 0.0).then(|| share(lost.get(), RATE_F64 * exact.get()))
+        (exact.get() > 0.0).then(|| share(lost.get(), RATE_ERROR_F64 * exact.get()))
     });
     found.is_within(16.0);
 }

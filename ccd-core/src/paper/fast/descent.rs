@@ -1,12 +1,12 @@
 //! Computes the distance of two bodies at one clock by a descent from the last front `[FAST06 Alg. 3]`.
 
 use super::front::{Front, Item, Node};
-use super::hull_pair::{FeatureOwners, HullPair};
+use super::hull_pair::{FeatureOwners, HullTreePair};
 use super::reach::AxisDistances;
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::pair::Step;
+use crate::engine::pieces::pair::PairStep;
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::engine::proven::ProvenFacts;
 use crate::math::order::lesser;
@@ -21,11 +21,11 @@ use std::ops::ControlFlow;
 /// A search for the nearest pairs, from the front of the last descent.
 pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) problem: &'p Problem<'p>,
-    pub(super) hulls: HullPair<'p>,
+    pub(super) hulls: HullTreePair<'p>,
     pub(super) bound: VelocityBound,
     pub(super) front: &'s mut Front<O::Cache>,
     pub(super) reaches: &'s mut AxisDistances,
-    pub(super) proven: &'s ProvenFacts,
+    pub(super) proven_facts: &'s ProvenFacts,
     pub(super) oracle: &'s mut O,
     pub(super) meter: &'s mut Meter,
 }
@@ -75,7 +75,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             self.measure(&snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
-            return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
+            return ControlFlow::Break(self.proven_facts.contact(self.problem, contact, s));
         }
         let next = self.front.clock();
         self.join(&snapshot, &mut found, next)?;
@@ -124,7 +124,9 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             found.open.push(node.open_unmeasured(at, s));
             return;
         };
-        let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
+        let reaches = self
+            .reaches
+            .distances_of_pair(problem, node.pair, &snapshot);
         let free = snapshot.free_time_along_axis(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
         node.feature_owners = self.hulls.feature_owners(node.pair, &checked.claim);
@@ -158,7 +160,9 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             return ControlFlow::Continue(());
         };
         let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
-        let reaches = self.reaches.of_both(problem, node.pair, &snapshot);
+        let reaches = self
+            .reaches
+            .distances_of_pair(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_with(
@@ -171,14 +175,14 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
                 snapshot.free_time_along_axis(checked, kept, bound, reaches)
             },
         );
-        if let Step::Contact(contact) = step
+        if let PairStep::Contact(contact) = step
             && s > 0.0
         {
             found.record_contact(contact);
             return ControlFlow::Continue(());
         }
         node.clock = self
-            .proven
+            .proven_facts
             .on_advance(problem, self.oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
@@ -200,7 +204,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             let far = [first, first + 1]
                 .into_iter()
                 .all(|child| self.front.node(child).lower >= JOIN_DISTANCE_RATIO * distance);
-            if !far || self.front.node(at).join_below <= distance {
+            if !far || self.front.node(at).join_distance <= distance {
                 continue;
             }
             self.measure(snapshot, at, found)?;
@@ -208,7 +212,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             if node.lower >= distance && node.clock >= next {
                 self.front.join_children(at);
             } else {
-                node.join_below = distance / JOIN_DISTANCE_RATIO;
+                node.join_distance = distance / JOIN_DISTANCE_RATIO;
             }
         }
         ControlFlow::Continue(())
@@ -219,7 +223,7 @@ impl<C> Node<C> {
     /// Marks a pair to be split, whatever its distance.
     fn open_unmeasured(&mut self, at: u32, s: f64) -> OpenPair {
         (self.lower, self.feature_owners, self.clock) =
-            (f64::NEG_INFINITY, FeatureOwners::Bridges, s);
+            (f64::NEG_INFINITY, FeatureOwners::BothBridges, s);
         let lower = self.lower;
         OpenPair { lower, at }
     }

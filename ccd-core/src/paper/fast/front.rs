@@ -1,6 +1,6 @@
 //! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
-use super::hull_pair::{Below, FeatureOwners, HullPair};
+use super::hull_pair::{Below, FeatureOwners, HullTreePair};
 use crate::engine::capacity::empty;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
@@ -13,7 +13,7 @@ pub(super) struct Front<C> {
     /// All pairs of the tree. The root is the first, and pairs of children are adjacent.
     nodes: Vec<Node<C>>,
     /// Unused slots of `nodes`, by the first of two.
-    vacant: Vec<u32>,
+    vacant_slots: Vec<u32>,
     leaves: usize,
     peak: usize,
 }
@@ -33,7 +33,7 @@ pub(super) struct Node<C> {
     /// Whether pieces or bridges own the pair's nearest features.
     pub(super) feature_owners: FeatureOwners,
     /// The distance of the bodies below which joining the pair's children is tried again.
-    pub(super) join_below: f64,
+    pub(super) join_distance: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -46,9 +46,9 @@ pub(super) enum Item<C> {
 
 impl<C: Clone + Default> Front<C> {
     /// Resets the tree to the pair of roots.
-    pub(super) fn reset(&mut self, hulls: HullPair<'_>) {
+    pub(super) fn reset(&mut self, hulls: HullTreePair<'_>) {
         empty(&mut self.nodes);
-        empty(&mut self.vacant);
+        empty(&mut self.vacant_slots);
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
         (self.leaves, self.peak) = (1, 1);
     }
@@ -101,7 +101,7 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// Splits a leaf into two pairs that cover it, and returns the first of them; `None` for a pair of pieces.
-    pub(super) fn split(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
+    pub(super) fn split(&mut self, hulls: HullTreePair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
         let Below::Pairs(pairs) = hulls.children_of_pair(node.pair, node.feature_owners) else {
             return None;
@@ -113,7 +113,7 @@ impl<C: Clone + Default> Front<C> {
             Item::Pieces(_) => C::default(),
         };
         let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
-        let first = match self.vacant.pop() {
+        let first = match self.vacant_slots.pop() {
             Some(first) => {
                 for (child, at) in children.into_iter().zip(first as usize..) {
                     self.nodes[at] = child;
@@ -134,7 +134,7 @@ impl<C: Clone + Default> Front<C> {
     /// Removes the two leaves below a pair, so that the pair becomes a leaf.
     pub(super) fn join_children(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
-            self.vacant.push(first);
+            self.vacant_slots.push(first);
             self.leaves -= 1;
         }
     }
@@ -159,18 +159,18 @@ impl<C> Node<C> {
 }
 
 impl<C: Default + Clone> Node<C> {
-    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C) -> Self {
+    fn new(hulls: HullTreePair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
-            item: match hulls.children_of_pair(pair, FeatureOwners::Bridges) {
+            item: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
                 Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
                 Below::Pairs(_) => Item::Nodes(cache),
             },
             children: None,
             lower: f64::NEG_INFINITY,
             clock: 0.0,
-            feature_owners: FeatureOwners::Bridges,
-            join_below: f64::INFINITY,
+            feature_owners: FeatureOwners::BothBridges,
+            join_distance: f64::INFINITY,
         }
     }
 }

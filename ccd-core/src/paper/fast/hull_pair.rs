@@ -11,7 +11,7 @@ use crate::problem::WhichBody;
 
 /// The hull trees of both bodies.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HullPair<'a> {
+pub(super) struct HullTreePair<'a> {
     pub(super) a: Hulls<'a>,
     pub(super) b: Hulls<'a>,
 }
@@ -22,9 +22,9 @@ pub(super) enum FeatureOwners {
     /// Both features belong to pieces.
     Pieces,
     /// The feature of this body belongs to a bridge.
-    Bridge(WhichBody),
+    OneBridge(WhichBody),
     /// Both features belong to bridges.
-    Bridges,
+    BothBridges,
 }
 
 /// The children of a pair of nodes, which replace it.
@@ -36,10 +36,10 @@ pub(super) enum Below {
     Pairs([[u32; 2]; 2]),
 }
 
-impl<'a> HullPair<'a> {
+impl<'a> HullTreePair<'a> {
     /// Creates the pair of trees; `None` if a body has more than one piece and no hull tree.
     pub(super) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
-        Some(HullPair {
+        Some(HullTreePair {
             a: Hulls::for_body(problem.a.body)?,
             b: Hulls::for_body(problem.b.body)?,
         })
@@ -51,11 +51,14 @@ impl<'a> HullPair<'a> {
 
     /// Returns which nearest features belong to bridges; `claim` has the nearest points.
     pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> FeatureOwners {
-        match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
+        match (
+            self.a.is_on_bridge(a, &claim.a),
+            self.b.is_on_bridge(b, &claim.b),
+        ) {
             (false, false) => FeatureOwners::Pieces,
-            (true, false) => FeatureOwners::Bridge(WhichBody::A),
-            (false, true) => FeatureOwners::Bridge(WhichBody::B),
-            (true, true) => FeatureOwners::Bridges,
+            (true, false) => FeatureOwners::OneBridge(WhichBody::A),
+            (false, true) => FeatureOwners::OneBridge(WhichBody::B),
+            (true, true) => FeatureOwners::BothBridges,
         }
     }
 
@@ -64,8 +67,8 @@ impl<'a> HullPair<'a> {
     pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
-            FeatureOwners::Bridge(body) => body,
-            FeatureOwners::Pieces | FeatureOwners::Bridges => self.larger([a, b]),
+            FeatureOwners::OneBridge(body) => body,
+            FeatureOwners::Pieces | FeatureOwners::BothBridges => self.larger([a, b]),
         };
         match (self.a.children_of_pair(a), self.b.children_of_pair(b), body) {
             (Leaf(a), Leaf(b), _) => Below::Pieces([a, b]),
@@ -90,14 +93,14 @@ impl<'a> HullPair<'a> {
 pub(super) enum Hulls<'a> {
     Tree(&'a HullTree),
     /// The only node of a body with one piece, which is its own tree.
-    Single(&'a Body),
+    SinglePiece(&'a Body),
 }
 
 impl<'a> Hulls<'a> {
     fn for_body(body: &'a Body) -> Option<Self> {
         match body.hull_tree() {
             Some(tree) => Some(Hulls::Tree(tree)),
-            None if body.pieces().len() == 1 => Some(Hulls::Single(body)),
+            None if body.pieces().len() == 1 => Some(Hulls::SinglePiece(body)),
             None => None,
         }
     }
@@ -105,28 +108,28 @@ impl<'a> Hulls<'a> {
     fn hull(self, node: u32) -> Piece<'a> {
         match self {
             Hulls::Tree(tree) => tree.hull(node),
-            Hulls::Single(body) => body.piece(node),
+            Hulls::SinglePiece(body) => body.piece(node),
         }
     }
 
     fn children_of_pair(self, node: u32) -> HierarchyNode {
         match self {
             Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
-            Hulls::Single(_) => HierarchyNode::Leaf(0),
+            Hulls::SinglePiece(_) => HierarchyNode::Leaf(0),
         }
     }
 
-    fn is_bridge(self, node: u32, point: &Combination) -> bool {
+    fn is_on_bridge(self, node: u32, point: &Combination) -> bool {
         match self {
             Hulls::Tree(tree) => tree.class_of(node, point) == FacetClass::Free,
-            Hulls::Single(_) => false,
+            Hulls::SinglePiece(_) => false,
         }
     }
 
     fn half_diagonal(self, node: u32) -> f64 {
         match self {
             Hulls::Tree(tree) => tree.half_diagonal(node),
-            Hulls::Single(_) => 0.0,
+            Hulls::SinglePiece(_) => 0.0,
         }
     }
 }

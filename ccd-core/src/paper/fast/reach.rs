@@ -18,7 +18,7 @@ impl AxisDistances {
 
     /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `snapshot` has
     /// their hulls.
-    pub(super) fn of_both(
+    pub(super) fn distances_of_pair(
         &mut self,
         problem: &Problem<'_>,
         pair: [u32; 2],

@@ -8,7 +8,7 @@ use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
 use crate::distance::oracle::{Claim, GiveUpReason};
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -69,7 +69,7 @@ fn chain(rng: &mut Pcg64, count: usize) -> Body {
 struct Scene {
     bodies: [Body; 2],
     motions: [Motion; 2],
-    config: Settings,
+    settings: Settings,
 }
 
 impl Scene {
@@ -103,7 +103,7 @@ impl Scene {
                 chain(rng, count)
             }),
             motions: [motion(rng, DVec3::ZERO), motion(rng, near * way)],
-            config: Settings {
+            settings: Settings {
                 tolerance: magnitude(rng, -7.0, -2.0),
                 margin: if rng.random_bool(0.2) { 0.1 } else { 0.0 },
                 ..Settings::DEFAULT
@@ -113,7 +113,7 @@ impl Scene {
 
     fn problem(&self) -> Problem<'_> {
         let moving = |k: usize| MovingBody::from((&self.bodies[k], self.motions[k]));
-        Problem::about(moving(0), moving(1), 1.0, &self.config).unwrap()
+        Problem::about(moving(0), moving(1), 1.0, &self.settings).unwrap()
     }
 }
 
@@ -281,7 +281,7 @@ fn false_claims_and_give_ups_never_make_it_late() {
     let mut rng = rng(24);
     for _ in 0..300 {
         let mut scene = Scene::new(&mut rng);
-        scene.config.budget = 5_000;
+        scene.settings.budget = 5_000;
         let problem = scene.problem();
         if distance(&problem, 0.0) <= problem.margin + problem.tolerance + problem.rounding {
             continue;

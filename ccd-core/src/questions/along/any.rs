@@ -70,7 +70,7 @@ impl<O: DistanceOracle> Question<O> for AnyContactSearch<'_, O> {
         }
         let scratch = &mut self.schedule.scratch;
         let length = 2.0 * length(stretches, motions, seen, oracle, scratch)?;
-        if stretches.cut_about(motions.span, motions.time(seen.0), length) {
+        if stretches.cut_out_around(motions.span, motions.time(seen.0), length) {
             return Ok(ControlFlow::Continue(()));
         }
         let stalled = self

@@ -12,10 +12,10 @@ use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::closest::required::RequiredClearance;
-use crate::questions::closest::{FartherThanCutoff, meets_later};
+use crate::questions::closest::{FartherThanCutoff, meet_after_start};
 use crate::questions::depth_first::DepthFirst;
-use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
-use found::{BestSoFar, StretchResult};
+use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_SHARE};
+use found::{LeastDistanceSoFar, StretchResult};
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {
@@ -30,7 +30,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
             None => self.approach_of_bodies_along(&query.for_distances(), oracle)?,
         };
-        Ok(answer.to_shapes(query.excess()))
+        Ok(answer.widened_by_excess(query.excess()))
     }
 
     /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
@@ -42,7 +42,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut closest = ClosestApproachSearch {
             schedule: self,
             query,
-            found: BestSoFar::new(query),
+            found: LeastDistanceSoFar::new(query),
         };
         search_stretches(&mut closest, query, oracle)
     }
@@ -72,7 +72,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
 struct ClosestApproachSearch<'s, 'q, 'a, O: DistanceOracle> {
     schedule: &'s mut DepthFirst<O>,
     query: &'q Query<'a>,
-    found: BestSoFar,
+    found: LeastDistanceSoFar,
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
@@ -85,8 +85,8 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         let found = &mut self.found;
         let work = stretches.stats.work();
         let (Some(rung), Ok(left)) = (
-            found.ladder.next_if_due(work, found.upper()),
-            stretches.remaining_terms(),
+            found.ladder.next_rung_if_due(work, found.upper()),
+            stretches.remaining_settings(),
         ) else {
             return Ok(());
         };
@@ -94,11 +94,11 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         query.terms.budget = rung.budget;
         query.terms.deadline = left.deadline;
         let answer = self.schedule.any_contact_along(&query, oracle)?;
-        stretches.add_uncharged(&answer.stats);
+        stretches.add_uncharged_work(&answer.stats);
         let proven = match answer.outcome {
             Outcome::Free { proven_gap } => Some(proven_gap),
             Outcome::Contact { time, contact } => {
-                found.take(time, contact);
+                found.record_contact(time, contact);
                 None
             }
             _ => None,
@@ -113,7 +113,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         motions: &StretchMotions,
         oracle: &mut O,
     ) -> Result<bool, InputError> {
-        let Some(time) = stretches.end_if_too_long(motions) else {
+        let Some(time) = stretches.common_end_if_too_long(motions) else {
             return Ok(false);
         };
         let distance_at_time = self.distance_at_time(stretches, oracle, time)?;
@@ -123,7 +123,8 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             return Ok(false);
         };
         let length = distance_at_time.length(motions);
-        Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
+        Ok(motions.is_worth_a_cut(length)
+            && stretches.cut_out_around(motions.span, time, 2.0 * length))
     }
 
     fn examine(
@@ -161,7 +162,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
             lower >= found.upper() - tolerance || seen.is_limited_by_rounding(tolerance);
         if is_near_enough || stretches.accepts_contact(motions)? {
             found.lower = lesser(found.lower, lower);
-            stretches.record_proven(motions);
+            stretches.record_proven_stretch(motions);
         } else if !self.cut_where_nearest(stretches, oracle, motions, &seen)? {
             let stalled = self
                 .found
@@ -185,7 +186,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, '_, '_, O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let nearest = self.found.nearest(self.query, stretches);
-        if meets_later(&nearest.outcome, nearest.tolerance) {
+        if meet_after_start(&nearest.outcome, nearest.tolerance) {
             self.nearest_or_overlap(stretches, oracle, nearest)
         } else {
             Ok(nearest)
@@ -201,7 +202,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         oracle: &mut O,
         nearest: Answer,
     ) -> Result<Answer, InputError> {
-        let Ok((pose, terms)) = stretches.pose_at(0.0)? else {
+        let Ok((pose, terms)) = stretches.poses_at(0.0)? else {
             return Ok(nearest);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -231,14 +232,14 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             terms, duration, ..
         } = self.query;
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > MEASURED_SHARE * duration {
-            return Ok(stretches.cut_about(motions.span, time, f64::INFINITY));
+        if motions.span.length() > MIN_UNMEASURED_SHARE * duration {
+            return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
         if let Some(end) = seen.end_with_decrease_beyond(motions)
-            && let Some(beyond) = stretches.take_adjacent(end)
+            && let Some(beyond) = stretches.take_adjacent_stretch(end)
         {
-            let is_cut = stretches.cut_about(motions.span, time, f64::INFINITY);
+            let is_cut = stretches.cut_out_around(motions.span, time, f64::INFINITY);
             stretches.push(beyond);
             return Ok(is_cut);
         }
@@ -247,9 +248,9 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
                 distance_at_time.length(motions),
                 motions.length_for_rate(distance_at_time.rate.abs()),
             ),
-            None => motions.length_for(DEVIATION_SHARE * terms.tolerance),
+            None => motions.length_for_deviation(DEVIATION_SHARE * terms.tolerance),
         };
-        Ok(stretches.cut_about(motions.span, time, length))
+        Ok(stretches.cut_out_around(motions.span, time, length))
     }
 
     /// Measures the bodies at a time. Returns `None` if they overlap, or if a limit is reached.
@@ -259,7 +260,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
         oracle: &mut O,
         time: f64,
     ) -> Result<Option<DistanceAtTime>, InputError> {
-        let Ok((pose, terms)) = stretches.pose_at(time)? else {
+        let Ok((pose, terms)) = stretches.poses_at(time)? else {
             return Ok(None);
         };
         let problem = pose.problem(self.query, &terms)?;
@@ -269,11 +270,11 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
             return Ok(None);
         };
         let found = &mut self.found;
-        found.take(time, pose.contact(contact));
+        found.record_contact(time, pose.contact(contact));
         let rounding = 2.0 * pose.stray;
         let least = greater(terms.tolerance, rounding);
         Ok(Some(DistanceAtTime {
-            stray: greater(least, contact.separation.upper - found.upper()),
+            deviation_limit: greater(least, contact.separation.upper - found.upper()),
             rate: -pose.approach(0.0, &contact),
         }))
     }
@@ -282,14 +283,14 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, '_, '_, O> {
 /// The distance of the bodies at a time, as far as it limits the length of stretches near that time.
 struct DistanceAtTime {
     /// The deviation below which a stretch cannot contain a distance less than the least one found.
-    stray: f64,
+    deviation_limit: f64,
     /// The rate at which the distance increases at that time.
     rate: f64,
 }
 
 impl DistanceAtTime {
     fn length(&self, motions: &StretchMotions) -> f64 {
-        motions.length_for(DEVIATION_SHARE * self.stray)
+        motions.length_for_deviation(DEVIATION_SHARE * self.deviation_limit)
     }
 
     /// Returns whether the distance increases from an end of the stretch inward.

@@ -53,7 +53,7 @@ impl ProvenGap {
         Ok(match answer.outcome {
             Outcome::Free { proven_gap } => {
                 self.record_gap(motions, proven_gap);
-                stretches.record_proven(motions);
+                stretches.record_proven_stretch(motions);
                 StretchResult::Done(ControlFlow::Continue(()))
             }
             Outcome::Unresolved(known) => {

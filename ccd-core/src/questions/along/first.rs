@@ -7,7 +7,7 @@ use super::motions::{Span, StretchMotions};
 use super::stretches::Stretches;
 use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
@@ -15,7 +15,7 @@ use crate::query::Query;
 use std::ops::ControlFlow;
 
 /// Finds the time at which the bodies first touch along their trajectories.
-pub(crate) fn first_contact<O: DistanceOracle, S: Solve<O>>(
+pub(crate) fn first_contact<O: DistanceOracle, S: EngineSchedule<O>>(
     schedule: &mut S,
     query: &Query<'_>,
     oracle: &mut O,
@@ -32,7 +32,7 @@ struct FirstContactSearch<'s, S> {
     proven: ProvenGap,
 }
 
-impl<O: DistanceOracle, S: Solve<O>> Question<O> for FirstContactSearch<'_, S> {
+impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for FirstContactSearch<'_, S> {
     fn takes_accelerations(&self) -> bool {
         self.schedule.takes_accelerations()
     }

@@ -46,7 +46,7 @@ impl<O: DistanceOracle> BestFirst<O> {
                 return Ok(answer(unresolved, &first));
             }
         };
-        let [a, b] = [&query.a, &query.b].map(|moving| Reversed {
+        let [a, b] = [&query.a, &query.b].map(|moving| ReversedTrajectory {
             of: moving.movement,
             duration,
         });
@@ -93,18 +93,18 @@ impl<O: DistanceOracle> BestFirst<O> {
 }
 
 /// A trajectory that runs backward in time, from its end to its start.
-struct Reversed<'t> {
+struct ReversedTrajectory<'t> {
     of: Movement<'t>,
     duration: f64,
 }
 
-impl Reversed<'_> {
+impl ReversedTrajectory<'_> {
     fn reversed_time(&self, time: f64) -> f64 {
         greater(0.0, self.duration - time)
     }
 }
 
-impl Trajectory for Reversed<'_> {
+impl Trajectory for ReversedTrajectory<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let (first, last) = (self.reversed_time(to), self.reversed_time(from));
         let stretch = self.of.stretch(first, last)?;

@@ -10,7 +10,7 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::settings::QuerySettings;
-use crate::tuning::{DEVIATION_SHARE, MEASURED_SHARE};
+use crate::tuning::{DEVIATION_SHARE, MIN_UNMEASURED_SHARE};
 
 /// Cuts a stretch that is probably too long before it is searched. The bodies are measured where it meets a proven
 /// stretch. Returns whether it was cut.
@@ -20,7 +20,7 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<bool, InputError> {
-    let Some(time) = stretches.end_if_too_long(motions) else {
+    let Some(time) = stretches.common_end_if_too_long(motions) else {
         return Ok(false);
     };
     let Some((contact, approach)) = stretches.measure(time, oracle, scratch)? else {
@@ -33,7 +33,10 @@ pub(super) fn cut_at_once<O: DistanceOracle>(
         approach
     };
     let length = length_from_distance(stretches.query(), motions, (contact, approach));
-    Ok(motions.is_worth_a_cut(length) && stretches.cut_about(motions.span, time, 2.0 * length))
+    Ok(
+        motions.is_worth_a_cut(length)
+            && stretches.cut_out_around(motions.span, time, 2.0 * length),
+    )
 }
 
 /// Returns the length of the next stretch to search after a contact of the motions at a time.
@@ -47,7 +50,7 @@ pub(super) fn length<O: DistanceOracle>(
     let query = stretches.query();
     let seen = if time > 0.0 {
         seen.map(|contact| (contact, motions.approach(time, &contact)))
-    } else if motions.span.length() > MEASURED_SHARE * query.duration {
+    } else if motions.span.length() > MIN_UNMEASURED_SHARE * query.duration {
         // Halves mostly suffice, and cost less.
         return Ok(f64::INFINITY);
     } else {
@@ -56,7 +59,7 @@ pub(super) fn length<O: DistanceOracle>(
     };
     Ok(match seen {
         Some(seen) => length_from_distance(query, motions, seen),
-        None => motions.length_for(DEVIATION_SHARE * query.terms.tolerance),
+        None => motions.length_for_deviation(DEVIATION_SHARE * query.terms.tolerance),
     })
 }
 
@@ -78,8 +81,8 @@ fn length_from_distance(
     let nearest = 2.0 * gap / approach;
     // Written so that NaN is no time.
     if nearest > 0.0 {
-        lesser(motions.length_for(DEVIATION_SHARE * gap), nearest)
+        lesser(motions.length_for_deviation(DEVIATION_SHARE * gap), nearest)
     } else {
-        motions.length_for((1.0 - DEVIATION_SHARE) * gap)
+        motions.length_for_deviation((1.0 - DEVIATION_SHARE) * gap)
     }
 }

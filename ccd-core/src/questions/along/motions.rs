@@ -9,7 +9,7 @@ use crate::motion::trajectory::Stretch;
 use crate::motion::trajectory::Trajectory;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::rounding::RETIMED_POSE_F64;
+use crate::rounding::RETIMED_POSE_ERROR_F64;
 use crate::settings::{QuerySettings, StartPolicy};
 use crate::tuning::{DEVIATION_SHARE, MAX_CUT_SHARE, TOLERANCE_PER_DEVIATION};
 use glam::DVec3;
@@ -20,7 +20,7 @@ pub(super) struct Span {
     pub(super) from: f64,
     pub(super) to: f64,
     /// The index of the part of the query, between two corners, that contains the stretch.
-    pub(super) part: usize,
+    pub(super) part_index: usize,
 }
 
 impl Span {
@@ -74,7 +74,7 @@ impl StretchMotions {
         let time = self.span.length();
         for stretch in &mut self.stretches {
             let far = 0.5 * (time * (time * length(stretch.acceleration)));
-            self.stray = rounded_up_sum(self.stray, far * (1.0 + RETIMED_POSE_F64));
+            self.stray = rounded_up_sum(self.stray, far * (1.0 + RETIMED_POSE_ERROR_F64));
             stretch.acceleration = DVec3::ZERO;
         }
         self
@@ -91,7 +91,7 @@ impl StretchMotions {
     }
 
     /// Estimates the length of a stretch that has a given deviation. Deviations shrink with a power of the length.
-    pub(super) fn length_for(&self, stray: f64) -> f64 {
+    pub(super) fn length_for_deviation(&self, stray: f64) -> f64 {
         self.span.length() * (stray / self.stray).powf(1.0 / self.deviation_exponent())
     }
 

@@ -5,7 +5,7 @@ use crate::answer::{Contact, Limit, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::run_metered;
 use crate::engine::scratch::Scratch;
-use crate::engine::start::at_start;
+use crate::engine::start::outcome_at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Trajectory;
@@ -36,7 +36,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
             waiting: vec![Span {
                 from: 0.0,
                 to: query.duration,
-                part: 0,
+                part_index: 0,
             }],
             stats: Stats::default(),
             budgets: Budgets::default(),
@@ -66,7 +66,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the settings with what is left of the budget and of the time to the deadline.
-    pub(super) fn remaining_terms(&self) -> Result<QuerySettings<'a>, Limit> {
+    pub(super) fn remaining_settings(&self) -> Result<QuerySettings<'a>, Limit> {
         let terms = &self.query.terms;
         if terms.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Limit::Stopped);
@@ -95,7 +95,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Adds work on the whole query, which no part's budget pays for.
-    pub(super) fn add_uncharged(&mut self, stats: &Stats) {
+    pub(super) fn add_uncharged_work(&mut self, stats: &Stats) {
         self.stats.add(stats);
         self.budgets.work_at_part_start += stats.work();
     }
@@ -109,7 +109,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
         loop {
             self.charge_to(span);
-            let terms = match self.remaining_terms() {
+            let terms = match self.remaining_settings() {
                 Ok(terms) => terms,
                 Err(reason) => return Ok(Err(reason)),
             };
@@ -165,13 +165,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Records that the bodies are proven apart in a stretch.
-    pub(super) fn record_proven(&mut self, motions: &StretchMotions) {
+    pub(super) fn record_proven_stretch(&mut self, motions: &StretchMotions) {
         self.proven = Some((motions.span, motions.stray));
     }
 
     /// Returns the common time of a stretch and the last proven one, if the stretch's deviations are much larger: then
     /// the stretch is probably too long.
-    pub(super) fn end_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
+    pub(super) fn common_end_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
         let (proven, stray) = self.proven.take()?;
         let Span { from, to, .. } = motions.span;
         let beside = [(from, proven.to), (to, proven.from)];
@@ -181,22 +181,22 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Makes the budget of the part that contains a stretch pay for the work that follows.
     pub(super) fn charge_to(&mut self, span: Span) {
-        self.budgets.charge_to(span.part, self.stats.work());
+        self.budgets.charge_to(span.part_index, self.stats.work());
     }
 
     /// Returns the poses of both bodies at a time, with the settings; or the limit that was reached.
-    pub(super) fn pose_at(
+    pub(super) fn poses_at(
         &self,
         time: f64,
     ) -> Result<Result<(StretchMotions, QuerySettings<'a>), Limit>, InputError> {
-        let terms = match self.remaining_terms() {
+        let terms = match self.remaining_settings() {
             Ok(terms) => terms,
             Err(reason) => return Ok(Err(reason)),
         };
         let span = Span {
             from: time,
             to: time,
-            part: self.budgets.part,
+            part_index: self.budgets.part,
         };
         Ok(Ok((StretchMotions::new(self.query, span)?, terms)))
     }
@@ -209,12 +209,15 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         scratch: &mut Scratch,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok((motions, terms)) = self.pose_at(time)? else {
+        let Ok((motions, terms)) = self.poses_at(time)? else {
             return Ok(None);
         };
         let problem = motions.problem(self.query, &terms)?.for_distances();
         let answer = run_metered(&problem, oracle, scratch, |oracle, meter| {
-            (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
+            (
+                outcome_at_start(&problem, f64::INFINITY, oracle, meter),
+                0.0,
+            )
         });
         self.stats.add(&answer.stats);
         Ok(match answer.found {
@@ -224,7 +227,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Removes and returns the waiting stretch that begins or ends at a time; `None` if there is none.
-    pub(super) fn take_adjacent(&mut self, time: f64) -> Option<Span> {
+    pub(super) fn take_adjacent_stretch(&mut self, time: f64) -> Option<Span> {
         let is_beside = |span: &Span| span.from == time || span.to == time;
         let index = self.waiting.iter().rposition(is_beside)?;
         Some(self.waiting.remove(index))
@@ -247,7 +250,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Cuts a part of about this length around a time out of a stretch, and makes it the next one. At a corner it is
     /// the part that contains the time. Returns whether the stretch could be cut.
-    pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
+    pub(super) fn cut_out_around(&mut self, span: Span, time: f64, length: f64) -> bool {
         let whole = span.length();
         let Some([early, late]) = self.cut_parts(span, 0.5 * whole) else {
             return false;
@@ -279,7 +282,11 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     pub(super) fn cut_parts(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
-        let Span { from, to, part } = span;
+        let Span {
+            from,
+            to,
+            part_index: part,
+        } = span;
         let Query { a, b, .. } = self.query;
         let corner = |body: &MovingBody<'_>| {
             let corner = body.movement.corner(from, to)?;
@@ -299,12 +306,12 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Some([
             Span {
                 to: at,
-                part: before,
+                part_index: before,
                 ..span
             },
             Span {
                 from: at,
-                part: after,
+                part_index: after,
                 ..span
             },
         ])

@@ -6,7 +6,7 @@ use crate::body::Body;
 use crate::body::Volume;
 use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, GiveUpReason, PiecePair};
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::schedule::BestFirst;
@@ -15,7 +15,7 @@ use crate::tests::meshes::cube;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{Kind, RngExt, direction, distance, pieces, rng, scene};
 
-const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
+const SCENE_KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
 
 fn any(problem: &Problem<'_>) -> Outcome {
     let mut schedule = DepthFirst::default();
@@ -35,7 +35,8 @@ fn there_is_any_contact_where_there_is_a_first_one() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
     for number in 0..2_000 {
-        let scene = scene(&mut rng, KINDS[number % 4], 12).with_random_accelerations(&mut rng);
+        let scene =
+            scene(&mut rng, SCENE_KINDS[number % 4], 12).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
         match (any(&problem), first(&problem)) {
@@ -88,7 +89,7 @@ fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
     let mut rng = rng(2);
     let (mut free, mut contacts) = (0, 0);
     for number in 0..600 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 6);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 6);
         scene.config.start = StartPolicy::Leave;
         let problem = scene.problem();
         match (any(&problem), first(&problem)) {
@@ -107,7 +108,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
     let mut rng = rng(3);
     let mut ended = 0;
     for number in 0..200 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 12);
         let touch = match first(&scene.problem()) {
             Outcome::Contact { time, .. } => time,
             Outcome::Free { .. } => 1.0,
@@ -137,7 +138,7 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
     let mut rng = rng(4);
     let (mut unresolved, mut others) = (0, 0);
     for number in 0..300 {
-        let mut scene = scene(&mut rng, KINDS[number % 3], 8);
+        let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
         scene.config.budget = 20_000;
         let problem = scene.problem();
         let touch = (0..=64)
@@ -231,7 +232,7 @@ fn answers_do_not_depend_on_earlier_searches() {
     let mut rng = rng(5);
     let mut kept = DepthFirst::default();
     for number in 0..200 {
-        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let scene = scene(&mut rng, SCENE_KINDS[number % 4], 12);
         let problem = scene.problem();
         let fresh = DepthFirst::default().any_contact_of(&problem, &mut ExhaustiveOracle);
         assert_eq!(kept.any_contact_of(&problem, &mut ExhaustiveOracle), fresh);

@@ -5,7 +5,7 @@ use super::{BestPair, unresolved_outcome};
 use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::nearest::{Nearest, SearchEnd};
+use crate::engine::nearest::{NearestSearch, SearchEnd};
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::shortcuts::bounding_volumes::{least_distance, nearest_clock};
@@ -26,7 +26,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
     let mut clock = nearest_clock(problem);
     for _ in 0..MAX_INITIAL_MEASUREMENTS {
         let upper = best.map_or(beyond, |best| best.contact.separation.upper);
-        let found = nearest_at(problem, clock, upper, oracle, meter);
+        let found = nearest_pieces_at(problem, clock, upper, oracle, meter);
         let Some(found) = found.map_break(|stop| outcome_of_stop(problem, best, stop))? else {
             break;
         };
@@ -48,7 +48,7 @@ pub(crate) fn initial_estimate<O: DistanceOracle>(
 }
 
 /// Returns the nearest pieces at a clock, if they are nearer than `beyond`.
-pub(crate) fn nearest_at<O: DistanceOracle>(
+pub(crate) fn nearest_pieces_at<O: DistanceOracle>(
     problem: &Problem<'_>,
     clock: f64,
     beyond: f64,
@@ -56,7 +56,7 @@ pub(crate) fn nearest_at<O: DistanceOracle>(
     meter: &mut Meter,
 ) -> ControlFlow<SearchEnd, Option<BestPair>> {
     let mut lists = std::mem::take(&mut meter.scratch_memory().nearest);
-    let mut nearest = Nearest::new(problem, clock, &mut lists).with_cutoff(beyond);
+    let mut nearest = NearestSearch::new(problem, clock, &mut lists).with_cutoff(beyond);
     let stopped = nearest.search(oracle, meter);
     let found = nearest.nearest_pieces();
     lists.clear();

@@ -71,7 +71,7 @@ impl LowerBoundLadder {
 
     /// Returns the next rung if it is time for it. The rung may take half as much work as was done before.
     #[inline]
-    pub(crate) fn next_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
+    pub(crate) fn next_rung_if_due(&mut self, work: u64, upper: f64) -> Option<MarginQuery> {
         if work < self.next {
             return None;
         }

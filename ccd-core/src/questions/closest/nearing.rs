@@ -7,7 +7,7 @@ use crate::answer::{Limit, Outcome, Overlap, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
-use crate::engine::pieces::pair::Step;
+use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{AdvanceResult, Question, Search};
 use crate::math::order::lesser;
@@ -149,8 +149,8 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
             step,
         } = advance;
         match step {
-            Step::FreeUntil(clock) => ControlFlow::Continue(clock),
-            Step::Contact(contact) => {
+            PairStep::FreeUntil(clock) => ControlFlow::Continue(clock),
+            PairStep::Contact(contact) => {
                 let seen = BestPair {
                     clock,
                     pieces,
@@ -160,15 +160,15 @@ impl<O: DistanceOracle> Question<O> for LeastDistanceSearch {
                 // The pair is examined again, since it keeps a smaller distance.
                 ControlFlow::Continue(clock)
             }
-            Step::Overlap(contact) => {
+            PairStep::Overlap(contact) => {
                 let overlap = Overlap::Pieces(contact);
                 ControlFlow::Break(Ok(Outcome::overlapping(overlap)))
             }
-            Step::Stalled => {
+            PairStep::Stalled => {
                 self.first_failure = Some(Limit::Stalled);
                 ControlFlow::Continue(f64::INFINITY)
             }
-            Step::GaveUp => {
+            PairStep::GaveUp => {
                 self.first_failure = Some(Limit::OracleGaveUp);
                 ControlFlow::Continue(f64::INFINITY)
             }

@@ -29,8 +29,8 @@ impl RequiredClearance {
         &self,
         any_contact: impl FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>,
     ) -> Result<Answer, E> {
-        let mut decision = Decision {
-            required: *self,
+        let mut decision = ClearanceDecision {
+            clearance: *self,
             any_contact,
             ends_at: self.deadline.map(|deadline| (Instant::now(), deadline)),
             stats: Stats::default(),
@@ -88,8 +88,8 @@ impl RequiredClearance {
 }
 
 /// A decision in progress, with the work spent so far.
-struct Decision<F> {
-    required: RequiredClearance,
+struct ClearanceDecision<F> {
+    clearance: RequiredClearance,
     any_contact: F,
     /// The time at which the decision started, and its deadline.
     ends_at: Option<(Instant, Duration)>,
@@ -98,7 +98,7 @@ struct Decision<F> {
     query_tolerance: f64,
 }
 
-impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> Decision<F> {
+impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceDecision<F> {
     fn run_query(&mut self, margin: f64, tolerance: f64, budget: u64) -> Result<Answer, E> {
         let rung = MarginQuery {
             margin,
@@ -114,14 +114,14 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> Decision<F
 
     /// Returns the work that is left of the budget.
     fn remaining_work(&self) -> u64 {
-        self.required.budget.saturating_sub(self.stats.work())
+        self.clearance.budget.saturating_sub(self.stats.work())
     }
 
     /// Asks the second query: whether the bodies come nearer than the distance by more than the excess. `contact` at
     /// `time` is the result of the first query, which found that they come near the distance.
     fn decide_nearer(&mut self, time: f64, contact: Contact) -> Result<Outcome, E> {
         let (distance, query_tolerance) =
-            (self.required.violation_distance(), self.query_tolerance);
+            (self.clearance.violation_distance(), self.query_tolerance);
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
         // and the excess.
         let margin = greater(0.0, distance - 1.5 * query_tolerance);
@@ -133,7 +133,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> Decision<F
         let found = self
             .run_query(margin, finer, self.remaining_work())?
             .outcome;
-        Ok(match (found, self.required.decision_for(found)) {
+        Ok(match (found, self.clearance.decision_for(found)) {
             (Outcome::Free { proven_gap }, _) => bracket(proven_gap, time, contact),
             (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,
@@ -146,12 +146,12 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> Decision<F
 
     /// Proves the best lower bound that the rest of the budget allows.
     fn prove_lower_bound(&mut self, reason: Limit) -> Result<f64, E> {
-        let mut ladder = LowerBoundLadder::new(0.0, self.required.budget);
+        let mut ladder = LowerBoundLadder::new(0.0, self.clearance.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
             return Ok(ladder.lower);
         }
         for _ in 0..MAX_FINAL_RUNGS {
-            let Some(rung) = ladder.next_rung(self.required.distance, self.remaining_work() / 2)
+            let Some(rung) = ladder.next_rung(self.clearance.distance, self.remaining_work() / 2)
             else {
                 break;
             };

@@ -8,14 +8,14 @@ use super::*;
 use crate::answer::Clearance;
 use crate::body::piece::Combination;
 use crate::distance::oracle::{Claim, GiveUpReason};
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{Kind, RngExt, direction, distance, magnitude, rng, scene};
 
-const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
+const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::NearRim, Kind::Receding];
 
 fn approach(problem: &Problem<'_>) -> Answer {
     DepthFirst::default().closest_approach_of(problem, &mut ExhaustiveOracle)

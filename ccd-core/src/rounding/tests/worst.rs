@@ -4,8 +4,8 @@ use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
 use crate::rounding::{
-    DETERMINANT_F64, FRAME_F64, HEIGHT_F64, LEAST_ROUNDING, SQUARES, TURN_COUNT_WIDENING,
-    UNIT_ROUNDOFF_F64, distance_rounding, height_rounding,
+    DETERMINANT_ERROR_F64, FRAME_ERROR_F64, HEIGHT_ERROR_F64, LEAST_ROUNDING, SQUARES,
+    TURN_COUNT_WIDENING, UNIT_ROUNDOFF_F64, distance_rounding, height_rounding,
 };
 use crate::tests::double::{Double, Double3};
 use crate::tests::rational::{Exact3, error_of};
@@ -13,11 +13,11 @@ use crate::tests::worst::{RandomCase, Worst, share};
 use glam::{DMat3, DVec3};
 
 /// The binary exponents of accepted coordinates, and of far smaller ones: 1e-100 to 1e12.
-const COORDINATES: std::ops::RangeInclusive<i32> = -332..=39;
+const COORDINATE_EXPONENTS: std::ops::RangeInclusive<i32> = -332..=39;
 
 /// Draws points, which may be near each other compared to their distance from the origin.
 fn corners<const N: usize>(tape: &mut RandomCase) -> [DVec3; N] {
-    let scale = tape.size(COORDINATES);
+    let scale = tape.size(COORDINATE_EXPONENTS);
     let first = DVec3::from(tape.vector(-8..=0));
     let near = tape.size(-50..=0);
     [(); N].map(|()| match tape.pick(4) {
@@ -39,9 +39,9 @@ fn size(v: DVec3) -> f64 {
 #[test]
 fn height_f64() {
     let found = Worst::of("HEIGHT_F64", 40_000).search(|tape| {
-        let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATES)));
+        let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATE_EXPONENTS)));
         let exact = Exact3::of(n).dot(&Exact3::of(x));
-        let allowed = HEIGHT_F64 * size(n) * x.abs().max_element();
+        let allowed = HEIGHT_ERROR_F64 * size(n) * x.abs().max_element();
         Some(share(error_of(n.dot(x), &exact), allowed))
     });
     found.is_within(3.0);
@@ -54,7 +54,7 @@ fn sign_f64_of_a_product() {
         let ([from, corner], n) = (corners(tape), axis(tape)?);
         let way = corner - from;
         let exact = Exact3::of(n).dot(&Exact3::of(corner).minus(&Exact3::of(from)));
-        let allowed = DETERMINANT_F64 * size(way) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_ERROR_F64 * size(way) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(way), &exact), allowed))
     });
     found.is_within(12.0);
@@ -68,7 +68,7 @@ fn sign_f64_of_a_ray_and_an_edge() {
         let [a, b, c] = [from, p, q].map(Exact3::of);
         let exact = Exact3::of(n).dot(&b.minus(&a).cross(&c.minus(&a)));
         let (p, q) = (p - from, q - from);
-        let allowed = DETERMINANT_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_ERROR_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
         Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
     found.is_within(9.0);
@@ -83,7 +83,7 @@ fn sign_f64_of_three_corners() {
         let [a, b, c] = of.map(|p| Exact3::of(p).minus(&start));
         let exact = a.dot(&b.cross(&c));
         let [a, b, c] = of.map(|p| p - from);
-        let allowed = DETERMINANT_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
+        let allowed = DETERMINANT_ERROR_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
         Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
     found.is_within(9.0);
@@ -147,7 +147,7 @@ fn frame_f64() {
     let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
         let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        Some(share(orthonormality_error(&frame), FRAME_F64))
+        Some(share(orthonormality_error(&frame), FRAME_ERROR_F64))
     });
     found.is_within(200.0);
 }

@@ -1,15 +1,15 @@
 mod approach;
 
-use super::Placed;
+use super::PlacedNode;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::rounding::BOX_AXES_F32;
+use crate::rounding::BOX_EXTENT_ERROR_F32;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
-use crate::tests::scene::{direction, long_box};
+use crate::tests::scene::{direction, random_box_corners};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::sphere(0.1).unwrap();
     let found = Worst::of("BOX_AXES_F32", 20_000).search(|tape| {
-        let points = long_box(tape);
+        let points = random_box_corners(tape);
         let of = Polytope {
             points: points.clone(),
             ..Polytope::default()
@@ -27,7 +27,7 @@ fn worst_reach_of_a_box() {
         let body = Body::polytope(of).ok()?;
         let problem =
             Problem::about((&body, still), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
-        let node = Placed::new(&problem.a, 0, 0.0);
+        let node = PlacedNode::new(&problem.a, 0, 0.0);
         let along = points[tape.pick(8)] - points[tape.pick(8)];
         let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
         let height = |&p: &DVec3| {
@@ -35,7 +35,7 @@ fn worst_reach_of_a_box() {
             Double3::from(n).dot(way)
         };
         let highest = points.iter().map(height).reduce(Double::max)?;
-        let allowed = BOX_AXES_F32 * node.radius;
+        let allowed = BOX_EXTENT_ERROR_F32 * node.radius;
         let reach = Double::from(node.extent_along(n)) - Double::from(allowed);
         Some(share((highest - reach).get(), allowed))
     });

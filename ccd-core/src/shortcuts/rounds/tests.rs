@@ -3,7 +3,7 @@
 use super::*;
 use crate::answer::Answer;
 use crate::body::Body;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::query::Query;

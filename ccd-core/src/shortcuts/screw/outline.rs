@@ -5,7 +5,7 @@
 //! at a corner. Everywhere `r` is at least `o·x`, with `x` from the axis and any unit vector `o` across it. The `o`
 //! in the middle of the triangle's azimuths loses least.
 
-use super::super::placed::Placed;
+use super::super::placed::PlacedNode;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::rounding::profile_rounding;
@@ -21,7 +21,7 @@ pub(crate) struct Outline {
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
     zeta_nonlinearity: f64,
     /// The factors by which the rounding of `r` and of `ζ` is multiplied.
-    scale: [f64; 2],
+    rounding_factors: [f64; 2],
     tilt: f64,
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct LinearApproximation {
 
 impl Outline {
     /// Projects a triangle; `None` for other nodes.
-    pub(crate) fn new(node: &Placed, linear: &LinearApproximation) -> Option<Self> {
+    pub(crate) fn new(node: &PlacedNode, linear: &LinearApproximation) -> Option<Self> {
         let corners = node.corners()?;
         let [origin, along] = linear.axis;
         let across = |x: DVec3| {
@@ -61,7 +61,7 @@ impl Outline {
             outer: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
             inner: [0, 1, 2].map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
             zeta_nonlinearity: linear.twist,
-            scale: linear.scale,
+            rounding_factors: linear.scale,
             tilt: linear.tilt,
         })
     }
@@ -74,7 +74,7 @@ impl Outline {
             (&self.inner, &self.outer)
         };
         let slack = n.y.abs() * self.zeta_nonlinearity
-            + profile_rounding(n.abs().to_array(), self.scale, self.tilt);
+            + profile_rounding(n.abs().to_array(), self.rounding_factors, self.tilt);
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);
         let high = most
             .iter()

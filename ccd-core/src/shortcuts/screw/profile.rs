@@ -6,19 +6,19 @@
 //! linearisation by two terms. That of `r` is at least 0 and at most `y²/(2ρ)` at `y` along the turn. That of `ζ` is
 //! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
 
-use super::super::placed::Placed;
+use super::super::placed::PlacedNode;
 use super::outline::{LinearApproximation, Outline};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::track::sin_cos;
-use crate::rounding::{RATE_F64, TURN_COUNT_WIDENING, profile_rounding};
+use crate::rounding::{RATE_ERROR_F64, TURN_COUNT_WIDENING, profile_rounding};
 use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// The number of helical surfaces that are tried, evenly spread over all slopes. Eleven degrees between neighbouring
 /// surfaces cost at most a tenth of a node's width, for the flanks of a thread at any slope.
-const SURFACES: usize = 16;
+const SURFACE_COUNT: usize = 16;
 
 /// The axis of a screw, in its position at the start.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ pub(crate) struct ScrewAxis {
     /// The advance along the axis per radian.
     advance: f64,
     /// The coefficients of `r` and `ζ` of each surface.
-    surfaces: [DVec2; SURFACES],
+    surfaces: [DVec2; SURFACE_COUNT],
     /// The directions of azimuth 0 and of azimuth π/2.
     azimuths: [DVec3; 2],
 }
@@ -37,8 +37,8 @@ pub(crate) struct ScrewAxis {
 /// changes near the node.
 #[derive(Debug)]
 pub(crate) struct Profile {
-    low: [f64; SURFACES],
-    high: [f64; SURFACES],
+    low: [f64; SURFACE_COUNT],
+    high: [f64; SURFACE_COUNT],
     /// The azimuth of the node's centre.
     azimuth: f64,
     width: f64,
@@ -53,7 +53,7 @@ pub(crate) struct Profile {
 impl ScrewAxis {
     pub(crate) fn new(origin: DVec3, unit: DVec3, advance: f64) -> Self {
         let surfaces = std::array::from_fn(|k| {
-            let (sin, cos) = sin_cos(PI * k as f64 / SURFACES as f64);
+            let (sin, cos) = sin_cos(PI * k as f64 / SURFACE_COUNT as f64);
             DVec2::new(cos, sin)
         });
         let (x, y) = unit.any_orthonormal_pair();
@@ -69,21 +69,21 @@ impl ScrewAxis {
 
 impl Profile {
     /// Computes the profile of a node; `None` if it surrounds the axis, or nearly does.
-    pub(crate) fn new(node: &Placed, axis: &ScrewAxis) -> Option<Self> {
+    pub(crate) fn new(node: &PlacedNode, axis: &ScrewAxis) -> Option<Self> {
         Profile::near_azimuth(node, axis, None)
     }
 
     /// Computes the union of the profiles of one or more parts; `None` if one of them surrounds the axis, or nearly
     /// does.
     pub(crate) fn union_of(
-        mut parts: impl Iterator<Item = Placed>,
+        mut parts: impl Iterator<Item = PlacedNode>,
         axis: &ScrewAxis,
     ) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
             all.outline = None;
             let part = Profile::near_azimuth(&part, axis, Some(all.azimuth))?;
-            for k in 0..SURFACES {
+            for k in 0..SURFACE_COUNT {
                 all.low[k] = lesser(all.low[k], part.low[k]);
                 all.high[k] = greater(all.high[k], part.high[k]);
             }
@@ -96,7 +96,7 @@ impl Profile {
     }
 
     /// Computes the profile of a node, with an azimuth within half a turn of `near`.
-    fn near_azimuth(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
+    fn near_azimuth(node: &PlacedNode, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
         let across = way - height * axis.unit;
@@ -118,12 +118,12 @@ impl Profile {
         let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
         let aside = greater(node.extent_along(onward), node.extent_along(-onward));
         let mut profile = Profile {
-            low: [0.0; SURFACES],
-            high: [0.0; SURFACES],
+            low: [0.0; SURFACE_COUNT],
+            high: [0.0; SURFACE_COUNT],
             azimuth,
             width: aside / inner,
             safe_length: 0.5 * inner,
-            steepest_change: (1.0 + steep * steep).sqrt() * (1.0 + RATE_F64),
+            steepest_change: (1.0 + steep * steep).sqrt() * (1.0 + RATE_ERROR_F64),
             outline: None,
         };
         let bulge = 0.5 * aside * aside / inner;
@@ -231,7 +231,7 @@ pub(crate) struct ScrewPath {
 /// Each further turn lowers the still node's `ζ`, as seen from the turning node, by one pitch. The shifts for which
 /// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether
 /// a whole number of pitches lies in it. Without a pitch all turns are alike.
-pub(crate) fn keep_apart(
+pub(crate) fn profiles_keep_apart(
     turning: &Profile,
     still: &Profile,
     axis: &ScrewAxis,

@@ -15,7 +15,7 @@ use crate::tests::scene::{
 use glam::{DQuat, DVec3};
 
 /// Draws a few triangles that are all near one point.
-fn patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
+fn random_triangle_patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
     let count = rng.random_range(1..6);
     let mut corner = || at + point_in_ball(rng, size);
     (0..count).map(|_| [corner(), corner(), corner()]).collect()
@@ -28,10 +28,10 @@ struct ScrewPassage {
     screw_motion: Motion,
     still: Motion,
     /// The time at which the bodies are near each other.
-    near: f64,
+    passage_time: f64,
 }
 
-fn passage(rng: &mut Pcg64) -> ScrewPassage {
+fn random_screw_passage(rng: &mut Pcg64) -> ScrewPassage {
     let (size, distance) = (magnitude(rng, -2.0, -0.5), rng.random_range(0.8..1.5));
     let axis = direction(rng);
     let out = axis.any_orthonormal_vector();
@@ -46,32 +46,32 @@ fn passage(rng: &mut Pcg64) -> ScrewPassage {
     let there = DQuat::from_axis_angle(axis, near * turn) * at + near * turn * advance * axis;
     let beside = there + point_in_ball(rng, 2.0 * size);
     let (place, own) = (point_in_ball(rng, 3.0), rotation(rng));
-    let moving = patch(rng, at, size);
+    let moving = random_triangle_patch(rng, at, size);
     // The body's own frame is turned about its origin, which is on the axis.
-    let moving = moving.map_all(|x| own.inverse() * x);
-    let still = patch(rng, beside + place, size);
+    let moving = moving.map_corners(|x| own.inverse() * x);
+    let still = random_triangle_patch(rng, beside + place, size);
     let drift = [0.0, 1e-5][rng.random_range(0..2)] * out;
     let velocity = turn * advance * axis + drift;
     ScrewPassage {
         bodies: [body(&moving), body(&still)],
         screw_motion: Motion::new(Pose::new(place, own).unwrap(), velocity, turn * axis).unwrap(),
         still: Motion::still(Pose::IDENTITY),
-        near,
+        passage_time: near,
     }
 }
 
-trait MapAll {
-    fn map_all(self, f: impl Fn(DVec3) -> DVec3) -> Self;
+trait MapCorners {
+    fn map_corners(self, f: impl Fn(DVec3) -> DVec3) -> Self;
 }
 
-impl MapAll for Vec<Triangle> {
-    fn map_all(self, f: impl Fn(DVec3) -> DVec3) -> Self {
+impl MapCorners for Vec<Triangle> {
+    fn map_corners(self, f: impl Fn(DVec3) -> DVec3) -> Self {
         self.into_iter().map(|t| t.map(&f)).collect()
     }
 }
 
 /// Returns the pairs of the roots and of all triangles, for bodies whose only node is the root.
-fn all_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
+fn all_node_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
     let ids = |side: &BodyWithPath<'_>| 0..=side.body.pieces().len() as NodeId;
     let of_a = ids(&problem.a);
     of_a.flat_map(|a| ids(&problem.b).map(move |b| [a, b]))
@@ -112,7 +112,7 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
     let mut rng = rng(1);
     let (mut proven, mut missed) = (0, 0);
     for number in 0..600 {
-        let passage = passage(&mut rng);
+        let passage = random_screw_passage(&mut rng);
         let [a, b] = &passage.bodies;
         let config = Settings {
             tolerance: magnitude(&mut rng, -6.0, -2.0),
@@ -132,12 +132,12 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         let Some(screw) = Screw::for_problem(&problem, &mut profiles) else {
             continue;
         };
-        let s = [0.0, 0.5 * passage.near][rng.random_range(0..2)];
-        for ids in all_pairs(&problem) {
+        let s = [0.0, 0.5 * passage.passage_time][rng.random_range(0..2)];
+        for ids in all_node_pairs(&problem) {
             match screw.keeps_apart(&problem, &mut profiles, ids, s) {
                 Some(true) => {
                     proven += 1;
-                    let least = least_distance(&problem, ids, s, passage.near);
+                    let least = least_distance(&problem, ids, s, passage.passage_time);
                     assert!(least > problem.node_gap(), "{number} {ids:?}: {least:e}");
                 }
                 _ => missed += 1,
@@ -296,7 +296,7 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
         let mut profiles = Profiles::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         // Each of the tall nodes passes each of the others on its path.
-        for pair in all_pairs(&problem) {
+        for pair in all_node_pairs(&problem) {
             assert_ne!(
                 screw.keeps_apart(&problem, &mut profiles, pair, 0.0),
                 Some(true),

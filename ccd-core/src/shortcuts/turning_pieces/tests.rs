@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::body::polytope::Polytope;
 use crate::distance::oracle::PiecePair;
 use crate::distance::separation::support_gap;
-use crate::engine::pieces::snapshot::{Plane, Snapshot};
+use crate::engine::pieces::snapshot::{SeparatingPlane, Snapshot};
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -29,7 +29,7 @@ struct CaseCounts {
     /// The number of free times at whose end most of the slack was used up.
     exhausted_slacks: usize,
     /// The number of samples in which both bodies turn.
-    both: usize,
+    both_turning: usize,
     fast_bodies: usize,
     many_point_pieces: usize,
 }
@@ -39,7 +39,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     let mut rng = rng(1);
     let mut seen = CaseCounts::default();
     for number in 0..12_000 {
-        let kind = [Kind::Any, Kind::Rim][number % 2];
+        let kind = [Kind::Any, Kind::NearRim][number % 2];
         let scene = scene_of_large_pieces(&mut rng, kind).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
@@ -51,7 +51,10 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
         seen.bounded_times > 10_000 && seen.unbounded_times > 1_000,
         "{seen:?}"
     );
-    assert!(seen.both > 3_000 && seen.fast_bodies > 1_000, "{seen:?}");
+    assert!(
+        seen.both_turning > 3_000 && seen.fast_bodies > 1_000,
+        "{seen:?}"
+    );
     assert!(seen.many_point_pieces > 3_000, "{seen:?}");
     assert!(4 * seen.exhausted_slacks > seen.bounded_times, "{seen:?}");
 }
@@ -133,7 +136,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
         }
         Some(_) => {}
     }
-    seen.both += usize::from(other.side.path.is_turning());
+    seen.both_turning += usize::from(other.side.path.is_turning());
     seen.fast_bodies += usize::from(turns > 50.0);
     seen.many_point_pieces += usize::from(other.piece.points.len() > 3);
 }
@@ -143,7 +146,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
     let mut rng = rng(2);
     let (mut height, mut rate) = (0.0f64, 0.0f64);
     for number in 0..3_000 {
-        let scene = scene_of_large_pieces(&mut rng, [Kind::Any, Kind::Rim][number % 2]);
+        let scene = scene_of_large_pieces(&mut rng, [Kind::Any, Kind::NearRim][number % 2]);
         let problem = scene.problem();
         // Sums of these numbers are exact.
         let grain = f64::from(1 << 20);
@@ -162,9 +165,9 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
             let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
             let rises = |tau: f64| {
                 let turned = sweep.turned(tau);
-                let arm = point - sweep.reference;
+                let arm = point - sweep.reference_point;
                 let height = turned.height + turned.axis.dot(arm);
-                (height, turned.rate + turned.closing.dot(arm))
+                (height, turned.rate + turned.rate_axis.dot(arm))
             };
             let exact = |tau: f64| exact(motions, normal, point, clock, tau);
             let (first, second) = (rises(0.0), rises(tau));
@@ -232,7 +235,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         let problem = Problem::about(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
-        let plane = Plane { normal, slack: 0.3 };
+        let plane = SeparatingPlane { normal, slack: 0.3 };
         let still = snapshot.fixed_axis_time(plane.normal, plane.slack).unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
@@ -240,7 +243,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
             snapshot.turning_plane_time(&snapshot.moving_pieces(), &plane, still),
             None
         );
-        let closer = Plane { normal, slack: 0.1 };
+        let closer = SeparatingPlane { normal, slack: 0.1 };
         let free = snapshot
             .turning_plane_time(&snapshot.moving_pieces(), &closer, still)
             .unwrap();
@@ -254,7 +257,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
 fn no_slack_is_no_time() {
     let mut rng = rng(3);
     for _ in 0..500 {
-        let scene = scene_of_large_pieces(&mut rng, Kind::Rim);
+        let scene = scene_of_large_pieces(&mut rng, Kind::NearRim);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         let [a, b] = snapshot.moving_pieces();

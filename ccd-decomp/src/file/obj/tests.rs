@@ -3,7 +3,7 @@ use crate::{Format, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::{Body, Facet, FacetOrigin, Pieces, Polytope};
 
-fn written(pieces: &Pieces) -> String {
+fn obj_text(pieces: &Pieces) -> String {
     let mut bytes = Vec::new();
     write_obj_pieces(pieces, &mut bytes).unwrap();
     String::from_utf8(bytes).unwrap()
@@ -13,7 +13,7 @@ fn written(pieces: &Pieces) -> String {
 fn triangles_are_groups_of_one_face() {
     let vertices = [DVec3::ZERO, DVec3::X, DVec3::Y, dvec3(0.1, 0.2, -1e-300)];
     let pieces = Pieces::triangles(&vertices, &[[0, 1, 2], [0, 3, 1]], &[0, 1]).unwrap();
-    let text = written(&pieces);
+    let text = obj_text(&pieces);
     let groups: Vec<&str> = text.lines().filter(|line| line.starts_with('g')).collect();
     assert_eq!(groups, ["g piece_0", "g piece_1"]);
     let mesh = TriangleMesh::from_reader(Format::Obj, text.as_bytes()).unwrap();
@@ -43,7 +43,7 @@ fn facets_are_polygons_that_name_their_own_group_s_vertices() {
             }
         })
         .collect();
-    let text = written(&Pieces::polytopes(&polytopes).unwrap());
+    let text = obj_text(&Pieces::polytopes(&polytopes).unwrap());
     let (first, second) = text.split_once("g piece_1\n").unwrap();
     let faces = |group: &str| group.lines().filter(|line| line.starts_with('f')).count();
     assert_eq!((faces(first), faces(second)), (6, 6));
@@ -63,7 +63,7 @@ fn pieces_without_facets_are_a_segment_or_points() {
         points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         ..Polytope::default()
     };
-    let text = written(&Pieces::polytopes(&[segment, cloud]).unwrap());
+    let text = obj_text(&Pieces::polytopes(&[segment, cloud]).unwrap());
     assert!(text.contains("l 1 2\n"), "{text}");
     assert!(text.ends_with("p 3 4 5 6\n"), "{text}");
 }

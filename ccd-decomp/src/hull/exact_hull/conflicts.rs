@@ -9,13 +9,13 @@ use ccd_core::glam::DVec3;
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
 /// `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
-    let hull = HullBuilder::hull_of_all(points, simplex);
+    let hull = HullBuilder::hull_of_points(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_on_hull);
     left.map(|facet| facet.corners).collect()
 }
 
 /// Hashes an index to a number without any pattern (the finalizer of MurmurHash3).
-fn hash(v: u32) -> u32 {
+fn hash_index(v: u32) -> u32 {
     let mut h = v.wrapping_add(0x9e37_79b9);
     h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
     h = (h ^ h >> 13).wrapping_mul(0xc2b2_ae35);
@@ -32,7 +32,7 @@ struct Facet {
     corners: [u32; 3],
     plane: Plane,
     /// The indices of the adjacent facets. The first is across the edge from the first corner to the second.
-    adjacent: [u32; 3],
+    adjacent_facets: [u32; 3],
     /// The points that see the facet and are not inserted yet.
     conflict_points: Vec<u32>,
     is_on_hull: bool,
@@ -43,12 +43,12 @@ struct Facet {
 struct HullBuilder<'a> {
     points: LocalPoints<'a>,
     /// Empty point lists for reuse.
-    spare: Vec<Vec<u32>>,
+    spare_lists: Vec<Vec<u32>>,
     facets: Vec<Facet>,
     /// By point, one facet that it sees. It is a removed facet or [`NONE`] if the point is inside the hull.
     visible_facet: Vec<u32>,
     /// By point, the last facet that the point was tested against.
-    last_tested: Vec<u32>,
+    last_tested_facet: Vec<u32>,
     /// By point, the new facet whose horizon edge starts there.
     facet_at_horizon_start: Vec<u32>,
 }
@@ -61,13 +61,13 @@ struct HorizonEdge {
 }
 
 impl<'a> HullBuilder<'a> {
-    fn hull_of_all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
+    fn hull_of_points(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        order.sort_unstable_by_key(|&v| (hash(v).leading_zeros(), v));
+        order.sort_unstable_by_key(|&v| (hash_index(v).leading_zeros(), v));
         order.reverse();
         let mut hull = HullBuilder::new(points, simplex, &order);
         for v in order {
-            hull.insert(v);
+            hull.insert_point(v);
         }
         hull
     }
@@ -75,10 +75,10 @@ impl<'a> HullBuilder<'a> {
     fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4], order: &[u32]) -> Self {
         let mut hull = HullBuilder {
             points: LocalPoints::new(points),
-            spare: Vec::new(),
+            spare_lists: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
             visible_facet: vec![NONE; points.len()],
-            last_tested: vec![NONE; points.len()],
+            last_tested_facet: vec![NONE; points.len()],
             facet_at_horizon_start: vec![NONE; points.len()],
         };
         hull.push([a, b, c], [1, 2, 3], order);
@@ -92,9 +92,10 @@ impl<'a> HullBuilder<'a> {
     fn push(&mut self, corners: [u32; 3], adjacent: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
-        let mut seen_by = self.spare.pop().unwrap_or_default();
+        let mut seen_by = self.spare_lists.pop().unwrap_or_default();
         for &v in candidates {
-            let is_new = std::mem::replace(&mut self.last_tested[v as usize], number) != number;
+            let is_new =
+                std::mem::replace(&mut self.last_tested_facet[v as usize], number) != number;
             if is_new && self.points.is_in_front(&plane, corners, v) {
                 self.visible_facet[v as usize] = number;
                 seen_by.push(v);
@@ -102,25 +103,25 @@ impl<'a> HullBuilder<'a> {
         }
         // Most facets are seen by no remaining point.
         if seen_by.is_empty() {
-            self.spare.push(std::mem::take(&mut seen_by));
+            self.spare_lists.push(std::mem::take(&mut seen_by));
         }
         self.facets.push(Facet {
             corners,
             plane,
-            adjacent,
+            adjacent_facets: adjacent,
             conflict_points: seen_by,
             is_on_hull: true,
             last_test: (NONE, false),
         });
     }
 
-    fn insert(&mut self, v: u32) {
+    fn insert_point(&mut self, v: u32) {
         let first = self.visible_facet[v as usize];
         // A point that sees a new facet also saw one of the two facets at its rim edge, so that no conflict is lost.
         if first == NONE || !self.facets[first as usize].is_on_hull {
             return;
         }
-        let (removed, rim) = self.remove_visible(first, v);
+        let (removed, rim) = self.remove_visible_facets(first, v);
         let base = self.facets.len() as u32;
         for (k, edge) in (base..).zip(&rim) {
             self.facet_at_horizon_start[edge.ends[0] as usize] = k;
@@ -137,25 +138,25 @@ impl<'a> HullBuilder<'a> {
             self.push([a, b, v], adjacent, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
-                beyond.adjacent[place] = k;
+                beyond.adjacent_facets[place] = k;
             }
         }
         for k in base..self.facets.len() as u32 {
-            let after = self.facets[k as usize].adjacent[1];
-            self.facets[after as usize].adjacent[2] = k;
+            let after = self.facets[k as usize].adjacent_facets[1];
+            self.facets[after as usize].adjacent_facets[2] = k;
         }
         for facet in removed {
             let mut seen_by = std::mem::take(&mut self.facets[facet as usize].conflict_points);
             if seen_by.capacity() <= MAX_REUSED_CAPACITY {
                 seen_by.clear();
-                self.spare.push(seen_by);
+                self.spare_lists.push(seen_by);
             }
         }
     }
 
     /// Removes the facets that the point `v` sees, which are connected over edges from `first`. Returns them with
     /// their horizon edges.
-    fn remove_visible(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<HorizonEdge>) {
+    fn remove_visible_facets(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<HorizonEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_on_hull = false;
         let mut at = 0;
@@ -163,14 +164,16 @@ impl<'a> HullBuilder<'a> {
         while let Some(&seen) = removed.get(at) {
             at += 1;
             let Facet {
-                corners, adjacent, ..
+                corners,
+                adjacent_facets: adjacent,
+                ..
             } = self.facets[seen as usize];
             for k in 0..3 {
                 let beyond = adjacent[k];
                 if !self.facets[beyond as usize].is_on_hull {
                     continue;
                 }
-                if self.is_seen(beyond, v) {
+                if self.is_visible_from(beyond, v) {
                     self.facets[beyond as usize].is_on_hull = false;
                     removed.push(beyond);
                 } else {
@@ -182,7 +185,7 @@ impl<'a> HullBuilder<'a> {
         (removed, rim)
     }
 
-    fn is_seen(&mut self, facet: u32, v: u32) -> bool {
+    fn is_visible_from(&mut self, facet: u32, v: u32) -> bool {
         let Facet {
             corners,
             plane,

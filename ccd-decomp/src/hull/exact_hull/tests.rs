@@ -4,7 +4,7 @@ use ccd_core::glam::dvec3;
 use proptest::prelude::*;
 
 /// Generates points on a coarse grid, where many lie in one plane or on one line.
-fn coarse() -> impl Strategy<Value = Vec<DVec3>> {
+fn coarse_grid_points() -> impl Strategy<Value = Vec<DVec3>> {
     let point = [0..4i32, 0..4i32, 0..4i32].prop_map(|x| DVec3::from_array(x.map(f64::from)));
     prop::collection::vec(point, 1..24)
 }
@@ -33,7 +33,7 @@ fn check(points: &[DVec3], hull: &ExactHull) -> Result<(), TestCaseError> {
 
 proptest! {
     #[test]
-    fn hulls_are_closed_and_hold_all_points(points in coarse()) {
+    fn hulls_are_closed_and_hold_all_points(points in coarse_grid_points()) {
         let in_plane = |t: [DVec3; 3]| points.iter().all(|&p| side(t, p) == Ordering::Equal);
         let all_flat = points.iter().all(|&a| points.iter().all(|&b| {
             points.iter().all(|&c| in_plane([a, b, c]))
@@ -46,7 +46,7 @@ proptest! {
 
     /// Tests that the hulls before and after an insertion differ only within the reported box.
     #[test]
-    fn changes_stay_within_their_box(points in coarse(), new in [-2.0..6.0, -2.0..6.0, -2.0..6.0]) {
+    fn changes_stay_within_their_box(points in coarse_grid_points(), new in [-2.0..6.0, -2.0..6.0, -2.0..6.0]) {
         let mut points = points;
         let Some(mut hull) = hull_of(&points) else { return Ok(()) };
         points.push(DVec3::from_array(new));

@@ -23,7 +23,7 @@ fn maps_follow_each_other() {
     assert!(both.apply(point).distance(expected) < 1e-15);
     assert_eq!(turned.compose_after(&AffineMap::IDENTITY), turned);
     assert_eq!(AffineMap::IDENTITY.compose_after(&turned), turned);
-    assert!(both.mirrors() && !turned.mirrors());
+    assert!(both.reverses_orientation() && !turned.reverses_orientation());
 }
 
 /// Tests the sign of a determinant whose products cancel, underflow or overflow.
@@ -31,7 +31,7 @@ fn maps_follow_each_other() {
 fn the_sign_of_a_mirror_is_exact() {
     let mirrors = |columns: [DVec3; 3]| {
         let [x, y, z] = columns;
-        AffineMap::from(DAffine3::from_mat3(DMat3::from_cols(x, y, z))).mirrors()
+        AffineMap::from(DAffine3::from_mat3(DMat3::from_cols(x, y, z))).reverses_orientation()
     };
     for scale in [1.0, 1e-160, 1e160, f64::MIN_POSITIVE] {
         let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| scale * axis);

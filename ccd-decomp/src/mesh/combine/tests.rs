@@ -3,7 +3,7 @@ use crate::{AffineMap, Detail, Format, MeshFault, Topology, TriangleMesh, body_f
 use ccd_core::glam::{DAffine3, DMat3, DQuat, DVec3, dvec3};
 use ccd_core::{Pose, Volume};
 
-fn stretched(x: f64, y: f64, z: f64) -> AffineMap {
+fn scaling_map(x: f64, y: f64, z: f64) -> AffineMap {
     DAffine3::from_scale(dvec3(x, y, z)).into()
 }
 
@@ -31,14 +31,14 @@ fn a_mesh_is_moved_and_scaled() {
 /// Tests that a mirrored solid is still oriented outward.
 #[test]
 fn a_mirror_turns_the_faces_round() {
-    for map in [stretched(-1.0, 1.0, 1.0), stretched(-1.0, -2.0, -0.5)] {
+    for map in [scaling_map(-1.0, 1.0, 1.0), scaling_map(-1.0, -2.0, -0.5)] {
         let image = cube().transformed(map).unwrap();
         assert!(volume(&image) > 0.9, "{map:?}");
         let [a, b, c] = cube().faces()[5];
         assert_eq!(image.faces()[5], [a, c, b]);
     }
     assert_eq!(
-        volume(&cube().transformed(stretched(-1.0, -1.0, 1.0)).unwrap()),
+        volume(&cube().transformed(scaling_map(-1.0, -1.0, 1.0)).unwrap()),
         1.0
     );
 }
@@ -47,13 +47,13 @@ fn a_mirror_turns_the_faces_round() {
 /// dropped.
 #[test]
 fn a_flattened_mesh_is_repaired() {
-    let flat = cube().transformed(stretched(1.0, 1.0, 0.0)).unwrap();
+    let flat = cube().transformed(scaling_map(1.0, 1.0, 0.0)).unwrap();
     assert_eq!(flat.repairs().collapsed_faces.count(), 8);
     assert_eq!(flat.faces().len(), 4);
     assert_eq!(volume(&flat), 0.0);
     assert!(body_from_mesh(&flat, Detail::Auto).is_ok());
     // A single point is a valid mesh.
-    let point = cube().transformed(stretched(0.0, 0.0, 0.0)).unwrap();
+    let point = cube().transformed(scaling_map(0.0, 0.0, 0.0)).unwrap();
     assert_eq!(point.faces().len(), 1);
     assert_eq!(point.bounding_box(), [DVec3::ZERO; 2]);
     assert!(body_from_mesh(&point, Detail::Auto).is_ok());

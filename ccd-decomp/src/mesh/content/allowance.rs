@@ -5,17 +5,17 @@ use crate::tolerance::{EXPANSION_BASE, EXPANSION_PER_BYTE, MAX_EXPANSION, VERTEX
 
 /// The remaining budget of elements that a file may expand to. A corner costs 1, a vertex more.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Allowance {
+pub(crate) struct ExpansionBudget {
     remaining: u64,
     limit: u64,
 }
 
 /// Returns the cost of an expansion to some vertices and face corners.
-pub(crate) fn cost(vertices: u64, corners: u64) -> u64 {
+pub(crate) fn expansion_cost(vertices: u64, corners: u64) -> u64 {
     vertices.saturating_mul(VERTEX_COST).saturating_add(corners)
 }
 
-impl Allowance {
+impl ExpansionBudget {
     /// Returns the budget of a file with a size in bytes.
     pub(crate) fn for_file(bytes: u64) -> Self {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
@@ -23,7 +23,7 @@ impl Allowance {
         let once = bytes.saturating_mul(4);
         let repeated = EXPANSION_BASE.saturating_add(bytes.saturating_mul(EXPANSION_PER_BYTE));
         let limit = once.saturating_add(repeated.min(MAX_EXPANSION));
-        Allowance {
+        ExpansionBudget {
             remaining: limit,
             limit,
         }

@@ -1,6 +1,6 @@
 //! Assemblies: scenes in which shapes are placed as parts.
 
-use super::allowance::{Allowance, cost};
+use super::allowance::{ExpansionBudget, expansion_cost};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
@@ -15,8 +15,8 @@ pub(crate) struct Assembly {
     objects: Vec<Object>,
     pub(crate) parts: Vec<Part>,
     /// By object, the cost of its expansion with all members.
-    sizes: Vec<u64>,
-    allowance: Allowance,
+    expansion_costs: Vec<u64>,
+    allowance: ExpansionBudget,
 }
 
 /// An object: a shape of its own, and members, which are other objects at given transforms.
@@ -51,13 +51,13 @@ impl Assembly {
     pub(crate) fn new(
         objects: Vec<Object>,
         mut parts: Vec<Part>,
-        allowance: Allowance,
+        allowance: ExpansionBudget,
     ) -> Result<Self, Cycle> {
-        let order = members_first(&objects)?;
+        let order = topological_order(&objects)?;
         let (mut sizes, mut has_faces) = (vec![0_u64; objects.len()], vec![false; objects.len()]);
         for k in order {
             let Object { shape, members } = &objects[k];
-            let own = 1 + cost(shape.vertices.len() as u64, shape.corners.len() as u64);
+            let own = 1 + expansion_cost(shape.vertices.len() as u64, shape.corners.len() as u64);
             let within = members.iter().map(|member| sizes[member.object]);
             sizes[k] = within.fold(own, u64::saturating_add);
             let mut below = members.iter().map(|member| has_faces[member.object]);
@@ -67,14 +67,14 @@ impl Assembly {
         Ok(Assembly {
             objects,
             parts,
-            sizes,
+            expansion_costs: sizes,
             allowance,
         })
     }
 
     /// Returns the triangles of some parts, one part after the other.
     pub(super) fn expand(&self, parts: Range<usize>) -> Result<Polygons, MeshFault> {
-        self.check_size(parts.clone())?;
+        self.check_expansion_cost(parts.clone())?;
         let mut all = Polygons::default();
         let parts = self.parts[parts].iter();
         let mut waiting: Vec<PlacedObject> = parts.rev().map(|part| part.placed).collect();
@@ -90,11 +90,11 @@ impl Assembly {
     }
 
     /// Checks that the expansion of some parts does not exceed the allowance.
-    pub(super) fn check_size(&self, parts: Range<usize>) -> Result<(), MeshFault> {
+    pub(super) fn check_expansion_cost(&self, parts: Range<usize>) -> Result<(), MeshFault> {
         let mut allowance = self.allowance;
         let mut sizes = self.parts[parts]
             .iter()
-            .map(|part| self.sizes[part.placed.object]);
+            .map(|part| self.expansion_costs[part.placed.object]);
         sizes.try_for_each(|size| allowance.spend(size))
     }
 }
@@ -105,7 +105,7 @@ fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap) {
     let first = all.vertices.len() as i64;
     let image = |&point| map.apply(point);
     all.vertices.extend(shape.vertices.iter().map(image));
-    let mirrors = map.mirrors();
+    let mirrors = map.reverses_orientation();
     for triangle in shape.faces() {
         let start = all.corners.len();
         all.push_face(triangle.iter().map(|corner| first + corner));
@@ -116,7 +116,7 @@ fn append_image(all: &mut Polygons, shape: &Polygons, map: &AffineMap) {
 }
 
 /// Sorts the objects so that each comes after its members. Returns an error if one contains itself.
-fn members_first(objects: &[Object]) -> Result<Vec<usize>, Cycle> {
+fn topological_order(objects: &[Object]) -> Result<Vec<usize>, Cycle> {
     let mut order = Vec::with_capacity(objects.len());
     let (mut is_begun, mut is_done) = (vec![false; objects.len()], vec![false; objects.len()]);
     // An object waits twice: until it is begun, and below its members until they are done.

@@ -15,7 +15,7 @@ pub(crate) struct Groups {
 
 impl Groups {
     /// Returns a single unnamed group that contains all faces.
-    pub(crate) fn single() -> Self {
+    pub(crate) fn single_group() -> Self {
         Groups {
             names: vec![None],
             group_of_face: Vec::new(),
@@ -24,7 +24,7 @@ impl Groups {
 
     /// Copies the faces of some groups, each into a list of its own with the vertices that it uses, in the order of
     /// `list`.
-    pub(super) fn copies(
+    pub(super) fn copy_groups(
         &self,
         list: &Polygons,
         groups: Range<usize>,
@@ -37,12 +37,14 @@ impl Groups {
         }
         let mut numbers = vec![0; list.vertices.len()];
         let copies = faces[groups].iter();
-        Ok(copies.map(|of| copy(list, of, &mut numbers)).collect())
+        Ok(copies
+            .map(|of| copy_faces(list, of, &mut numbers))
+            .collect())
     }
 }
 
 /// Copies some faces of a list, and renumbers their vertices. `numbers` is a buffer: by vertex, its number in the copy.
-fn copy(list: &Polygons, faces: &[usize], numbers: &mut [i64]) -> Polygons {
+fn copy_faces(list: &Polygons, faces: &[usize], numbers: &mut [i64]) -> Polygons {
     let mut part = Polygons::default();
     for &face in faces {
         part.push_face(list.face_corners(face).iter().copied());

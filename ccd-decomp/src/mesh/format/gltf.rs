@@ -14,12 +14,12 @@ mod transform;
 mod whole;
 
 use super::{LinkedFiles, Reference};
-use crate::mesh::content::allowance::Allowance;
+use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, element_name};
 use crate::mesh::unit::Unit;
-use accessor::Accessors;
+use accessor::AccessorReader;
 use buffers::Buffers;
 use container::Container;
 use nodes::Scene;
@@ -33,11 +33,11 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
     }
     let container = Container::read(bytes)?;
     let root = Root::read(container.json)?;
-    extensions::check_required(&root)?;
-    let buffers = Buffers::new(&root, container.binary, linked)?;
+    extensions::check_required_extensions(&root)?;
+    let buffers = Buffers::new(&root, container.binary_chunk, linked)?;
     let all_bytes = bytes.len() + linked.values().map(Vec::len).sum::<usize>();
-    let allowance = Allowance::for_file(all_bytes as u64);
-    let accessors = Accessors {
+    let allowance = ExpansionBudget::for_file(all_bytes as u64);
+    let accessors = AccessorReader {
         root: &root,
         buffers: &buffers,
         allowance,
@@ -48,8 +48,9 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
         remarks,
     } = nodes::scene(&root, accessors)?;
     // A mesh has no members.
-    let assembly = Assembly::new(objects, parts, allowance)
-        .map_err(|circle| MeshFault::malformed(format!("mesh {} holds itself", circle.object)))?;
+    let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
+        MeshFault::malformed_content(format!("mesh {} holds itself", circle.object))
+    })?;
     Ok(Content {
         unit: Some(Unit::Metre),
         layout: Layout::Assembly(assembly),
@@ -84,7 +85,7 @@ pub(super) fn references(bytes: &[u8]) -> Result<Vec<Reference>, MeshFault> {
 fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();
-        MeshFault::malformed(format!(
+        MeshFault::malformed_content(format!(
             "names {kind} {number}, but there are {count}, numbered from 0"
         ))
     })

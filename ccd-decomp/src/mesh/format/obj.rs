@@ -33,8 +33,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
                     file.add_face(&statement, number)?;
                 }
             }
-            "o" => file.objects.set_current(name_after_keyword(line)),
-            "g" => file.groups.set_current(name_after_keyword(line)),
+            "o" => file.objects.set_current_name(name_after_keyword(line)),
+            "g" => file.groups.set_current_name(name_after_keyword(line)),
             "" => {}
             word if may_continue && word.parse::<f64>().is_ok() => {}
             other => skip_statement(other, number, &mut file.polygons.remarks)
@@ -66,8 +66,8 @@ fn join_continued_lines<'a>(
 #[derive(Default)]
 struct Reader {
     polygons: Polygons,
-    objects: Labels,
-    groups: Labels,
+    objects: NamedGroups,
+    groups: NamedGroups,
     /// The first face corner with a number before the first vertex: the face, and the number in the file.
     missing: Option<(usize, i64)>,
 }
@@ -158,7 +158,7 @@ impl Reader {
         Ok(Content {
             unit: None,
             remarks: std::mem::take(&mut self.polygons.remarks),
-            layout: Layout::List(self.polygons, labels.groups),
+            layout: Layout::FaceList(self.polygons, labels.groups),
         })
     }
 }
@@ -177,15 +177,15 @@ fn vertex_number(corner: &str) -> Option<i64> {
 
 /// The groups of faces that one keyword, `o` or `g`, names. They are numbered by their first face.
 #[derive(Default)]
-struct Labels {
+struct NamedGroups {
     groups: Groups,
     /// The number of each group, by its name.
     numbers: HashMap<Option<String>, u32>,
     current: Option<String>,
 }
 
-impl Labels {
-    fn set_current(&mut self, name: &str) {
+impl NamedGroups {
+    fn set_current_name(&mut self, name: &str) {
         self.current = (!name.is_empty()).then(|| name.to_owned());
     }
 
@@ -225,7 +225,7 @@ fn name_after_keyword(statement: &str) -> &str {
 
 /// The keywords of statements that do not affect the shape: normals, texture coordinates, materials, curve and
 /// display settings.
-const HARMLESS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj \
+const HARMLESS_KEYWORDS: &str = "vn vt vp s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj \
                         ctech stech cstype deg bmat step parm trim hole scrv curv2 sp end con res";
 
 /// Skips a statement, with a remark unless it is harmless.
@@ -243,11 +243,14 @@ fn skip_statement(keyword: &str, line: usize, remarks: &mut Remarks) -> Result<(
         "l" => remarks.add("lines passed over", 1, Some(line)),
         "p" => remarks.add("points passed over", 1, Some(line)),
         "curv" | "cdc" => remarks.add("curves passed over", 1, Some(line)),
-        other if HARMLESS.split(' ').any(|harmless| harmless == other) => {}
+        other
+            if HARMLESS_KEYWORDS
+                .split(' ')
+                .any(|harmless| harmless == other) => {}
         "V" | "F" => {
             let known = keyword.to_ascii_lowercase();
             let problem = format!("{keyword:?} instead of {known:?}");
-            return Err(MeshFault::malformed(problem));
+            return Err(MeshFault::malformed_content(problem));
         }
         other => remarks.add_named("statements", other, 1, Some(line)),
     }

@@ -85,8 +85,9 @@ struct Line<'a> {
 
 impl<'a> Lines<'a> {
     fn next_line(&mut self, missing: impl Fn() -> String) -> Result<Line<'a>, MeshFault> {
-        self.next()
-            .ok_or_else(|| MeshFault::Truncated { missing: missing() })
+        self.next().ok_or_else(|| MeshFault::Truncated {
+            missing_element: missing(),
+        })
     }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         return Err(MeshFault::NoVertices);
     }
     let bytes = &with_line_feeds(bytes);
-    check_names(bytes)?;
+    check_unique_names(bytes)?;
     let mut reader = Reader::new(&bytes[..]);
     let header = Parser::<Element>::new()
         .read_header(&mut reader)
@@ -34,11 +34,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
             .map_err(fault)?;
         match element.name.as_str() {
             "vertex" => polygons.vertices = read.into_iter().map(|vertex| vertex.point).collect(),
-            FACE => {
+            FACE_ELEMENT => {
                 read.into_iter()
                     .for_each(|face| polygons.push_face(face.corners));
             }
-            STRIPS => {
+            STRIPS_ELEMENT => {
                 let strips = read.iter().flat_map(|strip| triangles(&strip.corners));
                 strips.for_each(|triangle| polygons.push_face(triangle));
             }
@@ -50,15 +50,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
     check_no_trailing_bytes(reader.get_ref())?;
     if header.encoding == Encoding::Ascii {
-        check_lines(payload, first_line, &header)?;
+        check_line_lengths(payload, first_line, &header)?;
     }
     Ok(polygons)
 }
 
 /// The name of the element that holds polygons.
-const FACE: &str = "face";
+const FACE_ELEMENT: &str = "face";
 /// The name of the element that holds triangle strips, as scanners write them.
-const STRIPS: &str = "tristrips";
+const STRIPS_ELEMENT: &str = "tristrips";
 
 /// Returns the triangles of a strip in a common orientation: every second triangle is reversed. An index of −1 begins
 /// another strip.
@@ -91,7 +91,7 @@ fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
 
 /// Checks that the names of elements are unique, and the names of properties within each element. The library keeps
 /// only the last of equal names.
-fn check_names(bytes: &[u8]) -> Result<(), MeshFault> {
+fn check_unique_names(bytes: &[u8]) -> Result<(), MeshFault> {
     let (mut elements, mut properties) = (HashSet::new(), HashSet::new());
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
         let line = String::from_utf8_lossy(line);
@@ -126,12 +126,12 @@ fn check_no_trailing_bytes(rest: &[u8]) -> Result<(), MeshFault> {
     } else {
         let more = rest.len();
         let problem = format!("has {more} bytes more than its header announces");
-        Err(MeshFault::malformed(problem))
+        Err(MeshFault::malformed_content(problem))
     }
 }
 
 /// Checks that no text line has more numbers than properties, because the library skips further numbers.
-fn check_lines(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
+fn check_line_lengths(payload: &[u8], first: usize, header: &Header) -> Result<(), MeshFault> {
     let mut lines = (first..).zip(payload.split(|&byte| byte == b'\n'));
     for element in header.elements.values() {
         for (number, line) in lines.by_ref().take(element.count) {
@@ -162,7 +162,7 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     for element in header.elements.values() {
         if element.count > bytes {
             let missing = format!("all {} elements {:?}", element.count, element.name);
-            return Err(MeshFault::truncated(missing));
+            return Err(MeshFault::truncated_file(missing));
         }
     }
     let Some(vertex) = header.elements.get("vertex") else {
@@ -173,7 +173,7 @@ fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
             matches!(kind, PropertyType::Scalar(_))
         })?;
     }
-    let mut faces = [FACE, STRIPS]
+    let mut faces = [FACE_ELEMENT, STRIPS_ELEMENT]
         .into_iter()
         .filter_map(|name| header.elements.get(name))
         .peekable();
@@ -212,7 +212,7 @@ fn check_property(
         }
         Some(_) => return Ok(()),
     };
-    Err(MeshFault::malformed(problem))
+    Err(MeshFault::malformed_content(problem))
 }
 
 fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
@@ -223,7 +223,7 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
         let problem = text.strip_prefix(prefix.as_deref().unwrap_or_default());
         let problem = problem.unwrap_or(&text).trim_end_matches('.');
 
-        return MeshFault::truncated(format!("what its header announces ({problem})"));
+        return MeshFault::truncated_file(format!("what its header announces ({problem})"));
     }
     // The library quotes the line; the rest of its message names its own types.
     let quoted = text

@@ -54,17 +54,17 @@ fn facet_count(bytes: &[u8]) -> Option<u32> {
 
 fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let Some(facets) = facet_count(bytes) else {
-        return Err(MeshFault::truncated("the header of 84 bytes"));
+        return Err(MeshFault::truncated_file("the header of 84 bytes"));
     };
     let content = &bytes[HEADER_BYTES + COUNT_BYTES..];
     let room = content.len() / FACET_BYTES;
     if room < facets as usize {
         let missing = format!("facet {room} of the {facets} that it announces");
-        return Err(MeshFault::truncated(missing));
+        return Err(MeshFault::truncated_file(missing));
     }
     if room > facets as usize {
         let problem = format!("announces {facets} facets, but has room for {room}");
-        return Err(MeshFault::malformed(problem));
+        return Err(MeshFault::malformed_content(problem));
     }
     let mut facets = Facets::default();
     for facet in content.as_chunks::<FACET_BYTES>().0 {
@@ -77,7 +77,7 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
 }
 
 /// The keywords of the statements of a facet, one statement on each line.
-const FACET: [&[&str]; 7] = [
+const FACET_KEYWORDS: [&[&str]; 7] = [
     &["facet", "normal"],
     &["outer", "loop"],
     &["vertex"],
@@ -105,11 +105,13 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
         let facet = facets.polygons.ends.len();
         let problem =
             |problem| MeshFault::syntax(Some(number), format!("facet {facet}: {problem}"));
-        let is_expected = FACET[done].iter().all(|&word| words.next() == Some(word));
+        let is_expected = FACET_KEYWORDS[done]
+            .iter()
+            .all(|&word| words.next() == Some(word));
         let numbers: Vec<&str> = words.collect();
-        let is_vertex = FACET[done] == ["vertex"];
+        let is_vertex = FACET_KEYWORDS[done] == ["vertex"];
         if !is_expected || done > 0 && numbers.len() != if is_vertex { 3 } else { 0 } {
-            let expected = FACET[done].join(" ");
+            let expected = FACET_KEYWORDS[done].join(" ");
             return Err(problem(format!(
                 "{:?} instead of {expected:?}",
                 line.trim()
@@ -126,14 +128,16 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
         } else if done == 0 {
             facets.polygons.face_lines.push(number);
         }
-        done = (done + 1) % FACET.len();
+        done = (done + 1) % FACET_KEYWORDS.len();
     }
     let missing = match (done, is_closed) {
         (0, true) => return Ok(facets.polygons),
         (0, false) => "the last solid".into(),
         _ => format!("facet {}", facets.polygons.face_lines.len() - 1),
     };
-    Err(MeshFault::Truncated { missing })
+    Err(MeshFault::Truncated {
+        missing_element: missing,
+    })
 }
 
 /// The polygons of a file under construction. Corners at exactly the same point become one vertex.

@@ -7,7 +7,8 @@ mod faults;
 mod fuzz;
 mod unread;
 
-const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+const TETRAHEDRON_OBJ: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// An OBJ with optional content: carriage returns, normals, relative indices, objects, materials, a continued line,
 /// colours, a weight, and a byte that is no UTF-8.
@@ -15,19 +16,19 @@ const RICH_OBJ: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r
     v 0 1 0 # up\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl red\r\nf 1/1/1 -1/-1/-1 2/1/1\r\ng second\r\nl 1 2\r\n\
     v 0 0 2 2\r\nf 1//1 2//1 \\\r\n  4//1\r\nusemtl blue\r\nf 2/1 3/1 4/1\r\ns off\r\nf +3 1 -1\r\n";
 
-const STL: &str = "solid a tetrahedron\n\
+const TETRAHEDRON_STL: &str = "solid a tetrahedron\n\
     facet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n\
     facet normal 0 0 0\nouter loop\nvertex -0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n\
     endsolid\n\nSOLID\nFACET NORMAL 1 0 0\n  OUTER LOOP\nVERTEX 1.0E0 0 0\nVERTEX 0 1 0\nVERTEX 0 0 1\n\
     ENDLOOP\nENDFACET\nfacet normal 0 0 0\nouter loop\nvertex 0 1 0\nvertex 0 0 0\nvertex 0 0 1\nendloop\n\
     endfacet\nendsolid\n";
 
-const PLY: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\n\
+const TETRAHEDRON_PLY: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\n\
     property float x\nproperty double y\nproperty float nx\nproperty int z\nelement face 4\n\
     property uchar flags\nproperty list uchar int vertex_indices\nelement edge 1\nproperty int a\n\
     end_header\n0 0 7 0\n1 0 7 0\n0 1 7 0\n0 0 7 1\n9 3 0 2 1\n9 3 0 1 3\n9 3 1 2 3\n9 3 2 0 3\n5\n";
 
-const OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n# the tip\n0 0 1\n\
+const TETRAHEDRON_OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n# the tip\n0 0 1\n\
     3 0 2 1\n3 0 1 3  0.5 0.5 0.5\n3 1 2 3\n3 2 0 3\n";
 
 const POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
@@ -77,7 +78,7 @@ fn binary_ply(endian: &str) -> Vec<u8> {
 
 /// Returns the tetrahedron of the other formats as a glTF.
 #[cfg(feature = "gltf")]
-fn gltf() -> crate::test_files::Gltf {
+fn tetrahedron_gltf() -> crate::test_files::Gltf {
     let mut gltf = crate::test_files::Gltf::new();
     let position = gltf.add_vec3_accessor(&POINTS);
     let indices = gltf.indices(
@@ -94,7 +95,7 @@ fn gltf() -> crate::test_files::Gltf {
 
 /// Returns the tetrahedron of the other formats as a 3MF.
 #[cfg(feature = "3mf")]
-fn threemf() -> Vec<u8> {
+fn tetrahedron_3mf() -> Vec<u8> {
     use crate::test_files::{model, object, package};
     let points = POINTS.map(|point| point.map(f64::from));
     let object = object(r#"id="1""#, &points, &FACES);
@@ -106,20 +107,20 @@ fn threemf() -> Vec<u8> {
 
 fn valid_files() -> Vec<(Format, Vec<u8>)> {
     vec![
-        (Format::Obj, OBJ.into()),
+        (Format::Obj, TETRAHEDRON_OBJ.into()),
         (Format::Obj, RICH_OBJ.into()),
-        (Format::Stl, STL.into()),
+        (Format::Stl, TETRAHEDRON_STL.into()),
         (Format::Stl, binary_stl()),
-        (Format::Ply, PLY.into()),
+        (Format::Ply, TETRAHEDRON_PLY.into()),
         (Format::Ply, binary_ply("little")),
         (Format::Ply, binary_ply("big")),
-        (Format::Off, OFF.into()),
+        (Format::Off, TETRAHEDRON_OFF.into()),
         #[cfg(feature = "gltf")]
-        (Format::Gltf, gltf().text()),
+        (Format::Gltf, tetrahedron_gltf().text()),
         #[cfg(feature = "gltf")]
-        (Format::Gltf, gltf().glb()),
+        (Format::Gltf, tetrahedron_gltf().glb()),
         #[cfg(feature = "3mf")]
-        (Format::ThreeMf, threemf()),
+        (Format::ThreeMf, tetrahedron_3mf()),
     ]
 }
 
@@ -180,7 +181,7 @@ fn stl_welds_corners_in_order_of_appearance() {
 
 #[test]
 fn a_byte_order_mark_hides_no_vertex() {
-    let marked = ["\u{feff}", OBJ].concat();
+    let marked = ["\u{feff}", TETRAHEDRON_OBJ].concat();
     let mesh = read(Format::Obj, marked.as_bytes()).unwrap();
     assert_eq!(mesh.vertices().len(), 4);
 }
@@ -207,7 +208,7 @@ fn formats_that_are_not_built_are_named() {
     ] {
         let fault = read(format, b"anything").unwrap_err();
         assert_eq!(
-            matches!(fault, MeshFault::NotBuilt { .. }),
+            matches!(fault, MeshFault::MissingFeature { .. }),
             !is_built,
             "{fault}"
         );

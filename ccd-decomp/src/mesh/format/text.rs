@@ -6,11 +6,11 @@ use std::borrow::Cow;
 ///
 /// UTF-16 is recognised by its mark. Invalid UTF-8 is kept: names, comments and binary formats may hold it.
 pub(super) fn utf8_with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
-    with_line_feeds(utf8(bytes))
+    with_line_feeds(to_utf8(bytes))
 }
 
 /// Converts a text to UTF-8 and removes the byte order mark, which would hide the first keyword.
-pub(super) fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+pub(super) fn to_utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     let from_units = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes.as_chunks().0.iter().map(|&pair| unit(pair)).collect();
         Cow::from(String::from_utf16_lossy(&units).into_bytes())

@@ -8,7 +8,7 @@ mod package;
 mod transform;
 mod xml;
 
-use crate::mesh::content::allowance::Allowance;
+use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::content::assembly::{Assembly, Object, Part, PlacedObject};
 use crate::mesh::content::{Content, Layout};
 use crate::mesh::error::{MeshFault, Quote};
@@ -34,9 +34,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     }
     let what = "objects that the build does not place passed over";
     remarks.add(what, unused, None);
-    let allowance = Allowance::for_file(models.package.unpacked_bytes() + bytes.len() as u64);
+    let allowance = ExpansionBudget::for_file(models.package.unpacked_bytes() + bytes.len() as u64);
     let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
-        MeshFault::malformed("is a component of itself").at(models.object_name(circle.object))
+        MeshFault::malformed_content("is a component of itself")
+            .at(models.object_name(circle.object))
     })?;
     Ok(Content {
         unit: Some(unit),
@@ -104,7 +105,7 @@ impl<'a> Models<'a> {
                 {
                     let problem = format!("has two objects {}", object.id);
                     let place = format!("{:?}", Quote(&model.path));
-                    return Err(MeshFault::malformed(problem).at(place));
+                    return Err(MeshFault::malformed_content(problem).at(place));
                 }
                 self.objects.push((number, object));
             }
@@ -129,7 +130,7 @@ impl<'a> Models<'a> {
     fn parts(&self) -> Result<Vec<Part>, MeshFault> {
         let items = &self.list[0].items;
         if items.is_empty() {
-            return Err(MeshFault::malformed(
+            return Err(MeshFault::malformed_content(
                 "has no items in its build: nothing of it is to be made",
             ));
         }
@@ -153,7 +154,7 @@ impl<'a> Models<'a> {
         let map = used.map;
         match object {
             Some(&object) => Ok(PlacedObject { object, map }),
-            None => Err(MeshFault::malformed(format!(
+            None => Err(MeshFault::malformed_content(format!(
                 "names object {}, which there is not",
                 used.object
             ))),
@@ -189,7 +190,7 @@ impl<'a> Models<'a> {
             if std::mem::replace(&mut seen[number], true) {
                 continue;
             }
-            if let Some(what) = &self.objects[number].1.foreign {
+            if let Some(what) = &self.objects[number].1.foreign_element {
                 let fault = MeshFault::unsupported(
                     format!("a shape of another kind, {:?}", Quote(what)),
                     "a mesh of triangles",

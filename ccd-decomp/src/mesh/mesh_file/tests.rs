@@ -138,7 +138,10 @@ mod beside {
     fn buffers_are_read_from_files_beside_the_mesh() {
         let folder = Folder::new("beside");
         let gltf = Gltf::triangle();
-        let path = folder.write("part.gltf", gltf.text_at("./deep%20er//da%74a.bin"));
+        let path = folder.write(
+            "part.gltf",
+            gltf.text_with_buffer_uri("./deep%20er//da%74a.bin"),
+        );
         let error = TriangleMesh::read(&path).unwrap_err();
         assert!(
             matches!(error.fault, MeshFault::UnreadableLinkedFile { .. }),
@@ -185,7 +188,7 @@ mod beside {
             ".",
         ];
         for uri in uris {
-            let path = folder.write("within/part.gltf", gltf.text_at(uri));
+            let path = folder.write("within/part.gltf", gltf.text_with_buffer_uri(uri));
             let error = TriangleMesh::read(&path).unwrap_err();
             let message = error.to_string();
             assert!(
@@ -194,7 +197,7 @@ mod beside {
             );
         }
         for uri in ["%", "%4", "%zz"] {
-            let path = folder.write("within/part.gltf", gltf.text_at(uri));
+            let path = folder.write("within/part.gltf", gltf.text_with_buffer_uri(uri));
             let message = TriangleMesh::read(&path).unwrap_err().to_string();
             assert!(message.contains("% without two digits"), "{uri}: {message}");
         }
@@ -202,7 +205,7 @@ mod beside {
 
     #[test]
     fn a_reader_has_nothing_beside_it() {
-        let text = Gltf::triangle().text_at("data.bin");
+        let text = Gltf::triangle().text_with_buffer_uri("data.bin");
         let error = TriangleMesh::from_reader(Format::Gltf, &text[..]).unwrap_err();
         assert!(matches!(error.fault, MeshFault::At { .. }), "{error}");
         let message = error.to_string();

@@ -32,7 +32,7 @@ fn lengths_are_those_of_the_units() {
 
 /// Returns a coordinate in another unit as an exact fraction.
 fn exact(x: f64, from: Unit, to: Unit) -> RBig {
-    let ratio = RBig::from(from.facts().2) / RBig::from(to.facts().2);
+    let ratio = RBig::from(from.definition().2) / RBig::from(to.definition().2);
     RBig::try_from(x).unwrap() * ratio
 }
 
@@ -46,7 +46,7 @@ fn error(x: f64, from: Unit, to: Unit) -> RBig {
     }
 }
 
-const METRIC: [Unit; 4] = [
+const METRIC_UNITS: [Unit; 4] = [
     Unit::Micrometre,
     Unit::Millimetre,
     Unit::Centimetre,
@@ -56,7 +56,7 @@ const METRIC: [Unit; 4] = [
 proptest! {
     #[test]
     fn a_coordinate_is_rounded_once_between_metric_units(x in -1e12..1e12_f64, from in 0..4_usize, to in 0..4_usize) {
-        let (from, to) = (METRIC[from], METRIC[to]);
+        let (from, to) = (METRIC_UNITS[from], METRIC_UNITS[to]);
         let converted = Conversion::new(from, to).apply(DVec3::splat(x)).x;
         let half = RBig::try_from((converted.abs().next_up() - converted.abs()) / 2.0).unwrap();
         prop_assert!(error(x, from, to) <= half);
@@ -73,6 +73,6 @@ proptest! {
     /// Tests that the f32 coordinates of a glTF are converted exactly to smaller metric units.
     #[test]
     fn floats_are_exact_towards_smaller_units(x in -1e6..1e6_f32, to in 0..4_usize) {
-        prop_assert!(error(x.into(), Unit::Metre, METRIC[to]).is_zero());
+        prop_assert!(error(x.into(), Unit::Metre, METRIC_UNITS[to]).is_zero());
     }
 }

@@ -1,7 +1,9 @@
 use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
-use crate::test_meshes::{block, cubes, merged_meshes, placed, reversed_faces, tetrahedron};
+use crate::test_meshes::{
+    block, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
+};
 use ccd_core::FacetOrigin;
 use ccd_core::glam::dvec3;
 
@@ -25,7 +27,7 @@ fn a_block_has_eight_corners_and_six_sides() {
 
 #[test]
 fn faces_keep_their_numbers() {
-    let mesh = reversed_faces(&tetrahedron());
+    let mesh = mesh_with_reversed_faces(&tetrahedron());
     let polytope = polytope(&mesh).unwrap();
     let mut faces: Vec<FacetOrigin> = polytope.facets.iter().map(|f| f.origin).collect();
     faces.sort_by_key(|origin| format!("{origin:?}"));
@@ -47,6 +49,6 @@ fn reflex_edges_are_named() {
     let two = merged_meshes(&[&one, &placed(&one, 1.0, dvec3(5.0, 0.0, 0.0))]);
     assert_eq!(
         polytope(&two),
-        Err(DecomposeError::NotInOnePart { parts: 2 })
+        Err(DecomposeError::NotConnected { parts: 2 })
     );
 }

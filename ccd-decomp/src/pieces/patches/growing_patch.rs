@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 /// A set of polygons of a mesh and their hull. The hull lies inside the solid, and all polygons are on its boundary.
 pub(super) struct GrowingPatch {
     /// The polygons of the patch, in the order in which they joined.
-    pub(super) flats: Vec<u32>,
+    pub(super) polygons: Vec<u32>,
     pub(super) hull: ExactHull,
     has_volume: bool,
 }
@@ -29,13 +29,13 @@ pub(super) enum JoinResult {
     /// The polygon can never join the patch.
     Refused,
     /// The polygon is coplanar with a patch that has no volume yet.
-    InPlane,
+    Coplanar,
 }
 
 impl GrowingPatch {
     pub(super) fn new(flats: &ConvexPolygons, seed: u32) -> Self {
         GrowingPatch {
-            flats: vec![seed],
+            polygons: vec![seed],
             hull: ExactHull::from_polygon(&flats.get(seed).corners),
             has_volume: false,
         }
@@ -71,7 +71,7 @@ impl GrowingPatch {
         match self.side_of_highest_corner(points, plane(flat)) {
             Ordering::Greater => return JoinResult::Refused,
             Ordering::Equal if !self.has_volume && self.is_hull_in_plane(points, plane(flat)) => {
-                return JoinResult::InPlane;
+                return JoinResult::Coplanar;
             }
             _ => {}
         }
@@ -80,14 +80,14 @@ impl GrowingPatch {
         let mut new: Vec<u32> = corners.filter(|&v| !self.is_corner(v)).collect();
         let in_front = |&v: &u32| {
             let sees = |&f: &u32| side_of(points, plane(f), v) == Ordering::Greater;
-            self.flats.iter().any(sees)
+            self.polygons.iter().any(sees)
         };
         if new.iter().any(in_front) {
             return JoinResult::Refused;
         }
         if !self.has_volume {
             // The first point has to be off the plane.
-            let first_plane = plane(self.flats[0]);
+            let first_plane = plane(self.polygons[0]);
             new.sort_by_key(|&v| side_of(points, first_plane, v) == Ordering::Equal);
         }
         // … and the new hull within the solid.
@@ -96,11 +96,11 @@ impl GrowingPatch {
         if let Some(changed) = changed {
             let obstacle = Obstacle::new(points, &hull);
             let is_apart = |face: u32| {
-                let of = flats.of_face(face);
+                let of = flats.polygon_of_face(face);
                 of == flat
-                    || self.flats.contains(&of)
+                    || self.polygons.contains(&of)
                     || work.spend(hull.facets().len())
-                        && obstacle.is_apart_from(manifold.faces()[face as usize])
+                        && obstacle.is_separated_from(manifold.faces()[face as usize])
             };
             let facets = hull.facets().iter();
             let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
@@ -112,7 +112,7 @@ impl GrowingPatch {
             self.hull = hull;
             self.has_volume = true;
         }
-        self.flats.push(flat);
+        self.polygons.push(flat);
         JoinResult::Joined
     }
 

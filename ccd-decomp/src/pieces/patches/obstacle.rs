@@ -36,17 +36,19 @@ impl<'a> Obstacle<'a> {
     /// ray of the cone passes through three corners that span it: it is the plane of a facet, the triangle's own, or
     /// one through an edge of either and a corner of the other. Among the latter, only those matter that touch the hull
     /// on its outline, seen from the triangle's corner.
-    pub(super) fn is_apart_from(&self, triangle: [u32; 3]) -> bool {
+    pub(super) fn is_separated_from(&self, triangle: [u32; 3]) -> bool {
         // The triangle is most likely in front of a facet that shares a corner, or of a new facet.
         let mut facets = self.hull.facets().iter().rev();
-        triangle.iter().any(|&v| self.is_in_front_at(v, triangle))
+        triangle
+            .iter()
+            .any(|&v| self.is_in_front_at_corner(v, triangle))
             || facets.any(|&facet| self.is_in_front(facet, triangle))
             || self.separates(triangle, triangle)
-            || (0..3).any(|k| self.is_apart_at(triangle, k))
+            || (0..3).any(|k| self.is_separated_at_corner(triangle, k))
     }
 
     /// Returns whether the triangle is in front of a facet at one of its corners.
-    fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
+    fn is_in_front_at_corner(&self, corner: u32, triangle: [u32; 3]) -> bool {
         let meeting = self.corner_facets.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());
             let corners = facets.flat_map(|(k, facet)| facet.map(|v| (v, k)));
@@ -65,7 +67,7 @@ impl<'a> Obstacle<'a> {
     }
 
     /// Returns whether a plane through corner `k` of the triangle separates it from the hull.
-    fn is_apart_at(&self, triangle: [u32; 3], k: usize) -> bool {
+    fn is_separated_at_corner(&self, triangle: [u32; 3], k: usize) -> bool {
         let p = triangle[k];
         let facets = self.hull.facets().iter();
         let sides: Vec<Ordering> = facets.map(|&f| side_of(self.points, f, p)).collect();

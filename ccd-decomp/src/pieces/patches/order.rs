@@ -24,14 +24,14 @@ pub(super) fn seed_order(
 ) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == PatchOrder::Cresting {
-        let height = steps_to_reflex(manifold, flats);
+        let height = steps_to_reflex_edge(manifold, flats);
         seeds.sort_by_key(|&flat| std::cmp::Reverse(height[flat as usize]));
     }
     seeds
 }
 
 /// Returns, for each polygon, the number of steps to a polygon with a reflex edge; `u32::MAX` if there is none.
-fn steps_to_reflex(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> {
+fn steps_to_reflex_edge(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();
     for flat in 0..flats.len() as u32 {
@@ -46,7 +46,7 @@ fn steps_to_reflex(manifold: &Manifold<'_>, flats: &ConvexPolygons) -> Vec<u32> 
     }
     while let Some(flat) = queue.pop_front() {
         for &edge in &flats.get(flat).rim {
-            let next = flats.of_face(manifold.twin(edge) / 3);
+            let next = flats.polygon_of_face(manifold.twin(edge) / 3);
             if height[next as usize] == u32::MAX {
                 height[next as usize] = height[flat as usize] + 1;
                 queue.push_back(next);

@@ -26,7 +26,7 @@ impl Patch {
         flats: &ConvexPolygons,
         region: &GrowingPatch,
     ) -> Self {
-        let members: Vec<&Flat> = region.flats.iter().map(|&f| flats.get(f)).collect();
+        let members: Vec<&Flat> = region.polygons.iter().map(|&f| flats.get(f)).collect();
         let mut faces: Vec<u32> = members
             .iter()
             .flat_map(|f| f.faces.iter().copied())

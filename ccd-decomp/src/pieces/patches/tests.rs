@@ -2,8 +2,8 @@ use super::*;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, placed, prism, prism_under_prism, reversed_faces, star,
-    tetrahedron, toothed_disc_outline,
+    block, cubes, merged_meshes, mesh_with_reversed_faces, placed, prism, prism_under_prism,
+    star_bipyramid, tetrahedron, toothed_disc_outline,
 };
 use ccd_core::FacetOrigin;
 use ccd_core::glam::DVec3;
@@ -71,7 +71,7 @@ fn a_step_is_a_few_patches() {
 fn the_walls_of_a_cavity_are_flat_patches() {
     let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
     let inner = placed(&cubes(&block([1, 1, 1])), 2.0, DVec3::ONE);
-    let hollow = merged_meshes(&[&outer, &reversed_faces(&inner)]);
+    let hollow = merged_meshes(&[&outer, &mesh_with_reversed_faces(&inner)]);
     for order in ORDERS {
         let decomposition = decompose(&hollow, order).unwrap();
         check(&hollow, &decomposition);
@@ -128,7 +128,7 @@ fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
 /// Tests the exact number of patches of several solids: more patches are a regression.
 #[rstest]
 #[case::prism_under_prism(prism_under_prism(12), 2)]
-#[case::star(star(9, 0.4), 4)]
+#[case::star(star_bipyramid(9, 0.4), 4)]
 #[case::teeth(prism(&toothed_disc_outline(7)), 7)]
 #[case::stairs(cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]), 4)]
 #[case::ring(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]]), 4)]
@@ -201,7 +201,7 @@ fn patches_are_capped() {
 #[test]
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
-        let mesh = star(corners, 0.5);
+        let mesh = star_bipyramid(corners, 0.5);
         let manifold = solid_surface(&mesh).unwrap();
         let flats = ConvexPolygons::new(&manifold);
         let work = Work::with_steps(1_000 * u64::from(corners));

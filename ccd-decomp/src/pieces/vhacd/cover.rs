@@ -7,8 +7,8 @@
 //! the same argument.
 
 use super::target::Target;
-use super::voxels::{Cell, Voxels};
-use crate::tolerance::on_edge_distance;
+use super::voxels::{Cell, VoxelGrid};
+use crate::tolerance::edge_tolerance;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -18,12 +18,12 @@ use rayon::prelude::*;
 /// of the part.
 pub(super) fn points_by_part(
     target: &Target<'_>,
-    voxels: &Voxels,
+    voxels: &VoxelGrid,
     labels: &[u32],
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
     let mut parts = vec![Vec::new(); count];
-    let near = on_edge_distance(target.farthest_coordinate());
+    let near = edge_tolerance(target.farthest_coordinate());
     let triangles: Vec<_> = target.triangles().collect();
     let on_surface: Vec<_> = triangles
         .par_chunks(TRIANGLES_PER_TASK)
@@ -42,19 +42,19 @@ const TRIANGLES_PER_TASK: usize = 1024;
 /// Cuts triangles at the voxels of different parts. Returns the corners of the polygons, each with its part number.
 fn cut_triangles(
     triangles: &[[DVec3; 3]],
-    voxels: &Voxels,
+    voxels: &VoxelGrid,
     labels: &[u32],
     near: f64,
 ) -> Vec<(u32, DVec3)> {
     let (mut all, mut of_one) = (Vec::new(), Vec::new());
     for &triangle in triangles {
-        voxels.for_each_piece(triangle, labels, |part, polygon| {
+        voxels.for_each_labelled_polygon(triangle, labels, |part, polygon| {
             of_one.extend(polygon.iter().map(|&point| (part, point)));
         });
         of_one.sort_unstable_by_key(|&(part, _)| part);
         for of_part in of_one.chunk_by(|one, next| one.0 == next.0) {
             let points = of_part.iter().map(|&(_, point)| point).collect();
-            let kept = remove_between(points, triangle, near);
+            let kept = remove_points_between(points, triangle, near);
             all.extend(kept.into_iter().map(|point| (of_part[0].0, point)));
         }
         of_one.clear();
@@ -63,7 +63,7 @@ fn cut_triangles(
 }
 
 /// Removes points on an edge of the triangle that are between two others, up to rounding.
-fn remove_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
+fn remove_points_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
     for [from, to] in [[a, b], [b, c], [c, a]] {
         let Some(along) = unit(to - from) else {
             continue;
@@ -82,10 +82,10 @@ fn remove_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> V
 /// eight voxels all belong to one part are left out.
 fn corners_between_parts(
     target: &Target<'_>,
-    voxels: &Voxels,
+    voxels: &VoxelGrid,
     labels: &[u32],
 ) -> Vec<(u32, DVec3)> {
-    let [x, y, z] = voxels.counts();
+    let [x, y, z] = voxels.axis_counts();
     let of_layer = |i: usize| {
         let places = (0..=y).flat_map(|j| (0..=z).map(move |k| [i, j, k]));
         let mut found = Vec::new();
@@ -108,8 +108,8 @@ fn corners_between_parts(
 }
 
 /// Iterates over the voxels around a grid corner, up to eight.
-fn cells_around(voxels: &Voxels, corner: Cell) -> impl Iterator<Item = usize> {
-    let counts = voxels.counts();
+fn cells_around(voxels: &VoxelGrid, corner: Cell) -> impl Iterator<Item = usize> {
+    let counts = voxels.axis_counts();
     (0..8_usize).filter_map(move |k| {
         let mut cell = corner;
         for (axis, place) in cell.iter_mut().enumerate() {

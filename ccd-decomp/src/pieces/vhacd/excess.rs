@@ -4,7 +4,7 @@ mod part_planes;
 mod under;
 
 use super::target::{Location, Target};
-use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK, MAX_EXCESS_BOXES};
+use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES};
 use crate::work::Work;
 use ccd_core::Hull;
 use ccd_core::glam::{BVec3, DVec3};
@@ -30,19 +30,19 @@ pub(super) fn excess_bound(target: &Target<'_>, parts: &[Hull]) -> f64 {
         steps_spent: 0,
         largest_distance: 0.0,
         waiting: BTreeMap::new(),
-        examined: 0,
+        examined_count: 0,
     };
     for part in 0..parts.len() {
         search.examine_part(part);
     }
-    while search.split_worst(floor) {}
+    while search.split_worst_boxes(floor) {}
     let open = search.waiting.last_key_value();
     let open = open.map_or(0.0, |(_, cell)| cell.bound);
     greater(open, search.largest_distance)
 }
 
 /// The approximate number of corners of a part whose distances are computed first.
-const SAMPLED_CORNERS: usize = 256;
+const SAMPLED_CORNER_COUNT: usize = 256;
 
 /// The number of boxes that are split in parallel.
 const BOXES_PER_BATCH: usize = 16;
@@ -60,7 +60,7 @@ struct Search<'a> {
     /// The boxes that wait, by bound and by the order in which they were examined. Bounds are positive: their bits are
     /// in the order of their values.
     waiting: BTreeMap<(u64, u64), BoundedBox>,
-    examined: u64,
+    examined_count: u64,
 }
 
 /// A box with an upper bound on the distance from the solid to the part within the box.
@@ -75,7 +75,7 @@ struct BoundedBox {
 
 /// The result of the examination of a box.
 #[derive(Default)]
-struct Examined {
+struct BoxExamination {
     /// The distance from the solid to the box's centre, if the centre is in the part.
     distance: f64,
     /// The examined box; `None` if no point of the part in it exceeds the largest known distance.
@@ -92,7 +92,7 @@ impl Search<'_> {
             bounds,
             ..
         } = &self.parts[number];
-        let stride = part.points.len().div_ceil(SAMPLED_CORNERS);
+        let stride = part.points.len().div_ceil(SAMPLED_CORNER_COUNT);
         for &point in part.points.iter().step_by(stride) {
             if let Location::Outside { distance } = self.target.locate(point, &Work::unbounded()) {
                 self.largest_distance = greater(self.largest_distance, distance);
@@ -110,7 +110,7 @@ impl Search<'_> {
 
     /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
     /// found, the work is spent, or too many boxes wait.
-    fn split_worst(&mut self, floor: f64) -> bool {
+    fn split_worst_boxes(&mut self, floor: f64) -> bool {
         let target = greater(
             EXCESS_RATIO * self.largest_distance,
             self.largest_distance + floor,
@@ -125,34 +125,36 @@ impl Search<'_> {
             .iter()
             .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
             .collect();
-        let examined: Vec<Examined> = parts
+        let examined: Vec<BoxExamination> = parts
             .par_iter()
             .map(|(cell, bounds)| self.examine(cell, *bounds))
             .collect();
         examined
             .into_iter()
             .for_each(|examined| self.record(examined));
-        !worst.is_empty() && self.steps_spent < EXCESS_WORK && self.waiting.len() < MAX_EXCESS_BOXES
+        !worst.is_empty()
+            && self.steps_spent < EXCESS_WORK_BUDGET
+            && self.waiting.len() < MAX_EXCESS_BOXES
     }
 
-    fn record(&mut self, examined: Examined) {
+    fn record(&mut self, examined: BoxExamination) {
         self.steps_spent += examined.steps_spent;
         self.largest_distance = greater(self.largest_distance, examined.distance);
-        self.examined += 1;
-        let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined);
+        self.examined_count += 1;
+        let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_count);
         self.waiting
             .extend(examined.cell.map(|cell| (key(&cell), cell)));
     }
 
     /// Computes the bound of the box `bounds`, which lies within the examined box `within`.
-    fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> Examined {
+    fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.slack();
         work.spend(1 + planes.len() / PLANES_PER_STEP);
-        let mut examined = Examined::default();
+        let mut examined = BoxExamination::default();
         if let Some(meeting) = part.overlap(centre, half, planes) {
             let near = match target.locate(centre, work) {
                 Location::Inside { depth } => reach - depth,

@@ -6,7 +6,7 @@ use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
 use crate::solid::topology::{Orientation, Topology};
-use crate::tolerance::{NEAREST_SLACK, NEEDLE};
+use crate::tolerance::{MAX_NEEDLE_RATIO, NEAREST_DISTANCE_ERROR};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -60,7 +60,7 @@ impl<'a> Target<'a> {
     }
 
     /// Returns the triangles whose bounding boxes meet a box; `None` if there are more than `most`.
-    pub(super) fn triangles_in(
+    pub(super) fn triangles_in_box(
         &self,
         [lo, hi]: [DVec3; 2],
         most: usize,
@@ -69,7 +69,7 @@ impl<'a> Target<'a> {
         let mut found = Vec::new();
         let all = self
             .search
-            .all_meeting_box(&Bounds { lo, hi }, work, |face| {
+            .all_triangles_meeting_box(&Bounds { lo, hi }, work, |face| {
                 found.push(self.mesh.triangle(face));
                 found.len() <= most
             });
@@ -93,7 +93,7 @@ impl<'a> Target<'a> {
 
     /// Returns a bound on the rounding error of distances to the mesh.
     pub(super) fn slack(&self) -> f64 {
-        NEAREST_SLACK * self.half_diagonal()
+        NEAREST_DISTANCE_ERROR * self.half_diagonal()
     }
 
     /// Computes the location of a point relative to the target.
@@ -167,7 +167,7 @@ fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
     let side = to - from;
     let (square, area) = (side.length_squared(), side.cross(apex - from).length());
     // Written so that NaN is no needle.
-    (area < NEEDLE * square).then(|| {
+    (area < MAX_NEEDLE_RATIO * square).then(|| {
         let offset = from - point;
         let share = (-offset.dot(side) / square).clamp(0.0, 1.0);
         greater(0.0, (offset + side * share).length() - area / square.sqrt())

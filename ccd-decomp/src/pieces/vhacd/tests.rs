@@ -43,7 +43,7 @@ fn box_mesh(boxes: &[[DVec3; 2]]) -> TriangleMesh {
     mesh(&vertices, &faces)
 }
 
-fn cubic(half: f64) -> [DVec3; 2] {
+fn cube_bounds(half: f64) -> [DVec3; 2] {
     [DVec3::splat(-half), DVec3::splat(half)]
 }
 
@@ -112,7 +112,7 @@ fn triangles(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
 }
 
 /// Returns whether the winding number of a mesh about a point is not 0, by the solid angles of its triangles.
-fn has_winding(mesh: &TriangleMesh, point: DVec3) -> bool {
+fn has_nonzero_winding_number(mesh: &TriangleMesh, point: DVec3) -> bool {
     let angle = |t: [DVec3; 3]| {
         let [a, b, c] = t.map(|p| p - point);
         let (la, lb, lc) = (a.length(), b.length(), c.length());
@@ -166,15 +166,15 @@ fn approximate_mesh(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, Vh
 
 #[rstest]
 #[case::prism(l_shape(), 4)]
-#[case::star(crate::test_meshes::star(300, 0.5), 16)]
+#[case::star(crate::test_meshes::star_bipyramid(300, 0.5), 16)]
 #[case::comb(crate::test_meshes::comb(&[5.0; 40]), 8)]
 #[case::torus(torus(24, 12, 0.3), 8)]
 #[case::thin_torus(torus(48, 8, 0.05), 16)]
-#[case::hollow(box_mesh(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 12)]
-#[case::two(box_mesh(&[cubic(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]), 4)]
+#[case::hollow(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 12)]
+#[case::two(box_mesh(&[cube_bounds(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]), 4)]
 #[case::sheet(sheet(), 8)]
 #[case::far_off(distant_torus(), 8)]
-fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
+fn excess_bounds_hold_for_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     let found = approximate_mesh(&mesh, hulls).expect("an approximation");
     assert!((1..=hulls as usize).contains(&found.polytopes.len()));
     let size = mesh
@@ -197,7 +197,7 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
         .collect();
     let in_box = (0..2000).map(|_| lo + (hi - lo) * DVec3::new(next(), next(), next()));
     let in_box: Vec<DVec3> = in_box
-        .filter(|&p| closed && has_winding(&mesh, p))
+        .filter(|&p| closed && has_nonzero_winding_number(&mesh, p))
         .collect();
     samples.extend(in_box);
     for point in samples {
@@ -210,7 +210,7 @@ fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
             .map(|_| random_combination(&polytope.points, &mut next))
             .collect();
         for &point in polytope.points.iter().chain(&mixed) {
-            if !(closed && has_winding(&mesh, point)) {
+            if !(closed && has_nonzero_winding_number(&mesh, point)) {
                 farthest = greater(farthest, distance(&triangles(&mesh), point));
             }
         }
@@ -236,9 +236,9 @@ fn distant_torus() -> TriangleMesh {
 /// mouths, or a cavity, whose farthest point is its centre.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
-#[case::cavity(box_mesh(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
+#[case::cavity(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
 #[case::prism(l_shape(), 0.5)]
-fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
+fn one_hull_has_the_expected_excess(#[case] mesh: TriangleMesh, #[case] expected: f64) {
     let found = approximate_mesh(&mesh, 1).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
     let ratio = found.excess_bound / expected;
@@ -254,7 +254,7 @@ fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
 #[case(2)]
 #[case(7)]
 fn a_box_is_approximated_exactly(#[case] hulls: u32) {
-    let found = approximate_mesh(&box_mesh(&[cubic(1.0)]), hulls).expect("an approximation");
+    let found = approximate_mesh(&box_mesh(&[cube_bounds(1.0)]), hulls).expect("an approximation");
     assert!(found.excess_bound < 1e-6, "{}", found.excess_bound);
     if hulls == 1 {
         assert_eq!(found.polytopes[0].facets.len(), 6);
@@ -290,14 +290,14 @@ fn needles_and_points() {
 
 #[test]
 fn refusals() {
-    let cube = box_mesh(&[cubic(1.0)]);
+    let cube = box_mesh(&[cube_bounds(1.0)]);
     assert_eq!(approximate_mesh(&cube, 0).err(), Some(VhacdError::NoHulls));
     let fine = mesh(&[DVec3::ZERO, DVec3::X, DVec3::splat(1e-95)], &[[0, 1, 2]]);
     assert_eq!(
         approximate_mesh(&fine, 4).err(),
-        Some(VhacdError::TooFine { vertex: 2 })
+        Some(VhacdError::CoordinateTooSmall { vertex: 2 })
     );
-    let apart = box_mesh(&[cubic(1.0), [DVec3::splat(9.0), DVec3::splat(10.0)]]);
+    let apart = box_mesh(&[cube_bounds(1.0), [DVec3::splat(9.0), DVec3::splat(10.0)]]);
     let error = approximate_mesh(&apart, 1).err();
     assert!(
         matches!(error, Some(VhacdError::TooCoarse { .. })),
@@ -309,9 +309,9 @@ fn refusals() {
 #[rstest]
 #[case::prism(l_shape())]
 #[case::torus(torus(8, 4, 0.5))]
-#[case::hollow(box_mesh(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
+#[case::hollow(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(box_mesh(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
-fn places(#[case] mesh: TriangleMesh) {
+fn lattice_points_are_located(#[case] mesh: TriangleMesh) {
     let (target, surface) = (Target::new(&mesh, &Topology::of(&mesh)), triangles(&mesh));
     for k in 0..21 * 21 * 21 {
         let point = DVec3::new((k % 21) as f64, (k / 21 % 21) as f64, (k / 441) as f64) / 4.0 - 2.5;
@@ -321,7 +321,7 @@ fn places(#[case] mesh: TriangleMesh) {
         }
         assert_eq!(
             target.winds_about(point, &Work::unbounded()),
-            has_winding(&mesh, point),
+            has_nonzero_winding_number(&mesh, point),
             "{point}"
         );
         match target.locate(point, &Work::unbounded()) {
@@ -334,7 +334,7 @@ fn places(#[case] mesh: TriangleMesh) {
 /// Tests that a convex solid becomes one hull, for any aspect of triangles and any number of hulls.
 #[test]
 fn a_convex_solid_is_one_hull() {
-    let cones = crate::test_meshes::star(400, 1.0);
+    let cones = crate::test_meshes::star_bipyramid(400, 1.0);
     let found = approximate_mesh(&cones, 32).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
     assert_eq!(found.polytopes[0].points.len(), 402);

@@ -7,7 +7,7 @@ use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
 /// A voxel grid over a mesh. Its planes are at stored coordinates, so that adjacent voxels share planes exactly.
-pub(super) struct Voxels {
+pub(super) struct VoxelGrid {
     planes: [Vec<f64>; 3],
     /// The lower corner of the mesh, which is the centre of the first voxel.
     origin: DVec3,
@@ -21,14 +21,14 @@ pub(super) struct Voxels {
 /// The indices of a voxel along each axis.
 pub(super) type Cell = [usize; 3];
 
-impl Voxels {
+impl VoxelGrid {
     /// Creates the grid for a number of hulls. It is coarser if large triangles meet too many voxels; `None` if
     /// coordinates are too coarse for any grid.
     pub(super) fn new(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
-        while resolution >= tolerance::MIN_RESOLUTION {
-            let voxels = Voxels::with_resolution(target, resolution)?;
+        while resolution >= tolerance::MIN_VOXEL_RESOLUTION {
+            let voxels = VoxelGrid::with_resolution(target, resolution)?;
             if voxels.is_affordable(target) {
                 return Some(voxels);
             }
@@ -50,7 +50,7 @@ impl Voxels {
             let plane = |k: usize| lo[axis] + (k as f64 - 0.5) * step;
             (0..=count).map(plane).collect()
         });
-        Some(Voxels {
+        Some(VoxelGrid {
             planes,
             origin: lo,
             step,
@@ -74,31 +74,31 @@ impl Voxels {
     }
 
     /// Converts a point to grid units. The origin is the centre of the first voxel.
-    pub(super) fn in_grid_units(&self, point: DVec3) -> DVec3 {
+    pub(super) fn to_grid_units(&self, point: DVec3) -> DVec3 {
         (point - self.origin) / self.step
     }
 
-    pub(super) fn counts(&self) -> [usize; 3] {
+    pub(super) fn axis_counts(&self) -> [usize; 3] {
         [0, 1, 2].map(|axis| self.planes[axis].len() - 1)
     }
 
     pub(super) fn len(&self) -> usize {
-        self.counts().iter().product()
+        self.axis_counts().iter().product()
     }
 
     pub(super) fn index(&self, [i, j, k]: Cell) -> usize {
-        let [_, y, z] = self.counts();
+        let [_, y, z] = self.axis_counts();
         (i * y + j) * z + k
     }
 
     pub(super) fn cell_of(&self, index: usize) -> Cell {
-        let [_, y, z] = self.counts();
+        let [_, y, z] = self.axis_counts();
         [index / z / y, index / z % y, index % z]
     }
 
     /// Iterates over the voxels that share a face with the voxel `cell`.
     pub(super) fn neighbours(&self, cell: Cell) -> impl Iterator<Item = usize> {
-        let counts = self.counts();
+        let counts = self.axis_counts();
         (0..6).filter_map(move |k| {
             let (axis, mut next) = (k / 2, cell);
             next[axis] = match k % 2 {
@@ -116,7 +116,7 @@ impl Voxels {
 
     /// Returns the range of voxels along each axis that a triangle's bounding box may meet, slightly widened.
     fn voxel_ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
-        let counts = self.counts();
+        let counts = self.axis_counts();
         [0, 1, 2].map(|axis| {
             let place = |p: DVec3| (p[axis] - self.origin[axis]) / self.step + 0.5;
             let places = triangle.map(place);
@@ -133,7 +133,7 @@ impl Voxels {
     ///
     /// Cuts make corners that are nearly collinear. Blocks of voxels are therefore halved only while their labels
     /// differ.
-    pub(super) fn for_each_piece(
+    pub(super) fn for_each_labelled_polygon(
         &self,
         triangle: [DVec3; 3],
         labels: &[u32],

@@ -2,11 +2,15 @@ use super::*;
 use crate::solid::manifold::Dihedral;
 use crate::solid::solid_surface;
 use crate::test_meshes::{block, cubes, merged_meshes, placed, tetrahedron};
-use crate::tolerance::AUTO_WORK;
+use crate::tolerance::AUTO_WORK_BUDGET;
 use ccd_core::glam::DVec3;
 
 fn chosen_reason(mesh: &TriangleMesh) -> PieceReason {
-    let (parts, why) = choose(mesh, &Topology::of(mesh), &Work::with_steps(AUTO_WORK));
+    let (parts, why) = choose(
+        mesh,
+        &Topology::of(mesh),
+        &Work::with_steps(AUTO_WORK_BUDGET),
+    );
     let fits = match why {
         PieceReason::Convex => matches!(parts, Parts::Hull(_)),
         PieceReason::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
@@ -53,14 +57,14 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = solid_surface(&mesh).unwrap();
-    let plane = RegionMerger::merge_all(&manifold).largest_planar_region();
+    let plane = RegionMerger::merge_all_regions(&manifold).largest_planar_region();
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
 }
 
 /// Returns the largest planar part, by a walk over adjacent coplanar polygons.
-fn largest_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
-    let flats = RegionMerger::merge_all(manifold).into_polygons();
+fn largest_region_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
+    let flats = RegionMerger::merge_all_regions(manifold).into_polygons();
     let mut seen = vec![false; flats.len()];
     let mut largest = PlanarRegion::default();
     for seed in 0..flats.len() as u32 {
@@ -76,7 +80,7 @@ fn largest_by_walk(manifold: &Manifold<'_>) -> PlanarRegion {
                 .rim
                 .iter()
                 .filter(|&&h| manifold.dihedral(h) == Dihedral::Flat);
-            stack.extend(level.map(|&h| flats.of_face(manifold.twin(h) / 3)));
+            stack.extend(level.map(|&h| flats.polygon_of_face(manifold.twin(h) / 3)));
         }
         largest = largest.max(plane);
     }
@@ -96,8 +100,8 @@ fn the_largest_plane_is_that_of_a_walk() {
     ];
     for mesh in &solids {
         let manifold = solid_surface(mesh).unwrap();
-        let plane = RegionMerger::merge_all(&manifold).largest_planar_region();
-        assert_eq!(plane, largest_by_walk(&manifold));
+        let plane = RegionMerger::merge_all_regions(&manifold).largest_planar_region();
+        assert_eq!(plane, largest_region_by_walk(&manifold));
     }
 }
 

@@ -18,7 +18,7 @@ fn setting(tape: &mut RandomCase) -> (OrientedBox, DVec3) {
         corners: [point(), point(), point()],
         face: 0,
     };
-    (OrientedBox::around(&[element]), point())
+    (OrientedBox::around_elements(&[element]), point())
 }
 
 /// Searches for the largest error of the test that separates a point from a box along an axis of the box.

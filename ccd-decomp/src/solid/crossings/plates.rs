@@ -19,11 +19,11 @@ pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
     /// By face, its plate, or [`NONE`].
-    plate_of: Vec<u32>,
+    plate_of_face: Vec<u32>,
     /// The axis-aligned boxes of the plates.
     bounds: BoundsTree,
     /// The faces outside all plates.
-    rest: Group,
+    rest: FaceGroup,
 }
 
 const NONE: u32 = u32::MAX;
@@ -37,18 +37,18 @@ struct Plate {
     rim: Vec<RimVertex>,
     bounds: Bounds,
     /// The search trees over the polygon's triangles, created on demand.
-    group: OnceCell<Group>,
+    group: OnceCell<FaceGroup>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct RimVertex {
     at: u32,
-    before: u32,
-    after: u32,
+    previous_vertex: u32,
+    next_vertex: u32,
 }
 
 /// Some faces of a mesh, with search trees over them.
-struct Group {
+struct FaceGroup {
     faces: Vec<u32>,
     boxes: TriangleBoxes,
 }
@@ -86,12 +86,12 @@ impl<'a, 'm> Plates<'a, 'm> {
             return None;
         }
         let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
-        let rest = Group::new(manifold, rest.map(|(face, _)| face).collect());
+        let rest = FaceGroup::new(manifold, rest.map(|(face, _)| face).collect());
         Some(Plates {
             manifold,
             bounds: BoundsTree::new(plates.iter().map(|plate| plate.bounds).collect()),
             plates,
-            plate_of,
+            plate_of_face: plate_of,
             rest,
         })
     }
@@ -105,7 +105,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        let own = self.plate_of[face as usize];
+        let own = self.plate_of_face[face as usize];
         // Pairs with a face of a plate are reported for the other face.
         if own == NONE {
             let faces = &self.rest.faces;
@@ -114,7 +114,7 @@ impl<'a, 'm> Plates<'a, 'm> {
                 return false;
             }
         }
-        self.bounds.all_meeting(&region.bounds, |number| {
+        self.bounds.all_boxes_meeting(&region.bounds, |number| {
             if number == own {
                 return true;
             }
@@ -127,7 +127,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             let plate = &self.plates[number as usize];
             let group = plate
                 .group
-                .get_or_init(|| Group::new(self.manifold, plate.faces.clone()));
+                .get_or_init(|| FaceGroup::new(self.manifold, plate.faces.clone()));
             group.boxes.all_meeting(region, work, |other| {
                 let other = group.faces[other as usize];
                 // Pairs of faces of two plates are found twice.
@@ -164,7 +164,7 @@ impl<'a, 'm> Plates<'a, 'm> {
                 [Some(k), Some(l), None] => {
                     let start = if (k + 1) % 3 == l { k } else { l };
                     let twin = self.manifold.twin(3 * face + start as u32);
-                    self.plate_of[twin as usize / 3] == number
+                    self.plate_of_face[twin as usize / 3] == number
                 }
                 _ => false,
             }
@@ -173,7 +173,8 @@ impl<'a, 'm> Plates<'a, 'm> {
         // The bounds of no points meet no bounds.
         !Bounds::enclosing(level().map(|k| points[k])).meets(&plate.bounds)
             || level_corners.any(|rim_vertex| {
-                rim_vertex.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
+                rim_vertex
+                    .is_some_and(|p| beyond(p.previous_vertex, p.at) || beyond(p.at, p.next_vertex))
             })
     }
 }
@@ -198,7 +199,11 @@ impl Plate {
             .zip(starts().cycle().skip(1))
             .zip(starts().cycle().skip(2));
         let mut rim: Vec<RimVertex> = triples
-            .map(|((before, at), after)| RimVertex { at, before, after })
+            .map(|((before, at), after)| RimVertex {
+                at,
+                previous_vertex: before,
+                next_vertex: after,
+            })
             .collect();
         rim.sort_unstable_by_key(|rim_vertex| rim_vertex.at);
         Some(Plate {
@@ -220,7 +225,7 @@ impl Plate {
     }
 }
 
-impl Group {
+impl FaceGroup {
     /// Builds the search trees in O(n log n) in the number of faces.
     fn new(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
         let corners = faces.iter().map(|&f| manifold.faces()[f as usize]);
@@ -230,7 +235,7 @@ impl Group {
         let place = |v: u32| vertices.partition_point(|&w| w < v) as u32;
         let named: Vec<[u32; 3]> = corners.map(|corners| corners.map(place)).collect();
         let points: Vec<DVec3> = vertices.iter().map(|&v| manifold.point(v)).collect();
-        Group {
+        FaceGroup {
             boxes: TriangleBoxes::new(&points, &named),
             faces,
         }

@@ -41,7 +41,7 @@ fn meet_outside_shared_corners(offset: DVec3) -> bool {
 #[case::within_a_plane(dvec3(0.2, 0.2, 0.0), true)]
 #[case::in_one_plane_apart(dvec3(1.5, 1.5, 0.0), false)]
 #[case::almost_a_corner_on_a_face(dvec3(0.25, 0.25, 0.5 + 1e-16), false)]
-fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
+fn meeting_tetrahedra_are_found(#[case] offset: DVec3, #[case] expected: bool) {
     assert_eq!(meet_outside_shared_corners(offset), expected);
 }
 
@@ -123,7 +123,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let too_few = Work::with_steps(100);
     assert_eq!(
         check_solid(&manifold, &too_few),
-        Err(DecomposeError::TooLong)
+        Err(DecomposeError::WorkBudgetExceeded)
     );
     let work = Work::unbounded();
     assert_eq!(check_solid(&manifold, &work), Ok(()));

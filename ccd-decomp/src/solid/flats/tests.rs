@@ -50,7 +50,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
         area += (1..flat.corners.len() - 1)
             .map(|i| 0.5 * (at(i) - at(0)).cross(at(i + 1) - at(0)).length())
             .sum::<f64>();
-        assert!(flat.faces.iter().all(|&f| flats.of_face(f) == k));
+        assert!(flat.faces.iter().all(|&f| flats.polygon_of_face(f) == k));
     }
     assert_eq!(area, 2.0 * 8.0 + 12.0 + 4.0);
     // Four outer and four inner sides, and at least four polygons about the hole above and below.

@@ -1,6 +1,8 @@
 use super::*;
 use crate::solid::solid_surface;
-use crate::test_meshes::{block, cubes, merged_meshes, mesh, placed, reversed_faces, tetrahedron};
+use crate::test_meshes::{
+    block, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, tetrahedron,
+};
 
 fn error_message(mesh: &TriangleMesh) -> String {
     solid_surface(mesh)
@@ -36,7 +38,7 @@ fn edges_of_a_step_bend_both_ways() {
 
 #[test]
 fn a_mesh_that_is_inside_out_is_turned() {
-    let mesh = reversed_faces(&tetrahedron());
+    let mesh = mesh_with_reversed_faces(&tetrahedron());
     let manifold = solid_surface(&mesh).unwrap();
     assert!((0..12).all(|h| manifold.dihedral(h) == Dihedral::Convex));
 }

@@ -1,7 +1,9 @@
 use crate::solid::error::DecomposeError;
 use crate::solid::shells::shell_numbers;
 use crate::solid::solid_surface;
-use crate::test_meshes::{block, cubes, merged_meshes, placed, reversed_faces, tetrahedron};
+use crate::test_meshes::{
+    block, cubes, merged_meshes, mesh_with_reversed_faces, placed, tetrahedron,
+};
 use ccd_core::glam::{DVec3, dvec3};
 
 #[test]
@@ -18,19 +20,26 @@ fn parts_are_distinguished() {
 fn a_cavity_looks_inward() {
     let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
     let inner = placed(&cubes(&block([1, 1, 1])), 1.0, DVec3::ONE);
-    let hollow = merged_meshes(&[&outer, &reversed_faces(&inner)]);
+    let hollow = merged_meshes(&[&outer, &mesh_with_reversed_faces(&inner)]);
     assert!(solid_surface(&hollow).is_ok());
     // A solid within another is still solid.
     assert!(solid_surface(&merged_meshes(&[&outer, &inner])).is_ok());
     // A third solid in the cavity.
     let core = placed(&tetrahedron(), 0.5, dvec3(1.1, 1.1, 1.1));
-    assert!(solid_surface(&merged_meshes(&[&outer, &reversed_faces(&inner), &core])).is_ok());
+    assert!(
+        solid_surface(&merged_meshes(&[
+            &outer,
+            &mesh_with_reversed_faces(&inner),
+            &core
+        ]))
+        .is_ok()
+    );
 }
 
 #[test]
 fn a_part_that_is_inside_out_is_named() {
     let large = placed(&tetrahedron(), 5.0, DVec3::ZERO);
     let small = placed(&tetrahedron(), 1.0, dvec3(9.0, 0.0, 0.0));
-    let error = solid_surface(&merged_meshes(&[&large, &reversed_faces(&small)])).err();
+    let error = solid_surface(&merged_meshes(&[&large, &mesh_with_reversed_faces(&small)])).err();
     assert_eq!(error, Some(DecomposeError::InsideOut { face: 4 }));
 }

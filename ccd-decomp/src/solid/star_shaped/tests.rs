@@ -3,7 +3,8 @@ use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
-    block, cubes, merged_meshes, mesh, placed, reversed_faces, star, tetrahedron,
+    block, cubes, merged_meshes, mesh, mesh_with_reversed_faces, placed, star_bipyramid,
+    tetrahedron,
 };
 
 fn is_seen(mesh: &TriangleMesh) -> bool {
@@ -14,11 +15,11 @@ fn is_seen(mesh: &TriangleMesh) -> bool {
 fn convex_and_star_shaped_solids_are_recognised() {
     assert!(is_seen(&tetrahedron()));
     assert!(
-        is_seen(&reversed_faces(&tetrahedron())),
+        is_seen(&mesh_with_reversed_faces(&tetrahedron())),
         "turned by the manifold"
     );
     assert!(is_seen(&cubes(&block([3, 2, 1]))));
-    assert!(is_seen(&star(40, 0.5)));
+    assert!(is_seen(&star_bipyramid(40, 0.5)));
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Builds a tree by agglomeration: mutual best neighbours along a space-filling curve become siblings, pass by pass,
 //! until one node is left (`[PLOC18]`).
 
-use super::nodes::{Below, Cuboid, Node};
-use crate::tolerance::{ADJACENT_ONLY_PASSES, SEARCH_DISTANCE};
+use super::nodes::{AabbF32, Below, Node};
+use crate::tolerance::{ADJACENT_ONLY_PASSES, NEIGHBOUR_SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
 /// Builds a tree over leaves. The root comes first, then pairs of siblings, parents before children.
@@ -17,7 +17,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
     let mut tree = vec![first; 2 * leaves.len() - 1];
     // The tree is filled from its end.
     let mut free = tree.len();
-    let mut row = sorted_along_curve(leaves);
+    let mut row = sorted_along_morton_curve(leaves);
     for pass in 0.. {
         if row.len() == 1 {
             break;
@@ -25,7 +25,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
         let reach = if pass < ADJACENT_ONLY_PASSES {
             1
         } else {
-            SEARCH_DISTANCE
+            NEIGHBOUR_SEARCH_DISTANCE
         };
         let best = best_neighbours(&row, reach);
         let mut next = Vec::with_capacity(row.len());
@@ -52,7 +52,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
 fn best_neighbours(row: &[Node], reach: usize) -> Vec<usize> {
     let mut best = Vec::with_capacity(row.len());
     // The costs of pairing a node with later ones.
-    let mut prices = vec![[0.0; SEARCH_DISTANCE]; row.len()];
+    let mut prices = vec![[0.0; NEIGHBOUR_SEARCH_DISTANCE]; row.len()];
     for index in 0..row.len() {
         let (mut least, mut other) = (f32::INFINITY, index);
         for before in index.saturating_sub(reach)..index {
@@ -74,11 +74,11 @@ fn best_neighbours(row: &[Node], reach: usize) -> Vec<usize> {
 }
 
 /// Returns leaves sorted by the Morton codes of their box centres.
-fn sorted_along_curve(leaves: &[Node]) -> Vec<Node> {
+fn sorted_along_morton_curve(leaves: &[Node]) -> Vec<Node> {
     let all = leaves
         .iter()
-        .fold(Cuboid::EMPTY, |all, leaf| all.union(leaf.cuboid));
-    let code = |leaf: &Node| morton(all.relative_position(leaf.cuboid));
+        .fold(AabbF32::EMPTY, |all, leaf| all.union(leaf.cuboid));
+    let code = |leaf: &Node| morton_code(all.relative_position(leaf.cuboid));
     let mut order: Vec<(u64, u64)> = leaves.iter().map(code).zip(0..).collect();
     order.sort_unstable_by_key(|&(code, _)| code);
     order
@@ -88,7 +88,7 @@ fn sorted_along_curve(leaves: &[Node]) -> Vec<Node> {
 }
 
 /// Returns the Morton code of a point: the interleaved 21 leading bits of its coordinates in the unit interval.
-fn morton(point: DVec3) -> u64 {
+fn morton_code(point: DVec3) -> u64 {
     let cell = point * f64::from(1 << 21);
     spread_bits(cell.x as u32) | spread_bits(cell.y as u32) << 1 | spread_bits(cell.z as u32) << 2
 }

@@ -4,19 +4,19 @@ use ccd_core::glam::{DVec3, Vec3A};
 
 /// An axis-aligned box in f32.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cuboid {
+pub(super) struct AabbF32 {
     pub(super) lo: Vec3A,
     pub(super) hi: Vec3A,
 }
 
-impl Cuboid {
-    pub(super) const EMPTY: Cuboid = Cuboid {
+impl AabbF32 {
+    pub(super) const EMPTY: AabbF32 = AabbF32 {
         lo: Vec3A::MAX,
         hi: Vec3A::MIN,
     };
 
     pub(super) fn of_point(point: Vec3A) -> Self {
-        Cuboid {
+        AabbF32 {
             lo: point,
             hi: point,
         }
@@ -24,7 +24,7 @@ impl Cuboid {
 
     /// Returns the bounding box of two boxes.
     pub(super) fn union(self, other: Self) -> Self {
-        Cuboid {
+        AabbF32 {
             lo: self.lo.min(other.lo),
             hi: self.hi.max(other.hi),
         }
@@ -54,7 +54,7 @@ impl Cuboid {
 /// A node of the binary tree. The children of an inner node are adjacent, the first at an odd index.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    pub(super) cuboid: Cuboid,
+    pub(super) cuboid: AabbF32,
     pub(super) below: Below,
 }
 
@@ -67,7 +67,7 @@ pub(super) enum Below {
 }
 
 impl Node {
-    pub(super) fn leaf(piece: u32, cuboid: Cuboid) -> Self {
+    pub(super) fn leaf(piece: u32, cuboid: AabbF32) -> Self {
         Node {
             cuboid,
             below: Below::Piece(piece),

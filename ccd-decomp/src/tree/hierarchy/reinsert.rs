@@ -9,14 +9,14 @@ use rayon::prelude::*;
 const SUBTREES_PER_TASK: usize = 32;
 
 /// Improves a tree in several rounds. Each round has fewer nodes, nearer to the root.
-pub(super) fn reinsert(nodes: &mut [Node]) {
+pub(super) fn reinsert_subtrees(nodes: &mut [Node]) {
     if nodes.len() < 2 {
         return;
     }
     let mut tree = Tree::new(nodes);
     for share in (1..32).step_by(2).map(|n| 1.0 / n as f32) {
         let count = (tree.nodes.len() as f32 * REINSERTED_SHARE * share) as usize;
-        tree.reinsert_largest(count.clamp(1, tree.nodes.len() - 1));
+        tree.reinsert_largest_nodes(count.clamp(1, tree.nodes.len() - 1));
     }
 }
 
@@ -24,14 +24,14 @@ struct Tree<'a> {
     nodes: &'a mut [Node],
     parents: Vec<u32>,
     /// By node, whether it was changed in this round.
-    touched: Vec<bool>,
+    is_changed: Vec<bool>,
 }
 
 /// A possible move: the subtree, its new sibling, and the reduction of the total area.
 struct Reinsertion {
     from: u32,
     to: u32,
-    gain: f32,
+    area_reduction: f32,
 }
 
 impl<'a> Tree<'a> {
@@ -43,14 +43,14 @@ impl<'a> Tree<'a> {
             }
         }
         Tree {
-            touched: vec![false; nodes.len()],
+            is_changed: vec![false; nodes.len()],
             nodes,
             parents,
         }
     }
 
     /// Finds the best places for the `count` largest nodes, and makes the best moves that do not conflict.
-    fn reinsert_largest(&mut self, count: usize) {
+    fn reinsert_largest_nodes(&mut self, count: usize) {
         // The first nodes are near the root, and most of the largest are among them.
         let first = self.nodes.len().min(2 * (count + 1));
         let mut largest: Vec<(f32, u32)> =
@@ -66,14 +66,14 @@ impl<'a> Tree<'a> {
             .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
             .flatten_iter()
             .collect();
-        moves.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain));
-        self.touched.fill(false);
+        moves.sort_unstable_by(|a, b| b.area_reduction.total_cmp(&a.area_reduction));
+        self.is_changed.fill(false);
         for Reinsertion { from, to, .. } in moves {
             let [old, new] = [from, to].map(|node| self.parents[node as usize]);
             let changed = [to, from, sibling(from), new, old].map(|node| node as usize);
-            if !changed.iter().any(|&node| self.touched[node]) {
+            if !changed.iter().any(|&node| self.is_changed[node]) {
                 for node in changed {
-                    self.touched[node] = true;
+                    self.is_changed[node] = true;
                 }
                 self.apply(from, to);
             }
@@ -89,7 +89,7 @@ impl<'a> Tree<'a> {
         let mut best = Reinsertion {
             from,
             to: 0,
-            gain: 0.0,
+            area_reduction: 0.0,
         };
         // The boxes above the old place shrink.
         let mut gain = self.half_area(parent);
@@ -98,15 +98,15 @@ impl<'a> Tree<'a> {
         loop {
             stack.push((gain, beside));
             while let Some((gain, node)) = stack.pop() {
-                if gain - area <= best.gain {
+                if gain - area <= best.area_reduction {
                     continue;
                 }
                 let Node { cuboid: old, below } = self.nodes[node as usize];
                 let gain = gain - old.union(cuboid).half_area();
-                if gain > best.gain {
+                if gain > best.area_reduction {
                     best = Reinsertion {
                         to: node,
-                        gain,
+                        area_reduction: gain,
                         ..best
                     };
                 }
@@ -125,7 +125,7 @@ impl<'a> Tree<'a> {
             beside = sibling(pivot);
             pivot = self.parents[pivot as usize];
         }
-        (best.gain > 0.0).then_some(best)
+        (best.area_reduction > 0.0).then_some(best)
     }
 
     /// Makes a subtree the sibling of the node `to`. Its old sibling replaces its old parent.

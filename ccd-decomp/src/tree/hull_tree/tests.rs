@@ -87,7 +87,7 @@ fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     }
 }
 
-fn exactly_inside(hull: &ccd_core::Piece<'_>, point: DVec3) -> bool {
+fn is_exactly_inside(hull: &ccd_core::Piece<'_>, point: DVec3) -> bool {
     hull.facets.iter().all(|corners| {
         let corners: Vec<DVec3> = corners.iter().map(|&v| hull.points[v as usize]).collect();
         let fan = (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]);
@@ -107,7 +107,7 @@ proptest! {
             let hull = tree.hulls().get(at);
             for leaf in leaves(&tree, at) {
                 for &point in tree.hulls().get(leaf).points {
-                    prop_assert!(exactly_inside(&hull, point));
+                    prop_assert!(is_exactly_inside(&hull, point));
                     // A facet of a hull with volume may be so thin that rounding turns its normal; a
                     // plate's edges bound it as well, which planes alone do not show.
                     let has_volume = hull.facets.len() > 2;

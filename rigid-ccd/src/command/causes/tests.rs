@@ -10,9 +10,12 @@ fn every_cause_is_reported_once() {
     assert!(!words.contains("os error"), "{words}");
     let place = "out.csv".to_owned();
     let error = anyhow::Error::from(CannotWrite { place, source });
-    assert_eq!(message(&error), format!("cannot write out.csv: {words}"));
+    assert_eq!(
+        message_with_causes(&error),
+        format!("cannot write out.csv: {words}")
+    );
     let error = Err::<(), _>(anyhow!("inner")).context("outer").unwrap_err();
-    assert_eq!(message(&error), "outer: inner");
+    assert_eq!(message_with_causes(&error), "outer: inner");
 }
 
 #[test]

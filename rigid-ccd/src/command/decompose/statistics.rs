@@ -1,6 +1,6 @@
 //! Statistics that `ccd decompose` prints about a mesh and its pieces.
 
-use crate::text::Printable;
+use crate::text::PrintableText;
 use ccd_core::{Body, Volume};
 use ccd_decomp::{Model, Unit};
 use indicatif::HumanCount;
@@ -68,7 +68,7 @@ impl fmt::Display for Statistics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &str| match value {
             "" => Ok(()),
-            value => writeln!(f, "{name:<14}{}", Printable(value)),
+            value => writeln!(f, "{name:<14}{}", PrintableText(value)),
         };
         let triangles = count(self.triangles);
         line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;

@@ -2,8 +2,8 @@
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
 use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
-use crate::command::named::{INSTRUCTIONS, SHORTCUTS, STARTS, named_value_parser};
-use crate::command::numbers::{not_negative, seconds, tolerance};
+use crate::command::named::{INSTRUCTIONS, SHORTCUTS, START_POLICIES, named_value_parser};
+use crate::command::numbers::{not_negative, parse_seconds, tolerance};
 use crate::command::pair::BodiesArgs;
 use crate::table::results::{self, Column};
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
@@ -47,7 +47,7 @@ pub(in crate::command) struct QueryArgs {
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
     pub(super) margin: f64,
     /// How to treat bodies in contact at the start
-    #[arg(long, value_parser = named_value_parser(STARTS), default_value = "report")]
+    #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
     pub(super) start: StartPolicy,
     /// Leave a query unresolved after N units of work (pairs of nodes visited, and work of equal
     /// cost), of a path after N between two poses; a million takes about a second
@@ -55,7 +55,7 @@ pub(in crate::command) struct QueryArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) budget: u64,
     /// Leave a query unresolved after this time, in seconds [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
     pub(super) deadline: Option<Duration>,
     /// Number of threads; it changes no answer, and 1 gives the most accurate `micros` [default: all
     /// cores]
@@ -113,7 +113,9 @@ pub(in crate::command) struct QueryArgs {
 impl QueryArgs {
     /// Returns the columns of the table of results that these options ask for.
     pub(super) fn columns(&self) -> Vec<Column> {
-        let counters = results::COUNTERS.into_iter().filter(|_| self.counters);
+        let counters = results::COUNTER_COLUMNS
+            .into_iter()
+            .filter(|_| self.counters);
         results::columns(self.ask)
             .into_iter()
             .chain(counters)
@@ -125,7 +127,7 @@ impl QueryArgs {
         let all = QueryArgs::augment_args(Command::new("query"));
         let options = all.get_arguments().filter(|option| {
             let id = option.get_id().as_str();
-            !NOT_RECORDED.contains(&id)
+            !UNRECORDED_OPTIONS.contains(&id)
         });
         let recorded = options.map(|option| {
             let values = given.get_raw(option.get_id().as_str());
@@ -152,7 +154,7 @@ impl QueryArgs {
 
 /// The options that the journal does not record: those that change no byte of the tables, the motions, of which the
 /// journal has the checksum, and `--rows`, which has several forms.
-const NOT_RECORDED: [&str; 10] = [
+const UNRECORDED_OPTIONS: [&str; 10] = [
     "motions",
     "threads",
     "instructions",

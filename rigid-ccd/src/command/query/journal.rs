@@ -3,7 +3,7 @@
 //! The file is next to the tables. Each checkpoint ends with the checksum of all before it. The file stays when the run
 //! has finished, so that the same command with `--resume` finds nothing left to do.
 
-use crate::command::counts::Counts;
+use crate::command::counts::StatusCounts;
 use crate::command::output::CannotWrite;
 use crate::command::table::WrittenSize;
 use crc32fast::Hasher;
@@ -23,7 +23,7 @@ pub(super) struct Checkpoint {
     /// The number of finished rows without a complete answer.
     pub(super) bad: usize,
     /// The number of finished rows with each status.
-    pub(super) counts: Counts,
+    pub(super) counts: StatusCounts,
     /// The length and checksum of the table of results, set when it is flushed.
     pub(super) results: WrittenSize,
     /// The length and checksum of the table of contacts, set when it is flushed.
@@ -49,7 +49,7 @@ pub(super) struct Journal {
 }
 
 /// The line between the options and the checkpoints in the journal.
-const CHECKPOINTS: &str = "\nmarks:\n";
+const CHECKPOINTS_HEADING: &str = "\nmarks:\n";
 
 impl RecordedOptions {
     /// Returns the options as text with one line each; line ends within values are escaped.
@@ -62,7 +62,7 @@ impl RecordedOptions {
     }
 
     /// Describes the options that differ from those in `before`; `None` if all are the same.
-    fn changes(&self, before: &str) -> Option<String> {
+    fn describe_changes(&self, before: &str) -> Option<String> {
         let now = self.to_text();
         if before == now {
             return None;
@@ -94,7 +94,7 @@ impl Journal {
         recorded: &RecordedOptions,
         from: Option<&Checkpoint>,
     ) -> Result<Self, CannotWrite> {
-        let mut text = format!("{}{CHECKPOINTS}", recorded.to_text());
+        let mut text = format!("{}{CHECKPOINTS_HEADING}", recorded.to_text());
         let mut sum = Hasher::new();
         sum.update(text.as_bytes());
         let mut open = || {
@@ -135,36 +135,36 @@ pub(super) struct EarlierRun {
 }
 
 /// The error of a journal that is missing or damaged.
-pub(super) struct JournalLost;
+pub(super) struct JournalError;
 
 impl EarlierRun {
     /// Reads the journal of an earlier run; `None` for a run that ended before its first checkpoint.
     ///
     /// # Errors
-    /// [`JournalLost`] when the journal is missing or damaged.
-    pub(super) fn read(journal: &Path) -> Result<Option<Self>, JournalLost> {
-        let text = fs::read_to_string(journal).map_err(|_| JournalLost)?;
-        let (options, checkpoints) = text.split_once(CHECKPOINTS).ok_or(JournalLost)?;
+    /// [`JournalError`] when the journal is missing or damaged.
+    pub(super) fn read(journal: &Path) -> Result<Option<Self>, JournalError> {
+        let text = fs::read_to_string(journal).map_err(|_| JournalError)?;
+        let (options, checkpoints) = text.split_once(CHECKPOINTS_HEADING).ok_or(JournalError)?;
         // A line without a line end may be incomplete.
         let Some((checkpoints, incomplete)) = checkpoints.rsplit_once('\n') else {
             return Ok(None);
         };
         let complete = &text[..text.len() - incomplete.len() - 1];
-        let (before, sum) = complete.rsplit_once(' ').ok_or(JournalLost)?;
+        let (before, sum) = complete.rsplit_once(' ').ok_or(JournalError)?;
         if format!("{:08x}", crc32fast::hash(before.as_bytes())) != sum {
-            return Err(JournalLost);
+            return Err(JournalError);
         }
         let last = checkpoints.lines().next_back().unwrap_or_default();
         let checkpoint = last.strip_suffix(sum).unwrap_or_default();
         Ok(Some(EarlierRun {
             options: options.to_owned(),
-            checkpoint: serde_json::from_str(checkpoint).map_err(|_| JournalLost)?,
+            checkpoint: serde_json::from_str(checkpoint).map_err(|_| JournalError)?,
         }))
     }
 
     /// Describes the options that differ from those of the earlier run.
     pub(super) fn changes(&self, recorded: &RecordedOptions) -> Option<String> {
-        recorded.changes(&self.options)
+        recorded.describe_changes(&self.options)
     }
 }
 

@@ -4,7 +4,7 @@
 //! a half-written one for instance, are dropped when a run continues.
 
 use super::args::QueryArgs;
-use super::journal::{Checkpoint, EarlierRun, Journal, JournalLost, RecordedOptions};
+use super::journal::{Checkpoint, EarlierRun, Journal, JournalError, RecordedOptions};
 use crate::command::output::{CannotWrite, JOURNAL_EXTENSION, Output};
 use crate::command::table::{Table, WrittenSize, measure};
 use crate::table::contacts;
@@ -67,20 +67,20 @@ impl OpenedTables {
         let journal = results.sibling(JOURNAL_EXTENSION);
         let earlier = match EarlierRun::read(&journal) {
             Ok(earlier) => earlier,
-            Err(JournalLost) if results.left() > 0 => bail!(
+            Err(JournalError) if results.left() > 0 => bail!(
                 "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
                  first to start over",
                 results.partial().display(),
                 journal.display()
             ),
-            Err(JournalLost) => None,
+            Err(JournalError) => None,
         };
         let mut places = places;
         if args.resume
             && let Some(finished) = &earlier
             && finished.checkpoint.finished
         {
-            if places.rename_finished(finished, recorded)? {
+            if places.rename_finished_tables(finished, recorded)? {
                 return Ok(OpenedTables::Finished(finished.checkpoint));
             }
             places = ClaimedFiles::claim(args)?;
@@ -127,22 +127,22 @@ impl ClaimedFiles {
     }
 
     /// Renames the tables of a finished run that still have a temporary name. Returns whether all of them exist.
-    fn rename_finished(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
+    fn rename_finished_tables(self, run: &EarlierRun, recorded: &RecordedOptions) -> Result<bool> {
         let Checkpoint {
             results, contacts, ..
         } = run.checkpoint;
-        if !rename_complete(self.results, results)? {
+        if !rename_complete_table(self.results, results)? {
             return Ok(false);
         }
         check_options(run, recorded, "finished", "omit --resume to start over")?;
         self.contacts
-            .map_or(Ok(true), |table| rename_complete(table, contacts))
+            .map_or(Ok(true), |table| rename_complete_table(table, contacts))
     }
 }
 
 /// Renames a complete table from its temporary to its final name, unless it already has it. Returns whether the table
 /// is there.
-fn rename_complete(table: Output, written: WrittenSize) -> Result<bool> {
+fn rename_complete_table(table: Output, written: WrittenSize) -> Result<bool> {
     let Output::File(mut claim, _) = table else {
         return Ok(true);
     };

@@ -3,7 +3,7 @@
 use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::summary::Summary;
-use super::{exit, print_summary};
+use super::{print_summary, run_outcome};
 use crate::command::files::{Rows, input_name};
 use crate::command::{Exit, print_error};
 use anyhow::{Context, Result, bail};
@@ -74,7 +74,10 @@ pub(super) fn report_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint
         print_error(&format!(
             "--resume: {out} already has all rows of this query; it is unchanged"
         ));
-        print_summary(args, &Summary::new(args.tolerance).with_earlier(end.counts));
+        print_summary(
+            args,
+            &Summary::new(args.tolerance).with_earlier_counts(end.counts),
+        );
     }
-    Ok(exit(args, end))
+    Ok(run_outcome(args, end))
 }

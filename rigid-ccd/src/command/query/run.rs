@@ -4,7 +4,7 @@ use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
-use crate::batch::{TimedAnswer, Timing};
+use crate::batch::{TimedAnswer, TimedQuestion};
 use crate::command::answering::{AnsweredRow, Batch, BatchRun};
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
@@ -16,7 +16,7 @@ use crate::table::results::Line;
 use anyhow::{Context, Result};
 
 /// The state of `ccd query` while it answers rows.
-pub(super) struct Run<'a> {
+pub(super) struct QueryRun<'a> {
     pub(super) args: &'a QueryArgs,
     pub(super) answering: BatchRun<'a>,
     pub(super) outputs: Outputs,
@@ -25,9 +25,9 @@ pub(super) struct Run<'a> {
     pub(super) summary: Summary,
 }
 
-impl Run<'_> {
+impl QueryRun<'_> {
     /// Answers the selected rows from `start` on, and returns the last checkpoint.
-    pub(super) fn answer_all(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
+    pub(super) fn answer_rows(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
         self.answering.progress.answering(0, rows.bytes());
         loop {
@@ -89,19 +89,19 @@ impl Run<'_> {
         };
         let BatchRun {
             bodies,
-            timing,
+            timed_question: timing,
             solver,
             bad_rows,
             progress,
             ..
         } = &mut self.answering;
         let (bodies, columns) = (*bodies, contacts::columns());
-        let Timing {
+        let TimedQuestion {
             question, settings, ..
         } = timing;
         let question = *question;
         // A row may have very many contacts.
-        for few in answered.chunks(ROWS_OF_CONTACTS) {
+        for few in answered.chunks(CONTACT_BATCH_ROWS) {
             let all = solver.map(few, |_, (_, course, timed)| {
                 contacts::rows(bodies, course, settings, (question, &timed.answer))
             });
@@ -124,4 +124,4 @@ impl Run<'_> {
 }
 
 /// The number of rows whose contacts are in memory at the same time.
-const ROWS_OF_CONTACTS: usize = 64;
+const CONTACT_BATCH_ROWS: usize = 64;

@@ -5,7 +5,7 @@ mod tests;
 
 use super::limits::LIMITS;
 use crate::batch::TimedAnswer;
-use crate::command::counts::Counts;
+use crate::command::counts::StatusCounts;
 use crate::table::results::Status;
 use ccd_core::order::greater;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Summary {
     /// The number of rows of each status, including those of an earlier run.
-    pub(super) counts: Counts,
+    pub(super) counts: StatusCounts,
     /// The number of rows that an earlier run answered; only their status is known.
     earlier: usize,
     times: TimeHistogram,
@@ -32,7 +32,7 @@ pub(super) struct Summary {
     /// The number of queries that each of the [`LIMITS`] ended.
     limits: [usize; LIMITS.len()],
     /// The number of answers with a larger tolerance than the given one, because of rounding.
-    pub(super) raised_tolerances: usize,
+    pub(super) raised_tolerance_count: usize,
     /// The largest tolerance of any answer, in the scene's unit of length.
     pub(super) largest_tolerance: f64,
 }
@@ -48,7 +48,7 @@ impl Summary {
     }
 
     /// Adds the counts of the rows that an earlier run answered.
-    pub(super) fn with_earlier(self, counts: Counts) -> Self {
+    pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
             earlier: counts.rows(),
@@ -67,7 +67,7 @@ impl Summary {
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
         self.oracle_steps += answer.stats.effort.steps;
-        self.raised_tolerances += usize::from(answer.tolerance > self.tolerance);
+        self.raised_tolerance_count += usize::from(answer.tolerance > self.tolerance);
         self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
         self.times.add(timed.micros);
     }
@@ -129,11 +129,11 @@ impl TimeHistogram {
     }
 
     fn median(&self) -> f64 {
-        0.5 * (self.nth(self.count.saturating_sub(1) / 2) + self.nth(self.count / 2))
+        0.5 * (self.nth_time(self.count.saturating_sub(1) / 2) + self.nth_time(self.count / 2))
     }
 
     /// Returns the time at an index in ascending order of times.
-    fn nth(&self, index: u64) -> f64 {
+    fn nth_time(&self, index: u64) -> f64 {
         let mut passed = 0;
         for (&bits, &count) in &self.counts {
             passed += count;
@@ -147,7 +147,7 @@ impl TimeHistogram {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (rows, counts) = (self.counts.rows(), self.counts.nonzero());
+        let (rows, counts) = (self.counts.rows(), self.counts.nonzero_counts());
         let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
         let counts: Vec<String> = counts.collect();
         let plural = if rows == 1 { "" } else { "s" };
@@ -177,12 +177,12 @@ impl fmt::Display for Summary {
                 write!(f, "\n{count} unresolved: {advice}")?;
             }
         }
-        if self.raised_tolerances > 0 {
+        if self.raised_tolerance_count > 0 {
             write!(
                 f,
                 "\n--tolerance {:e} cannot be certified at these coordinates: raised for {} rows, to \
                  at most {:.2e}",
-                self.tolerance, self.raised_tolerances, self.largest_tolerance
+                self.tolerance, self.raised_tolerance_count, self.largest_tolerance
             )?;
         }
         Ok(())

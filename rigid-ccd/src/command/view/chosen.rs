@@ -6,7 +6,7 @@ use crate::table::results::{ResultRow, Status};
 /// The maximum number of rows of each status on a page, if no ids are given.
 const MAX_ROWS_PER_STATUS: usize = 4;
 /// The maximum number of rows on a page in total.
-const MOST_ROWS: usize = 100;
+const MAX_ROWS: usize = 100;
 
 /// The rows chosen for a page so far, and the rule by which they are chosen.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl ChosenRows {
 
     /// Returns whether the page can take no further row.
     pub(super) fn is_full(&self) -> bool {
-        self.rows.len() >= MOST_ROWS || (!self.ids.is_empty() && self.missing().next().is_none())
+        self.rows.len() >= MAX_ROWS || (!self.ids.is_empty() && self.missing().next().is_none())
     }
 
     /// Returns the given ids that no row of the table had.
@@ -89,7 +89,7 @@ impl ChosenRows {
     }
 
     /// Returns whether all chosen rows could be drawn.
-    pub(super) fn is_complete(&self) -> bool {
+    pub(super) fn are_all_rows_drawable(&self) -> bool {
         self.omitted_count == 0
     }
 

@@ -17,7 +17,7 @@ use std::num::NonZeroUsize;
 
 /// Returns the poses of all bodies at a time, where some of the bodies have stopped.
 fn poses(scene: &Scene<'_>, stops: &[Stop], time: f64) -> Vec<Pose> {
-    let pose = |(member, stop): (&super::super::Member<'_>, &Stop)| {
+    let pose = |(member, stop): (&super::super::SceneBody<'_>, &Stop)| {
         member.movement.pose(lesser(time, stop.time)).unwrap()
     };
     scene.members.iter().zip(stops).map(pose).collect()

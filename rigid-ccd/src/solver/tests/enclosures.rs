@@ -1,6 +1,6 @@
 //! Tests bodies that exceed their shapes: bounds of distances hold for the shapes.
 
-use super::thrown;
+use super::ballistic_trajectory;
 use crate::{Body, Motion, Pose, Settings, Solver};
 use ccd_core::Clearance;
 use ccd_core::Outcome;
@@ -50,7 +50,7 @@ impl Pair {
     }
 
     /// Returns the least distance for motions, along an equal trajectory, and at rest where it is least.
-    fn closest(&self, solver: &mut Solver) -> [Answer; 3] {
+    fn least_distances(&self, solver: &mut Solver) -> [Answer; 3] {
         let [passes, stands] = self.motions();
         let (a, b) = (&self.body, &self.body);
         let rotation = self.places[0].rotation();
@@ -77,7 +77,7 @@ fn bounds_hold_the_distance_of_cylinders() {
     for number in 0..60 {
         let pair = Pair::new(number);
         let excess = 2.0 * pair.body.excess();
-        for answer in pair.closest(&mut solver) {
+        for answer in pair.least_distances(&mut solver) {
             let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
             assert!(
                 lower <= pair.least + 1e-12 && pair.least <= upper,
@@ -97,7 +97,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
     for number in 0..60 {
         let pair = Pair::new(number);
         // The polygons may be nearest before or after the axes are.
-        let bodies = pair.closest(&mut Solver::new())[0].outcome.lower();
+        let bodies = pair.least_distances(&mut Solver::new())[0].outcome.lower();
         let most = pair.least + 2.0 * pair.body.excess();
         for (required, expected) in [
             (bodies - 1e-3, Some(Clearance::Kept)),
@@ -111,7 +111,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
                 clearance: Some(required),
                 ..Settings::DEFAULT
             });
-            for answer in pair.closest(&mut solver) {
+            for answer in pair.least_distances(&mut solver) {
                 let found = answer.outcome.clearance(required);
                 let is_right = match expected {
                     Some(expected) => found == expected,
@@ -155,7 +155,7 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
         let still = solver.distance((a, beside), (b, Pose::IDENTITY)).unwrap();
         let leaves = Motion::new(beside, [1.0, 0.0, 0.0], [0.0; 3]).unwrap();
         let moving = solver.closest_approach((a, leaves), (b, Motion::STILL), 1.0);
-        let thrown = thrown(
+        let thrown = ballistic_trajectory(
             [beside.translation().x, 0.0, 0.0],
             [1.0, 0.0, 0.0],
             [1.0; 3],

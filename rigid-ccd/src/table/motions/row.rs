@@ -2,8 +2,10 @@
 
 use super::Motions;
 #[cfg(feature = "command")]
-use crate::table::columns::BODY_COLUMN;
-use crate::table::columns::{Columns, DURATION_COLUMN, ID_COLUMN, Quantity, Side, TIME_COLUMN};
+use crate::table::columns::BODY_COLUMN_INDEX;
+use crate::table::columns::{
+    Columns, DURATION_COLUMN_INDEX, ID_COLUMN, Quantity, Side, TIME_COLUMN,
+};
 use crate::table::error::RowProblem;
 use crate::table::records::Record;
 use ccd_core::glam::{DQuat, DVec3};
@@ -21,7 +23,7 @@ pub fn query<R: Record>(
 ) -> Result<Motions, RowProblem> {
     let row = Row::new(columns, record)?;
     // Normalise a negative zero.
-    let duration = row.number(DURATION_COLUMN)?.unwrap_or(1.0) + 0.0;
+    let duration = row.number(DURATION_COLUMN_INDEX)?.unwrap_or(1.0) + 0.0;
     if duration < 0.0 {
         return Err(RowProblem::BadDuration {
             value: duration,
@@ -66,7 +68,7 @@ pub(crate) fn body<R: Record>(
     let motion = row.motion(Side::A, duration)?;
     columns.remark_collector().note_motion(&motion, duration);
     let text = columns
-        .index(BODY_COLUMN)
+        .index(BODY_COLUMN_INDEX)
         .and_then(|cell| record.text(cell));
     Ok(BodyRow {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
@@ -144,7 +146,9 @@ impl<'a, R: Record> Row<'a, R> {
     fn body_pose(&self, side: Side) -> Result<BodyPose, RowProblem> {
         Ok(BodyPose {
             pose: self.start(side)?,
-            spin: self.vector(side, Quantity::Spin)?.unwrap_or_default(),
+            spin: self
+                .vector(side, Quantity::AngularVelocity)?
+                .unwrap_or_default(),
             centre: self.vector(side, Quantity::Centre)?.unwrap_or_default(),
         })
     }
@@ -155,7 +159,9 @@ impl<'a, R: Record> Row<'a, R> {
         match self.motion_kind(side)? {
             MotionKind::Velocities => {
                 let velocity = self.vector(side, Quantity::Velocity)?.unwrap_or_default();
-                let spin = self.vector(side, Quantity::Spin)?.unwrap_or_default();
+                let spin = self
+                    .vector(side, Quantity::AngularVelocity)?
+                    .unwrap_or_default();
                 Ok(Motion::about(start, velocity, spin, centre)?)
             }
             MotionKind::EndPose => {
@@ -173,7 +179,7 @@ impl<'a, R: Record> Row<'a, R> {
     /// Returns the way in which the row gives the motion of a body; the cells of the other way must be empty.
     fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
-        let velocities = [Quantity::Velocity, Quantity::Spin];
+        let velocities = [Quantity::Velocity, Quantity::AngularVelocity];
         let is_given = |cell| self.record.is_given(cell);
         match (
             self.column_where(side, end, is_given),

@@ -1,7 +1,7 @@
 //! Writes the table of motions as CSV.
 
 use super::Motions;
-use crate::table::columns::{DURATION_COLUMN, Form, ID_COLUMN, Quantity, Side};
+use crate::table::columns::{DURATION_COLUMN_INDEX, Form, ID_COLUMN, Quantity, Side};
 use ccd_core::Motion;
 use std::io;
 
@@ -45,7 +45,7 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
 fn cells(query: &Motions) -> Vec<String> {
     let mut cells = vec![String::new(); Form::Motions.names().len()];
     cells[ID_COLUMN].clone_from(&query.id);
-    cells[DURATION_COLUMN] = query.duration.to_string();
+    cells[DURATION_COLUMN_INDEX] = query.duration.to_string();
     for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
         let rotation = motion.start().rotation();
         let mut put = |quantity, values: &[f64]| {
@@ -57,7 +57,7 @@ fn cells(query: &Motions) -> Vec<String> {
         let wxyz = [rotation.w, rotation.x, rotation.y, rotation.z];
         put(Quantity::Orientation, &wxyz);
         put(Quantity::Velocity, &motion.velocity().to_array());
-        put(Quantity::Spin, &motion.spin().to_array());
+        put(Quantity::AngularVelocity, &motion.spin().to_array());
         put(Quantity::Centre, &motion.centre().to_array());
     }
     cells

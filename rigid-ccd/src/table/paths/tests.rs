@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 
 fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
     let rows = Courses::new(text.as_bytes(), grouping).expect("a header that can be used");
-    assert!(rows.are_of_paths());
+    assert!(rows.is_path_table());
     rows.map(|row| row.expect("a table that can be read"))
         .collect()
 }
@@ -66,7 +66,12 @@ fn each_row_may_be_a_pose_at_rest() {
         .map(|row| match row {
             Ok((position, Movements::Path(path))) => {
                 let x = path.poses(0.0).unwrap()[0].translation().x;
-                (position.row, path.id.clone(), path.earliest(0.0), x)
+                (
+                    position.row,
+                    path.id.clone(),
+                    path.table_time_rounded_down(0.0),
+                    x,
+                )
             }
             other => panic!("no pose: {other:?}"),
         })
@@ -81,11 +86,26 @@ fn times_may_begin_anywhere() {
     let read = paths("t,a_px\n1e9,0\n1000000000.5,1\n");
     let path = &read[0];
     assert_eq!((path.start, path.duration), (1e9, 0.5));
-    assert_eq!((path.earliest(0.0), path.earliest(0.5)), (1e9, 1e9 + 0.5));
-    let (early, late) = (path.earliest(0.25), path.latest(0.25));
+    assert_eq!(
+        (
+            path.table_time_rounded_down(0.0),
+            path.table_time_rounded_down(0.5)
+        ),
+        (1e9, 1e9 + 0.5)
+    );
+    let (early, late) = (
+        path.table_time_rounded_down(0.25),
+        path.table_time_rounded_up(0.25),
+    );
     assert!(early < 1e9 + 0.25 && late > 1e9 + 0.25 && late - early < 1e-5);
     let from_zero = &paths("t\n0\n1\n")[0];
-    assert_eq!((from_zero.earliest(0.1), from_zero.latest(0.1)), (0.1, 0.1));
+    assert_eq!(
+        (
+            from_zero.table_time_rounded_down(0.1),
+            from_zero.table_time_rounded_up(0.1)
+        ),
+        (0.1, 0.1)
+    );
 }
 
 #[test]

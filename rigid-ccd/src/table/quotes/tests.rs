@@ -1,7 +1,7 @@
 use super::*;
 
 /// Returns the line of an unclosed quote in a text, read in chunks of `size` bytes.
-fn unclosed_line(text: impl AsRef<[u8]>, size: usize) -> Option<u64> {
+fn unclosed_quote_line(text: impl AsRef<[u8]>, size: usize) -> Option<u64> {
     let mut quotes = QuoteTracker::new(text.as_ref());
     let mut piece = vec![0; size];
     while quotes.read(&mut piece).unwrap() > 0 {}
@@ -25,7 +25,7 @@ fn only_unclosed_quotes_are_reported() {
         ("\"x\ny\",\"b\"\"\n\n", Some(2)),
     ] {
         for size in [1, 2, 64] {
-            assert_eq!(unclosed_line(text, size), expected, "{text:?}");
+            assert_eq!(unclosed_quote_line(text, size), expected, "{text:?}");
         }
     }
 }
@@ -33,9 +33,9 @@ fn only_unclosed_quotes_are_reported() {
 #[test]
 fn quotes_after_pieces_without_quotes_are_followed() {
     let rows = "1,2,3\n".repeat(40);
-    assert_eq!(unclosed_line(format!("{rows}\"x\n"), 64), Some(41));
+    assert_eq!(unclosed_quote_line(format!("{rows}\"x\n"), 64), Some(41));
     // The first piece ends after a separator, or within a cell.
     let cells = "1,".repeat(31);
-    assert_eq!(unclosed_line(format!("{cells}1,\"x"), 64), Some(1));
-    assert_eq!(unclosed_line(format!("{cells}11\"x"), 64), None);
+    assert_eq!(unclosed_quote_line(format!("{cells}1,\"x"), 64), Some(1));
+    assert_eq!(unclosed_quote_line(format!("{cells}11\"x"), 64), None);
 }

@@ -45,10 +45,10 @@ pub const COLUMNS: [Column; 20] = [
 ];
 
 /// The column of the end of a contact interval.
-const LAST_TIME: Column = Column("last_time", Number(|row| row.last_time));
+const LAST_TIME_COLUMN: Column = Column("last_time", Number(|row| row.last_time));
 
 /// The columns of the counters, in order; they follow all other columns.
-pub const COUNTERS: [Column; 5] = [
+pub const COUNTER_COLUMNS: [Column; 5] = [
     Column(
         "advancements",
         Count(|row| Some(row.counters?.advancements)),
@@ -67,14 +67,14 @@ pub const COUNTERS: [Column; 5] = [
 
 /// Returns the columns of the answers to a question, without counters.
 pub fn columns(question: Question) -> Vec<Column> {
-    let last_time = (question == Question::ContactInterval).then_some(LAST_TIME);
+    let last_time = (question == Question::ContactInterval).then_some(LAST_TIME_COLUMN);
     COLUMNS.into_iter().chain(last_time).collect()
 }
 
 /// Returns the columns of other tables with rows of results: those that are not `left_out`, with `first` before the
 /// others.
 #[cfg(feature = "command")]
-pub(crate) fn columns_of(first: &[&str], left_out: &[&str]) -> Vec<Column> {
+pub(crate) fn reordered_columns(first: &[&str], left_out: &[&str]) -> Vec<Column> {
     let named = |name: &&str| COLUMNS.into_iter().find(|column| column.0 == *name);
     let is_other = |Column(name, _): &Column| !first.contains(name) && !left_out.contains(name);
     let others = COLUMNS.into_iter().filter(is_other);

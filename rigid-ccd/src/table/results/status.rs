@@ -63,7 +63,7 @@ impl Status {
     }
 
     /// Returns whether the status proves that the bodies keep the required distance.
-    pub fn is_proof(self) -> bool {
+    pub fn proves_distance_kept(self) -> bool {
         matches!(self, Status::Free | Status::Kept)
     }
 

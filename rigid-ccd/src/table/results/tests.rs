@@ -61,15 +61,15 @@ fn cells_of(asked: (Question, Outcome), clearance: Option<f64>) -> Vec<(&'static
         clearance,
         excess: 0.0,
     };
-    cells_compared(asked, compared)
+    cells_with_comparison(asked, compared)
 }
 
-fn cells_compared(
+fn cells_with_comparison(
     (question, outcome): (Question, Outcome),
     compared: ClearanceComparison,
 ) -> Vec<(&'static str, String)> {
     let row = ResultRow::new(&course(2.5), (question, &answer(outcome)), 12.75, compared);
-    let columns = with_counters(question);
+    let columns = columns_with_counters(question);
     let text = table(&columns, &row);
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let names = names(&columns);
@@ -90,8 +90,11 @@ fn cell(row: &[(&str, String)], column: &str) -> String {
         .clone()
 }
 
-fn with_counters(question: Question) -> Vec<Column> {
-    columns(question).into_iter().chain(COUNTERS).collect()
+fn columns_with_counters(question: Question) -> Vec<Column> {
+    columns(question)
+        .into_iter()
+        .chain(COUNTER_COLUMNS)
+        .collect()
 }
 
 #[test]
@@ -171,7 +174,7 @@ fn an_error_row_has_only_its_reason() {
         value: "x".into(),
     };
     let row = ResultRow::error("bad", &problem);
-    let text = table(&with_counters(Question::FirstContact), &row);
+    let text = table(&columns_with_counters(Question::FirstContact), &row);
     let cells = text.lines().nth(1).unwrap();
     let reason = "column a_px: `x` is not a finite number";
     assert_eq!(cells, format!("bad,error{},{reason},,,,,", ",".repeat(17)));
@@ -199,7 +202,7 @@ fn counters_follow_the_other_columns() {
         ClearanceComparison::default(),
     );
     let plain = table(&COLUMNS, &row);
-    let counted = table(&with_counters(Question::FirstContact), &row);
+    let counted = table(&columns_with_counters(Question::FirstContact), &row);
     for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
         "advancements,oracle_steps,cycles,fallbacks,front",
         "12,13,14,15,11",
@@ -218,7 +221,7 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
     let [status, time, last] = ["status", "time", "last_time"].map(|name| cell(&row, name));
     assert_eq!([&*status, &*time, &*last], ["contact", "0.5", "2.0"]);
     assert_eq!(row[COLUMNS.len()].0, "last_time");
-    assert_eq!(row.len(), COLUMNS.len() + 1 + COUNTERS.len());
+    assert_eq!(row.len(), COLUMNS.len() + 1 + COUNTER_COLUMNS.len());
     let overlap = Overlap::AInsideB(DVec3::X);
     let (upper, contact) = (0.0, contact());
     for (first, outcome) in [
@@ -312,7 +315,7 @@ fn the_excess_of_bodies_is_reported() {
             clearance,
             excess: 0.01,
         };
-        let row = cells_compared((Question::Distance, found), compared);
+        let row = cells_with_comparison((Question::Distance, found), compared);
         let cells = ["status", "distance_upper"].map(|name| cell(&row, name));
         assert_eq!(cells, [status, upper].map(str::to_owned));
         let names = cell(&row, "reason").contains("excess of the bodies over their shapes");

@@ -1,6 +1,6 @@
 //! The segment of a path from one pose to the next.
 
-use crate::trajectory::rotation::logarithm;
+use crate::trajectory::rotation::rotation_vector;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose};
@@ -75,5 +75,5 @@ impl Segment {
 /// pose.
 pub(crate) fn residual_rotation([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
-    logarithm(to.rotation() * led.conjugate())
+    rotation_vector(to.rotation() * led.conjugate())
 }

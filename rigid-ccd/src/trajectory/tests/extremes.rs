@@ -3,7 +3,13 @@
 use super::*;
 
 /// Checks the deviation bounds of segments between two times, far from 0 or with large coordinates.
-fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, rng: &mut Rng) {
+fn check_deviation_between(
+    name: &str,
+    trajectory: &impl Trajectory,
+    from: f64,
+    to: f64,
+    rng: &mut Rng,
+) {
     for _ in 0..1_000 {
         let [a, b] = [(); 2].map(|()| rng.random_range(from..to));
         let (a, b) = if a < b { (a, b) } else { (b, a) };
@@ -41,9 +47,9 @@ fn times_may_be_far_from_0() {
         let keys: Vec<_> = (0..50).map(&mut key).collect();
         let point = Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
         let slerp = Spline::new(point, OrientationCurve::slerp(&keys).unwrap());
-        check_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
-        let thrown = ballistic(&mut rng).unwrap();
-        check_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
+        check_deviation_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
+        let thrown = random_ballistic(&mut rng).unwrap();
+        check_deviation_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
     }
 }
 
@@ -53,13 +59,13 @@ fn places_may_come_from_afar() {
     let joint = Joint::prismatic(Pose::IDENTITY, [1.0, 2.0, 3.0]).unwrap();
     let chain = Chain::new(Pose::IDENTITY, vec![joint]);
     let link = chain.link(1, &[1e9], &[0.0], 1.0).unwrap();
-    check_between("link", &link, 0.9, 1.0, &mut rng);
+    check_deviation_between("link", &link, 0.9, 1.0, &mut rng);
     let stops = vec![
         (0.0, Pose::at([1e9, 0.1, 0.2]).unwrap()),
         (1.0, Pose::IDENTITY),
     ];
     let poses = Poses::new(stops).unwrap();
-    check_between("poses", &poses, 0.9, 1.0, &mut rng);
+    check_deviation_between("poses", &poses, 0.9, 1.0, &mut rng);
 }
 
 /// Tests that a trajectory at rest has a segment, of zero length or after the end.

@@ -20,7 +20,7 @@ use super::library::math::Real;
 use super::library::query::cast_shapes_nonlinear;
 use super::library::shape::TriMesh;
 use super::shapes::{rigid_motion, tri_mesh};
-use crate::method::peer::contact_at;
+use crate::method::peer::contact_claim_at;
 use crate::method::solver::{Claim, Reply, Solver};
 use anyhow::Result;
 use ccd_decomp::TriangleMesh;
@@ -59,8 +59,8 @@ impl Solver for NonlinearCast {
             true,
         );
         let claim = match hit {
-            Ok(Some(hit)) => contact_at(f64::from(hit.time_of_impact), query.duration),
-            Ok(None) => Claim::Free,
+            Ok(Some(hit)) => contact_claim_at(f64::from(hit.time_of_impact), query.duration),
+            Ok(None) => Claim::NoContact,
             Err(_) => Claim::Unresolved { safe_until: 0.0 },
         };
         Reply::new(claim, 0)

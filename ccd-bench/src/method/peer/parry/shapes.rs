@@ -10,28 +10,35 @@ use ccd_decomp::TriangleMesh;
 
 /// Converts a mesh, with the same triangles in the same order.
 pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
-    let vertices = mesh.vertices().iter().map(|&v| vector(v)).collect();
+    let vertices = mesh
+        .vertices()
+        .iter()
+        .map(|&v| to_parry_vector(v))
+        .collect();
     TriMesh::new(vertices, mesh.faces().to_vec()).context("the peer refuses the mesh")
 }
 
 /// Converts a motion exactly: the body rotates about a centre that moves straight, both at constant rates.
 pub fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
-        pose(motion, 0.0),
-        vector(motion.centre()),
-        vector(motion.velocity()),
-        vector(motion.spin()),
+        pose_at(motion, 0.0),
+        to_parry_vector(motion.centre()),
+        to_parry_vector(motion.velocity()),
+        to_parry_vector(motion.spin()),
     )
 }
 
 /// Returns the pose of a body at a time.
-pub fn pose(motion: &Motion, time: f64) -> Pose {
+pub fn pose_at(motion: &Motion, time: f64) -> Pose {
     let pose = motion.pose(time);
-    Pose::from_parts(vector(pose.translation()), rotation(pose.rotation()))
+    Pose::from_parts(
+        to_parry_vector(pose.translation()),
+        rotation(pose.rotation()),
+    )
 }
 
 /// Rounds each coordinate to the library's number type.
-pub fn vector(v: DVec3) -> Vector {
+pub fn to_parry_vector(v: DVec3) -> Vector {
     Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }
 

@@ -24,8 +24,8 @@ use super::library::bounding_volume::{Aabb, BoundingVolume};
 use super::library::math::{Pose, Real};
 use super::library::query::sweep_toi::{Sweep, SweepToiStatus, ToiProxy, sweep_time_of_impact};
 use super::library::shape::TriMesh;
-use super::shapes::{pose, tri_mesh, vector};
-use crate::method::peer::contact_at;
+use super::shapes::{pose_at, to_parry_vector, tri_mesh};
+use crate::method::peer::contact_claim_at;
 use crate::method::solver::{Claim, Reply, Solver};
 use anyhow::Result;
 use ccd_core::Motion;
@@ -37,13 +37,13 @@ use std::f64::consts::FRAC_PI_4;
 
 /// Two meshes whose triangles are swept against each other. Steps are the segments examined.
 #[derive(Clone, Debug)]
-pub struct SweptPairs {
+pub struct SweptMeshPair {
     a: SweptMesh,
     b: SweptMesh,
 }
 
 /// The largest distance at which a hit is reported, as a multiple of the library's `linear_slop`.
-const MAX_HIT_SLOPS: f64 = 1.25;
+const MAX_HIT_DISTANCE_IN_SLOPS: f64 = 1.25;
 /// The largest error due to rotation within a segment, as a fraction of the tolerance.
 const ROTATION_ERROR_FRACTION: f64 = 0.25;
 /// The largest rotation, in radians, for which the library's documentation calls its sweeps a good approximation.
@@ -51,22 +51,22 @@ const MAX_ROTATION: f64 = FRAC_PI_4;
 /// The largest displacement of the bodies in a segment, as a multiple of the smaller one's radius.
 const MAX_RELATIVE_TRAVEL: f64 = 0.5;
 /// The maximum number of segments of a motion; longer motions are refused.
-const MOST_SEGMENTS: f64 = 65_536.0;
+const MAX_SEGMENT_COUNT: f64 = 65_536.0;
 
-impl SweptPairs {
+impl SweptMeshPair {
     /// Converts two meshes, with their bounding boxes.
     ///
     /// # Errors
     /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self> {
-        Ok(SweptPairs {
+        Ok(SweptMeshPair {
             a: SweptMesh::new(a)?,
             b: SweptMesh::new(b)?,
         })
     }
 
     /// Returns the number of segments that a query is cut into; `None` if there are too many.
-    fn segments(&self, query: &Motions, tolerance: f64) -> Option<u64> {
+    fn segment_count(&self, query: &Motions, tolerance: f64) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
             let turn = motion.spin().length() * query.duration;
@@ -76,7 +76,7 @@ impl SweptPairs {
         let travel =
             speed * query.duration / (MAX_RELATIVE_TRAVEL * lesser(self.a.radius, self.b.radius));
         let count = greater(1.0, turns.into_iter().fold(travel, greater).ceil());
-        (count <= MOST_SEGMENTS).then_some(count as u64)
+        (count <= MAX_SEGMENT_COUNT).then_some(count as u64)
     }
 
     /// Returns the first time in a segment at which triangles meet, as a fraction of the segment.
@@ -103,7 +103,7 @@ impl SweptPairs {
             .leaf_pairs(self.b.mesh.bvh(), |node_a, node_b| {
                 swept_a(node_a.aabb()).intersects(&swept_b(node_b.aabb()))
             });
-        let slop = (tolerance / MAX_HIT_SLOPS) as Real;
+        let slop = (tolerance / MAX_HIT_DISTANCE_IN_SLOPS) as Real;
         let mut first = None;
         for (i, j) in pairs {
             let before = first.unwrap_or(1.0);
@@ -117,9 +117,9 @@ impl SweptPairs {
     }
 }
 
-impl Solver for SweptPairs {
+impl Solver for SweptMeshPair {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
-        let Some(count) = self.segments(query, tolerance) else {
+        let Some(count) = self.segment_count(query, tolerance) else {
             let claim = Claim::Unresolved { safe_until: 0.0 };
             return Reply::new(claim, 0);
         };
@@ -128,11 +128,11 @@ impl Solver for SweptPairs {
             let (from, to) = (time(k), time(k + 1));
             if let Some(share) = self.first_hit(query, tolerance, [from, to]) {
                 let time = from + f64::from(share) * (to - from);
-                let claim = contact_at(time, query.duration);
+                let claim = contact_claim_at(time, query.duration);
                 return Reply::new(claim, k + 1);
             }
         }
-        Reply::new(Claim::Free, count)
+        Reply::new(Claim::NoContact, count)
     }
 }
 
@@ -141,7 +141,7 @@ impl Solver for SweptPairs {
 struct SweptMesh {
     mesh: TriMesh,
     /// The lowest and the highest corner of the box.
-    corners: [DVec3; 2],
+    aabb_corners: [DVec3; 2],
     radius: f64,
 }
 
@@ -158,22 +158,22 @@ impl SweptMesh {
         let corners = mesh.bounding_box();
         Ok(SweptMesh {
             mesh: tri_mesh(mesh)?,
-            corners,
+            aabb_corners: corners,
             radius: 0.5 * (corners[1] - corners[0]).length(),
         })
     }
 
     /// Returns a bound on the distance of all points from the centre of the motion.
     fn radius_about_centre(&self, motion: &Motion) -> f64 {
-        let [low, high] = self.corners.map(|c| (c - motion.centre()).abs());
+        let [low, high] = self.aabb_corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
     }
 
     fn segment(&self, motion: &Motion, from: f64, to: f64) -> Segment {
-        let poses = [pose(motion, from), pose(motion, to)];
+        let poses = [pose_at(motion, from), pose_at(motion, to)];
         let turn = motion.spin().length() * (to - from);
         Segment {
-            sweep: Sweep::from_poses(&poses[0], &poses[1], vector(motion.centre())),
+            sweep: Sweep::from_poses(&poses[0], &poses[1], to_parry_vector(motion.centre())),
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
             // adds less than that.

@@ -45,7 +45,7 @@ impl ClosingSpeedBounds {
     }
 
     /// Sets the motions of both bodies in a query.
-    pub(super) fn begin(&mut self, a: &RivalMotion, b: &RivalMotion) {
+    pub(super) fn set_motions(&mut self, a: &RivalMotion, b: &RivalMotion) {
         self.a.begin(a);
         self.b.begin(b);
         self.velocity_w = a.velocity - b.velocity;

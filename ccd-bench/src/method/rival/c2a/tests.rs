@@ -1,12 +1,12 @@
 use super::C2a;
 use crate::method::rival::tests::trials::{
-    assert_exact_scenes, assert_gives_up, assert_shots, knot_216,
+    assert_exact_contact_times, assert_shots_are_conservative, assert_stops_at_work_limit, knot_216,
 };
 
 #[test]
 fn exact_times_are_met() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        assert_exact_scenes(tolerance, C2a::new);
+        assert_exact_contact_times(tolerance, C2a::new);
     }
 }
 
@@ -14,11 +14,11 @@ fn exact_times_are_met() {
 fn shots_are_neither_missed_nor_late_nor_early() {
     for tolerance in [1e-2, 1e-5] {
         let mut rival = C2a::new(&knot_216(), &knot_216());
-        assert_shots(tolerance, &mut rival);
+        assert_shots_are_conservative(tolerance, &mut rival);
     }
 }
 
 #[test]
 fn work_without_end_is_given_up() {
-    assert_gives_up(C2a::new, |rival, patience| rival.patience = patience);
+    assert_stops_at_work_limit(C2a::new, |rival, patience| rival.patience = patience);
 }

@@ -13,7 +13,7 @@ const COSINE_SLACK: f64 = 1e-14;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum BoxRelation {
     /// The boxes do not meet in the interval.
-    Apart,
+    Separated,
     /// No axis is found that separates the boxes over the whole interval.
     NotSeparated {
         /// The radius of the enclosure of a corner's position over the interval, as a length.
@@ -35,14 +35,14 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
     let (ha, hb) = (a.half_extents, b.half_extents);
     // The axes of B: the distance of the centres along them against both half widths.
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
-        return BoxRelation::Apart;
+        return BoxRelation::Separated;
     }
     // The axes of A. |Σ t_i c_i| has the middle |Σ t c| and the radius Σ (|t|+r)(|c|+s) − |t||c|.
     let low = cos.abs();
     let along = cos.transpose_mul_vec3(t).abs() + low.transpose_mul_vec3(t.abs());
     let width = high.transpose_mul_vec3(t_high + hb) + ha;
     if (along - width).max_element() > 0.0 {
-        return BoxRelation::Apart;
+        return BoxRelation::Separated;
     }
     // The axes `b_i × a_j`, for all i at once.
     let separates = |c: DVec3, c_high: DVec3, of_a: DVec3| {
@@ -58,7 +58,7 @@ pub(super) fn relate_boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> BoxRelati
         || separates(cos.y_axis, y, ha.z * x + ha.x * z)
         || separates(cos.z_axis, z, ha.x * y + ha.y * x)
     {
-        return BoxRelation::Apart;
+        return BoxRelation::Separated;
     }
     BoxRelation::NotSeparated {
         spread: (t_radius + cos_radius * ha).max_element(),

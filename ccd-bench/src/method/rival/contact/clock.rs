@@ -1,9 +1,9 @@
 //! Halves time, and encloses the motion over each interval.
 
-use super::relative::{Enclosure, Relative, Span};
+use super::relative::{Enclosure, RelativeMotion, Span};
 
 /// The maximum number of times that the duration is halved: 2⁻⁵² of it is the resolution of numbers.
-pub(super) const MAX_LEVEL: usize = 52;
+pub(super) const MAX_HALVING_DEPTH: usize = 52;
 
 /// An interval of time from repeated halving, perhaps cut short at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,9 +16,9 @@ pub(super) struct HalvedInterval {
 /// Encloses the motion over intervals of time, with a cache of the last enclosure at each level of halving.
 #[derive(Clone, Debug)]
 pub(super) struct MotionEncloser {
-    relative_motion: Relative,
+    relative_motion: RelativeMotion,
     resolution: f64,
-    most_halvings: u64,
+    max_halvings: u64,
     placements: Vec<CachedEnclosure>,
     rates: Vec<CachedEnclosure>,
     /// The number of halvings made so far.
@@ -33,7 +33,7 @@ struct CachedEnclosure {
 
 impl HalvedInterval {
     /// Returns the interval from 0 to `end`.
-    pub(super) fn whole(end: f64) -> Self {
+    pub(super) fn whole_duration(end: f64) -> Self {
         HalvedInterval {
             span: Span { start: 0.0, end },
             level: 0,
@@ -53,7 +53,7 @@ impl HalvedInterval {
 
 impl MotionEncloser {
     /// Creates the clock of a motion, with the width and the number at which halving ends.
-    pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
+    pub(super) fn new(relative: RelativeMotion, resolution: f64, most_halvings: u64) -> Self {
         let nothing = CachedEnclosure {
             span: Span {
                 start: f64::NAN,
@@ -67,15 +67,15 @@ impl MotionEncloser {
         MotionEncloser {
             relative_motion: relative,
             resolution,
-            most_halvings,
-            placements: vec![nothing; MAX_LEVEL + 1],
-            rates: vec![nothing; MAX_LEVEL + 1],
+            max_halvings: most_halvings,
+            placements: vec![nothing; MAX_HALVING_DEPTH + 1],
+            rates: vec![nothing; MAX_HALVING_DEPTH + 1],
             halvings: 0,
         }
     }
 
     /// Returns the relative motion of the two bodies.
-    pub(super) fn relative(&self) -> &Relative {
+    pub(super) fn relative_motion(&self) -> &RelativeMotion {
         &self.relative_motion
     }
 
@@ -86,12 +86,12 @@ impl MotionEncloser {
 
     /// Returns true if an interval must not be halved.
     pub(super) fn is_at_resolution(&self, interval: HalvedInterval) -> bool {
-        !(interval.span.width() > self.resolution) || interval.level >= MAX_LEVEL
+        !(interval.span.width() > self.resolution) || interval.level >= MAX_HALVING_DEPTH
     }
 
     /// Returns true if the limit on the number of halvings is reached.
     pub(super) fn is_at_limit(&self) -> bool {
-        self.halvings >= self.most_halvings
+        self.halvings >= self.max_halvings
     }
 
     /// Returns the enclosure of all placements over an interval.

@@ -14,23 +14,23 @@ pub(super) struct Facet {
     edges: [DVec3; 3],
     normal: DVec3,
     /// Vectors in the plane, away from edge k towards the third corner.
-    inward: [DVec3; 3],
+    inward_edge_normals: [DVec3; 3],
 }
 
 /// An elementary test of one feature of each of two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ElementaryTest {
     /// A corner of the first triangle against the second's face.
-    CornerFace(usize),
+    VertexFace(usize),
     /// The face of the first triangle against a corner of the second.
-    FaceCorner(usize),
+    FaceVertex(usize),
     /// An edge of the first triangle against an edge of the second.
     EdgeEdge(usize, usize),
 }
 
 /// The set of elementary tests that may still have a root, as bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct OpenTests(u16);
+pub(super) struct ElementaryTestSet(u16);
 
 /// Two triangles; the second is at rest in the frame of the enclosures.
 #[derive(Clone, Copy, Debug)]
@@ -48,13 +48,13 @@ impl Facet {
             corners: *corners,
             edges,
             normal,
-            inward: edges.map(|edge| normal.cross(edge)),
+            inward_edge_normals: edges.map(|edge| normal.cross(edge)),
         }
     }
 
     /// Returns true for a triangle without area: nothing can hit its face, but its edges and
     /// corners are tested.
-    fn is_flat(&self) -> bool {
+    fn is_degenerate(&self) -> bool {
         self.normal == DVec3::ZERO
     }
 }
@@ -66,19 +66,20 @@ impl ElementaryTest {
     /// Returns the test with the given number: corners first, then faces, then pairs of edges.
     fn from_number(number: usize) -> ElementaryTest {
         match number {
-            0..3 => ElementaryTest::CornerFace(number),
-            3..6 => ElementaryTest::FaceCorner(number - 3),
+            0..3 => ElementaryTest::VertexFace(number),
+            3..6 => ElementaryTest::FaceVertex(number - 3),
             _ => ElementaryTest::EdgeEdge((number - 6) / 3, number % 3),
         }
     }
 }
 
-impl OpenTests {
+impl ElementaryTestSet {
     /// The set without any test.
-    const NONE: OpenTests = OpenTests(0);
+    const NONE: ElementaryTestSet = ElementaryTestSet(0);
 
     /// The set of all elementary tests.
-    pub(super) const ALL: OpenTests = OpenTests((1 << ElementaryTest::TEST_COUNT) - 1);
+    pub(super) const ALL: ElementaryTestSet =
+        ElementaryTestSet((1 << ElementaryTest::TEST_COUNT) - 1);
 
     /// Returns true if no test is in the set.
     pub(super) fn is_empty(self) -> bool {
@@ -86,7 +87,7 @@ impl OpenTests {
     }
 
     /// Returns the tests of the set for which `holds` is true.
-    pub(super) fn filter(self, mut holds: impl FnMut(ElementaryTest) -> bool) -> OpenTests {
+    pub(super) fn filter(self, mut holds: impl FnMut(ElementaryTest) -> bool) -> ElementaryTestSet {
         let (mut kept, mut left) = (0, self.0);
         while left != 0 {
             let k = left.trailing_zeros();
@@ -95,7 +96,7 @@ impl OpenTests {
             }
             left &= left - 1;
         }
-        OpenTests(kept)
+        ElementaryTestSet(kept)
     }
 }
 
@@ -105,8 +106,8 @@ impl TrianglePair {
     pub(super) fn contact_function(&self, test: ElementaryTest, at: &Placement) -> f64 {
         let (a, b) = (&self.a, &self.b);
         match test {
-            ElementaryTest::CornerFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
-            ElementaryTest::FaceCorner(j) => {
+            ElementaryTest::VertexFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
+            ElementaryTest::FaceVertex(j) => {
                 (b.corners[j] - at.apply(a.corners[0])).dot(at.rotation * a.normal)
             }
             ElementaryTest::EdgeEdge(i, j) => {
@@ -126,17 +127,21 @@ impl TrianglePair {
     ) -> Interval {
         let (a, b) = (&self.a, &self.b);
         match test {
-            ElementaryTest::CornerFace(i) => rates.point(a.corners[i]).dot_point(b.normal),
-            ElementaryTest::FaceCorner(j) => {
-                let between = point_minus(b.corners[j], now.point(a.corners[0]));
+            ElementaryTest::VertexFace(i) => {
+                rates.transform_point(a.corners[i]).dot_point(b.normal)
+            }
+            ElementaryTest::FaceVertex(j) => {
+                let between = point_minus(b.corners[j], now.transform_point(a.corners[0]));
                 between.dot(rates.rotation * a.normal)
-                    - rates.point(a.corners[0]).dot(now.rotation * a.normal)
+                    - rates
+                        .transform_point(a.corners[0])
+                        .dot(now.rotation * a.normal)
             }
             ElementaryTest::EdgeEdge(i, j) => {
-                let between = point_minus(b.corners[j], now.point(a.corners[i]));
+                let between = point_minus(b.corners[j], now.transform_point(a.corners[i]));
                 let axis = (now.rotation * a.edges[i]).cross_point(b.edges[j]);
                 let axis_rate = (rates.rotation * a.edges[i]).cross_point(b.edges[j]);
-                between.dot(axis_rate) - rates.point(a.corners[i]).dot(axis)
+                between.dot(axis_rate) - rates.transform_point(a.corners[i]).dot(axis)
             }
         }
     }
@@ -144,24 +149,29 @@ impl TrianglePair {
     /// Returns the given tests that may have a root over the interval of the enclosure.
     ///
     /// The result is empty if all corners of one triangle stay on one side of the other's plane.
-    pub(super) fn open_tests(&self, tests: OpenTests, now: &Enclosure) -> OpenTests {
+    pub(super) fn tests_with_possible_roots(
+        &self,
+        tests: ElementaryTestSet,
+        now: &Enclosure,
+    ) -> ElementaryTestSet {
         let (a, b) = (&self.a, &self.b);
-        let corners = a.corners.map(|corner| now.point(corner));
+        let corners = a.corners.map(|corner| now.transform_point(corner));
         let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_point(b.normal));
         if have_same_sign(over_b) {
-            return OpenTests::NONE;
+            return ElementaryTestSet::NONE;
         }
         let normal = now.rotation * a.normal;
         let over_a = b.corners.map(|x| point_minus(x, corners[0]).dot(normal));
         if have_same_sign(over_a) {
-            return OpenTests::NONE;
+            return ElementaryTestSet::NONE;
         }
         tests.filter(|test| match test {
-            ElementaryTest::CornerFace(i) => {
-                !(b.is_flat() || over_b[i].excludes_zero()) && self.may_project_into_b(corners[i])
+            ElementaryTest::VertexFace(i) => {
+                !(b.is_degenerate() || over_b[i].excludes_zero())
+                    && self.may_project_into_b(corners[i])
             }
-            ElementaryTest::FaceCorner(j) => {
-                !(a.is_flat() || over_a[j].excludes_zero())
+            ElementaryTest::FaceVertex(j) => {
+                !(a.is_degenerate() || over_a[j].excludes_zero())
                     && self.may_project_into_a(b.corners[j], &corners, now)
             }
             ElementaryTest::EdgeEdge(i, j) => self.may_cross((i, j), corners[i], now),
@@ -172,7 +182,9 @@ impl TrianglePair {
     fn may_project_into_b(&self, corner: IntervalVec) -> bool {
         let b = &self.b;
         (0..3).all(|k| {
-            let inside = corner.minus_point(b.corners[k]).dot_point(b.inward[k]);
+            let inside = corner
+                .minus_point(b.corners[k])
+                .dot_point(b.inward_edge_normals[k]);
             !(inside.high() < 0.0)
         })
     }
@@ -185,7 +197,7 @@ impl TrianglePair {
         now: &Enclosure,
     ) -> bool {
         (0..3).all(|k| {
-            let inward = now.rotation * self.a.inward[k];
+            let inward = now.rotation * self.a.inward_edge_normals[k];
             !(point_minus(corner, corners[k]).dot(inward).high() < 0.0)
         })
     }
@@ -229,7 +241,7 @@ impl Enclosure {
     /// Returns all positions of a point of the first body, or all its velocities if `self` encloses
     /// rates.
     #[inline]
-    pub(super) fn point(&self, point: DVec3) -> IntervalVec {
+    pub(super) fn transform_point(&self, point: DVec3) -> IntervalVec {
         self.rotation * point + self.offset
     }
 }

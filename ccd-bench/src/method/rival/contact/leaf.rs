@@ -1,7 +1,7 @@
 //! Finds the first contact of two triangles in an interval of time.
 
-use super::clock::{HalvedInterval, MAX_LEVEL, MotionEncloser};
-use super::elementary::{ElementaryTest, OpenTests, TrianglePair};
+use super::clock::{HalvedInterval, MAX_HALVING_DEPTH, MotionEncloser};
+use super::elementary::{ElementaryTest, ElementaryTestSet, TrianglePair};
 use super::relative::Span;
 use ccd_core::order::{greater, lesser};
 
@@ -9,7 +9,7 @@ use ccd_core::order::{greater, lesser};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum FirstTouch {
     /// The triangles first touch at this time.
-    At(f64),
+    AtTime(f64),
     /// The triangles do not touch in the interval.
     Never,
     /// The work limit was reached before it was decided.
@@ -26,30 +26,30 @@ pub(super) fn first_touch(
 ) -> FirstTouch {
     let mut first = FirstTouch::Never;
     // The stack holds at most one second half of every level, and both halves of the last.
-    let mut stack = [(interval, OpenTests::ALL); MAX_LEVEL + 2];
+    let mut stack = [(interval, ElementaryTestSet::ALL); MAX_HALVING_DEPTH + 2];
     let mut height = 1;
     while let Some(below) = usize::checked_sub(height, 1) {
         height = below;
         let (mut interval, open) = stack[height];
-        if let FirstTouch::At(time) = first {
+        if let FirstTouch::AtTime(time) = first {
             interval.span.end = lesser(interval.span.end, time);
         }
         if !(interval.span.width() > 0.0 || first == FirstTouch::Never) {
             continue;
         }
-        let open = triangles.open_tests(open, clock.placements(interval));
+        let open = triangles.tests_with_possible_roots(open, clock.placements(interval));
         if open.is_empty() {
             continue;
         }
         if clock.is_at_resolution(interval) {
-            first = FirstTouch::At(interval.span.start);
+            first = FirstTouch::AtTime(interval.span.start);
             continue;
         }
         let open = open.filter(|test| match root(triangles, test, interval, clock) {
             Root::Several => true,
             Root::None => false,
             Root::At(time) => {
-                first = earlier(first, time);
+                first = earlier_touch(first, time);
                 false
             }
         });
@@ -67,10 +67,10 @@ pub(super) fn first_touch(
     first
 }
 
-fn earlier(first: FirstTouch, time: f64) -> FirstTouch {
+fn earlier_touch(first: FirstTouch, time: f64) -> FirstTouch {
     match first {
-        FirstTouch::At(known) => FirstTouch::At(lesser(known, time)),
-        FirstTouch::Never | FirstTouch::Unknown => FirstTouch::At(time),
+        FirstTouch::AtTime(known) => FirstTouch::AtTime(lesser(known, time)),
+        FirstTouch::Never | FirstTouch::Unknown => FirstTouch::AtTime(time),
     }
 }
 
@@ -94,7 +94,7 @@ fn root(
     if !rate.excludes_zero() {
         return Root::Several;
     }
-    let Some(found) = bracket(triangles, test, interval.span, clock) else {
+    let Some(found) = root_by_false_position(triangles, test, interval.span, clock) else {
         return Root::None;
     };
     // As wide as the resolution: features that meet at their borders do so except for rounding.
@@ -103,9 +103,9 @@ fn root(
         start: found.start - slack,
         end: found.end + slack,
     };
-    let only = OpenTests::ALL.filter(|other| other == test);
+    let only = ElementaryTestSet::ALL.filter(|other| other == test);
     if triangles
-        .open_tests(only, &clock.relative().enclosure_over(around))
+        .tests_with_possible_roots(only, &clock.relative_motion().enclosure_over(around))
         .is_empty()
     {
         Root::None
@@ -116,17 +116,18 @@ fn root(
 
 /// The maximum number of steps that narrow a bracket of a root. Every other one halves it, so 2·53 lead to neighbouring
 /// numbers.
-const MAX_NARROWINGS: usize = 110;
+const MAX_BRACKET_STEPS: usize = 110;
 
 /// Returns the root of a monotone function between two times, to within the resolution. Uses false
 /// position, and bisection after a step that leaves more than half.
-fn bracket(
+fn root_by_false_position(
     triangles: &TrianglePair,
     test: ElementaryTest,
     span: Span,
     clock: &MotionEncloser,
 ) -> Option<Span> {
-    let value = |time: f64| triangles.contact_function(test, &clock.relative().at(time));
+    let value =
+        |time: f64| triangles.contact_function(test, &clock.relative_motion().placement_at(time));
     let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);
     if ends[0] * ends[1] > 0.0 {
         return None;
@@ -135,7 +136,7 @@ fn bracket(
     let beyond = 0.25 * clock.resolution();
     let rising = ends[1] > ends[0];
     let mut halve = false;
-    for _ in 0..MAX_NARROWINGS {
+    for _ in 0..MAX_BRACKET_STEPS {
         let width = span.width();
         if !(width > clock.resolution()) {
             break;

@@ -9,23 +9,23 @@ use ccd_core::glam::{DMat3, DVec3};
 /// For a point `x` of the first body relative to its reference point, `rotation(t) x + offset(t)`
 /// is the same point relative to the reference point of the second body, along that body's axes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Relative {
-    first: BodyMotion,
-    second: BodyMotion,
+pub(super) struct RelativeMotion {
+    first_motion: BodyMotion,
+    second_motion: BodyMotion,
 }
 
 /// The motion of one body: `rotation(t) = fixed + cos(ωt) cos + sin(ωt) sin`. The reference point
 /// moves likewise, plus a straight part.
 #[derive(Clone, Copy, Debug)]
 struct BodyMotion {
-    fixed: DMat3,
-    cos: DMat3,
-    sin: DMat3,
+    constant_term: DMat3,
+    cosine_coefficient: DMat3,
+    sine_coefficient: DMat3,
     rate: f64,
     start_centre: DVec3,
     velocity: DVec3,
     /// The offset of the reference point from the centre, in the body's frame.
-    lever: DVec3,
+    reference_offset: DVec3,
 }
 
 /// An enclosure of all placements of one body in the frame of another over an interval of time, or of their rates of
@@ -53,28 +53,28 @@ impl Span {
     }
 }
 
-impl Relative {
+impl RelativeMotion {
     /// Combines the motions of two bodies, each with its reference point in the body's frame.
     pub(super) fn new(first: (&RivalMotion, DVec3), second: (&RivalMotion, DVec3)) -> Self {
         // The axes are those of the second body at the start: a body that does not rotate then needs no
         // inverse rotation.
         let axes = second.0.orientation.transpose();
-        let mut relative = Relative {
-            first: BodyMotion::new(first.0, first.1, axes),
-            second: BodyMotion::new(second.0, second.1, axes),
+        let mut relative = RelativeMotion {
+            first_motion: BodyMotion::new(first.0, first.1, axes),
+            second_motion: BodyMotion::new(second.0, second.1, axes),
         };
         // Only the difference of the linear parts matters; separate parts would be enclosed separately.
-        relative.first.start_centre -= relative.second.start_centre;
-        relative.first.velocity -= relative.second.velocity;
-        relative.second.start_centre = DVec3::ZERO;
-        relative.second.velocity = DVec3::ZERO;
+        relative.first_motion.start_centre -= relative.second_motion.start_centre;
+        relative.first_motion.velocity -= relative.second_motion.velocity;
+        relative.second_motion.start_centre = DVec3::ZERO;
+        relative.second_motion.velocity = DVec3::ZERO;
         relative
     }
 
     /// Returns the placement of the first body in the second one's frame at a time.
-    pub(super) fn at(&self, time: f64) -> Placement {
-        let (first, position_first) = self.first.at(time);
-        let (second, position_second) = self.second.at(time);
+    pub(super) fn placement_at(&self, time: f64) -> Placement {
+        let (first, position_first) = self.first_motion.at(time);
+        let (second, position_second) = self.second_motion.at(time);
         let back = second.transpose();
         Placement {
             rotation: back * first,
@@ -84,15 +84,15 @@ impl Relative {
 
     /// Returns an enclosure of all placements between two times.
     pub(super) fn enclosure_over(&self, span: Span) -> Enclosure {
-        let (first, position_first) = self.first.over(span);
-        if self.second.rate == 0.0 {
-            let offset = position_first.minus_point(self.second.still_position());
+        let (first, position_first) = self.first_motion.enclosure_over(span);
+        if self.second_motion.rate == 0.0 {
+            let offset = position_first.minus_point(self.second_motion.still_position());
             return Enclosure {
                 rotation: first,
                 offset,
             };
         }
-        let (second, position_second) = self.second.over(span);
+        let (second, position_second) = self.second_motion.enclosure_over(span);
         let back = second.transpose();
         Enclosure {
             rotation: back * first,
@@ -102,16 +102,16 @@ impl Relative {
 
     /// Returns an enclosure of all rates of change of the placements between two times.
     pub(super) fn rates_over(&self, span: Span) -> Enclosure {
-        let (first_rate, position_first_rate) = self.first.rates_over(span);
-        if self.second.rate == 0.0 {
+        let (first_rate, position_first_rate) = self.first_motion.rates_over(span);
+        if self.second_motion.rate == 0.0 {
             return Enclosure {
                 rotation: first_rate,
                 offset: position_first_rate,
             };
         }
-        let (first, position_first) = self.first.over(span);
-        let (second, position_second) = self.second.over(span);
-        let (second_rate, position_second_rate) = self.second.rates_over(span);
+        let (first, position_first) = self.first_motion.enclosure_over(span);
+        let (second, position_second) = self.second_motion.enclosure_over(span);
+        let (second_rate, position_second_rate) = self.second_motion.rates_over(span);
         let (back, back_rate) = (second.transpose(), second_rate.transpose());
         Enclosure {
             rotation: back_rate * first + back * first_rate,
@@ -137,39 +137,46 @@ impl BodyMotion {
         let fixed = map_columns(orientation, along);
         let cos = orientation - fixed;
         BodyMotion {
-            fixed,
-            cos,
-            sin: map_columns(cos, |column| axis.cross(column)),
+            constant_term: fixed,
+            cosine_coefficient: cos,
+            sine_coefficient: map_columns(cos, |column| axis.cross(column)),
             rate: course.rate,
             start_centre: axes * course.from,
             velocity: axes * course.velocity,
-            lever: reference - course.centre,
+            reference_offset: reference - course.centre,
         }
     }
 
     /// Returns the position of the reference point of a body that does not rotate, without its linear motion.
     fn still_position(&self) -> DVec3 {
-        self.start_centre + self.fixed * self.lever
+        self.start_centre + self.constant_term * self.reference_offset
     }
 
     fn at(&self, time: f64) -> (DMat3, DVec3) {
         let (sin, cos) = (self.rate * time).sin_cos();
-        let rotation = self.fixed + self.cos * cos + self.sin * sin;
-        let position = self.start_centre + self.velocity * time + rotation * self.lever;
+        let rotation =
+            self.constant_term + self.cosine_coefficient * cos + self.sine_coefficient * sin;
+        let position = self.start_centre + self.velocity * time + rotation * self.reference_offset;
         (rotation, position)
     }
 
-    fn over(&self, span: Span) -> (IntervalMat, IntervalVec) {
+    fn enclosure_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
         let half = 0.5 * span.width();
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * half);
         let turning = rotation_over(cos, sin, arc);
         let rotation = IntervalMat {
-            middle: self.fixed + turning.middle,
+            middle: self.constant_term + turning.middle,
             radius: turning.radius,
         };
-        let straight = self.start_centre + self.velocity * span.middle() + self.fixed * self.lever;
-        let round = vector_rotation_over(cos * self.lever, sin * self.lever, arc);
+        let straight = self.start_centre
+            + self.velocity * span.middle()
+            + self.constant_term * self.reference_offset;
+        let round = vector_rotation_over(
+            cos * self.reference_offset,
+            sin * self.reference_offset,
+            arc,
+        );
         let position = IntervalVec {
             middle: straight + round.middle,
             radius: self.velocity.abs() * half + round.radius,
@@ -181,7 +188,11 @@ impl BodyMotion {
         let (cos, sin) = self.coefficients_at(span.middle());
         let arc = SineCosineRange::new(self.rate * 0.5 * span.width());
         let (cos, sin) = (sin * self.rate, cos * -self.rate);
-        let round = vector_rotation_over(cos * self.lever, sin * self.lever, arc);
+        let round = vector_rotation_over(
+            cos * self.reference_offset,
+            sin * self.reference_offset,
+            arc,
+        );
         let velocity = IntervalVec {
             middle: self.velocity + round.middle,
             radius: round.radius,
@@ -193,8 +204,8 @@ impl BodyMotion {
     fn coefficients_at(&self, time: f64) -> (DMat3, DMat3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         (
-            self.cos * cos + self.sin * sin,
-            self.sin * cos - self.cos * sin,
+            self.cosine_coefficient * cos + self.sine_coefficient * sin,
+            self.sine_coefficient * cos - self.cosine_coefficient * sin,
         )
     }
 }

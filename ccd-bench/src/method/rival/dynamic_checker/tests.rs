@@ -1,6 +1,7 @@
 use super::DynamicChecker;
 use crate::method::rival::tests::trials::{
-    assert_exact_scenes, assert_gives_up, assert_shots, boxes_rotating_past, knot_216,
+    assert_exact_contact_times, assert_shots_are_conservative, assert_stops_at_work_limit,
+    boxes_rotating_past, knot_216,
 };
 use crate::method::solver::{Claim, Solver};
 use crate::scene::model::cuboid;
@@ -11,7 +12,7 @@ use rigid_ccd::table::motions::Motions;
 #[test]
 fn exact_times_are_met() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        assert_exact_scenes(tolerance, DynamicChecker::new);
+        assert_exact_contact_times(tolerance, DynamicChecker::new);
     }
 }
 
@@ -19,13 +20,13 @@ fn exact_times_are_met() {
 fn shots_are_neither_missed_nor_late_nor_early() {
     for tolerance in [1e-2, 1e-5] {
         let mut rival = DynamicChecker::new(&knot_216(), &knot_216());
-        assert_shots(tolerance, &mut rival);
+        assert_shots_are_conservative(tolerance, &mut rival);
     }
 }
 
 #[test]
 fn work_without_end_is_given_up() {
-    assert_gives_up(DynamicChecker::new, |rival, patience| {
+    assert_stops_at_work_limit(DynamicChecker::new, |rival, patience| {
         rival.patience = patience;
     });
 }

@@ -5,15 +5,15 @@ use ccd_core::order::{greater, lesser};
 /// The allowed error of a comparison, due to rounding.
 const SLACK: f64 = 1e-12;
 
-fn interval_vec(samples: &mut RandomSource) -> IntervalVec {
+fn random_interval_vec(samples: &mut RandomSource) -> IntervalVec {
     IntervalVec {
         middle: samples.vector(2.0),
         radius: samples.vector(1.0).abs(),
     }
 }
 
-fn interval_mat(samples: &mut RandomSource) -> IntervalMat {
-    let [a, b, c] = [(); 3].map(|()| interval_vec(samples));
+fn random_interval_mat(samples: &mut RandomSource) -> IntervalMat {
+    let [a, b, c] = [(); 3].map(|()| random_interval_vec(samples));
     IntervalMat {
         middle: DMat3::from_cols(a.middle, b.middle, c.middle),
         radius: DMat3::from_cols(a.radius, b.radius, c.radius),
@@ -46,8 +46,14 @@ fn contains_vec(interval: IntervalVec, value: DVec3) -> bool {
 fn results_contain_those_of_members() {
     let mut samples = RandomSource::new(1);
     for _ in 0..2000 {
-        let (u, v) = (interval_vec(&mut samples), interval_vec(&mut samples));
-        let (m, n) = (interval_mat(&mut samples), interval_mat(&mut samples));
+        let (u, v) = (
+            random_interval_vec(&mut samples),
+            random_interval_vec(&mut samples),
+        );
+        let (m, n) = (
+            random_interval_mat(&mut samples),
+            random_interval_mat(&mut samples),
+        );
         let p = samples.vector(3.0);
         for _ in 0..10 {
             let (x, y) = (member_vec(u, &mut samples), member_vec(v, &mut samples));

@@ -3,7 +3,7 @@
 use super::{Obb, ObbTree};
 use crate::method::rival::Placement;
 use crate::method::rival::interval::cross_sum;
-use crate::method::rival::tree::Content;
+use crate::method::rival::tree::NodeContent;
 use crate::method::rival::triangles_cross::triangles_cross;
 use ccd_core::glam::{DMat3, DVec3};
 
@@ -17,7 +17,7 @@ const COSINE_SLACK: f64 = 1e-14;
 ///
 /// # Complexity
 /// Linear in the pairs of boxes that overlap, at most all pairs of nodes.
-pub(in crate::method::rival) fn crosses(
+pub(in crate::method::rival) fn trees_intersect(
     a: &ObbTree,
     b: &ObbTree,
     placement: &Placement,
@@ -38,19 +38,19 @@ pub(in crate::method::rival) fn crosses(
             continue;
         }
         match (node_a.content, node_b.content) {
-            (Content::Triangle(p), Content::Triangle(q)) => {
+            (NodeContent::Triangle(p), NodeContent::Triangle(q)) => {
                 let p = a.triangle(p).map(|x| between_origins.apply(x));
                 if triangles_cross(&p, b.triangle(q)) {
                     return true;
                 }
             }
-            (Content::Nodes([left, right]), other)
+            (NodeContent::Nodes([left, right]), other)
                 if should_split_self(other, &node_a.bounds, &node_b.bounds) =>
             {
                 stack.extend([(right, j), (left, j)]);
             }
-            (_, Content::Nodes([left, right])) => stack.extend([(i, right), (i, left)]),
-            (Content::Nodes([left, right]), Content::Triangle(_)) => {
+            (_, NodeContent::Nodes([left, right])) => stack.extend([(i, right), (i, left)]),
+            (NodeContent::Nodes([left, right]), NodeContent::Triangle(_)) => {
                 stack.extend([(right, j), (left, j)]);
             }
         }
@@ -59,8 +59,8 @@ pub(in crate::method::rival) fn crosses(
 }
 
 /// Returns true if A's node is to be opened next, because B's is a leaf or smaller.
-fn should_split_self(other: Content, a: &Obb, b: &Obb) -> bool {
-    matches!(other, Content::Triangle(_))
+fn should_split_self(other: NodeContent, a: &Obb, b: &Obb) -> bool {
+    matches!(other, NodeContent::Triangle(_))
         || a.half_extents.max_element() > b.half_extents.max_element()
 }
 

@@ -4,12 +4,12 @@ use crate::method::rival::tests::samples::RandomSource;
 use crate::method::rival::triangles_cross::triangles_cross;
 use crate::scene::model::Model;
 
-fn triangles_of(tree: &ObbTree, index: u32, into: &mut Vec<u32>) {
+fn collect_triangles(tree: &ObbTree, index: u32, into: &mut Vec<u32>) {
     match tree.node(index).content {
-        Content::Triangle(t) => into.push(t),
-        Content::Nodes(children) => children
+        NodeContent::Triangle(t) => into.push(t),
+        NodeContent::Nodes(children) => children
             .iter()
-            .for_each(|&child| triangles_of(tree, child, into)),
+            .for_each(|&child| collect_triangles(tree, child, into)),
     }
 }
 
@@ -20,7 +20,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
     assert_eq!(tree.nodes.len(), 2 * mesh.faces().len() - 1);
     for (index, node) in tree.nodes.iter().enumerate() {
         let mut triangles = Vec::new();
-        triangles_of(&tree, index as u32, &mut triangles);
+        collect_triangles(&tree, index as u32, &mut triangles);
         assert!(!triangles.is_empty());
         for corner in triangles.iter().flat_map(|&t| tree.triangle(t)) {
             let along = node
@@ -32,7 +32,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
         }
     }
     let mut leaves = Vec::new();
-    triangles_of(&tree, 0, &mut leaves);
+    collect_triangles(&tree, 0, &mut leaves);
     leaves.sort_unstable();
     assert!(leaves.into_iter().eq(0..mesh.faces().len() as u32));
 }
@@ -42,7 +42,7 @@ fn boxes_are_fitted() {
     let tree = ObbTree::new(&crate::method::rival::tests::samples::cuboid(3.0, 2.0, 1.0));
     assert!((tree.node(0).bounds.half_extents - DVec3::new(3.0, 2.0, 1.0)).length() < 1.0);
     for index in 0..tree.nodes.len() as u32 {
-        if let Content::Triangle(_) = tree.node(index).content {
+        if let NodeContent::Triangle(_) = tree.node(index).content {
             assert!(tree.node(index).bounds.half_extents.min_element() < 1e-12);
         }
     }
@@ -81,7 +81,7 @@ fn crossings_are_those_of_all_pairs_of_triangles() {
         let any = moved
             .clone()
             .any(|t| corners.iter().any(|u| triangles_cross(&t, u)));
-        let found = crosses(&tree, &tree, &placement, &mut stack);
+        let found = trees_intersect(&tree, &tree, &placement, &mut stack);
         assert_eq!(found, any);
         crossings += usize::from(any);
     }

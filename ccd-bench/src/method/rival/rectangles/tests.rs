@@ -13,7 +13,7 @@ fn random_vec(rng: &mut Pcg64, size: f64) -> DVec3 {
 
 /// Returns two random rectangles, and the placement of the second in the first one's frame. A side may be zero, and a
 /// turn may be a multiple of a right angle, exactly or nearly.
-fn random_pair(rng: &mut Pcg64) -> (DVec2, DVec2, Placement) {
+fn random_rectangle_pair(rng: &mut Pcg64) -> (DVec2, DVec2, Placement) {
     let mut lengths = || {
         DVec2::from_array([0, 1].map(|_| match rng.random_range(0..6) {
             0 => 0.0,
@@ -49,19 +49,22 @@ const IDENTITY: Placement = Placement {
 };
 
 /// Returns the distance of two rectangles, computed with each rectangle as two triangles.
-fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
+fn distance_by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
     for half_a in halves(corners(a, &IDENTITY)) {
         for half_b in halves(corners(b, placement)) {
-            least = lesser(least, nearest(&half_a, &half_b).between().length());
+            least = lesser(
+                least,
+                nearest(&half_a, &half_b).vector_from_a_to_b().length(),
+            );
         }
     }
     least
 }
 
 /// Returns the distance of two rectangles, computed by coordinate descent over the coordinates of one point in each.
-fn by_descent(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
+fn distance_by_coordinate_descent(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let axes = [
         DVec3::X,
         DVec3::Y,
@@ -94,16 +97,16 @@ fn the_vector_is_the_shortest() {
     let mut rng = Pcg64::seed_from_u64(1);
     let (mut apart, mut meeting) = (0, 0);
     for _ in 0..6_000 {
-        let (a, b, placement) = random_pair(&mut rng);
+        let (a, b, placement) = random_rectangle_pair(&mut rng);
         let vector = shortest_vector(a, b, &placement);
         let distance = vector.length();
-        let twin = by_triangles(a, b, &placement);
+        let twin = distance_by_triangles(a, b, &placement);
         assert!(
             (distance - twin).abs() < 1e-9,
             "{distance} {twin} {a} {b} {placement:?}"
         );
         // This converges slowly if edges are nearly parallel.
-        let twin = by_descent(a, b, &placement);
+        let twin = distance_by_coordinate_descent(a, b, &placement);
         assert!(
             distance < twin + 1e-12,
             "{distance} {twin} {a} {b} {placement:?}"

@@ -3,7 +3,7 @@ use crate::method::rival::tests::samples::{RandomSource, query, resting_motion};
 use ccd_core::Pose;
 use ccd_core::order::lesser;
 
-fn difference(a: Pose, b: Pose, point: DVec3) -> f64 {
+fn position_difference(a: Pose, b: Pose, point: DVec3) -> f64 {
     a.transform_point(point).distance(b.transform_point(point))
 }
 
@@ -14,16 +14,17 @@ fn screws_start_and_end_where_the_motion_does() {
     for _ in 0..2000 {
         // The turn is at most 2.7 circles.
         let query = samples.query(3.0, 10.0);
-        let screw = screw(&query).unwrap();
+        let screw = to_screw_motions(&query).unwrap();
         assert_eq!((screw.duration, &screw.id), (query.duration, &query.id));
         for (screw, motion) in [(screw.a, query.a), (screw.b, query.b)] {
             let point = samples.vector(1.0);
             let sine = (0.5 * motion.spin().length()).sin().abs();
             let slack = 1e-12 / lesser(1.0, 10.0 * sine);
-            assert!(difference(screw.pose(0.0), motion.pose(0.0), point) <= slack);
-            assert!(difference(screw.pose(1.0), motion.pose(1.0), point) <= slack);
+            assert!(position_difference(screw.pose(0.0), motion.pose(0.0), point) <= slack);
+            assert!(position_difference(screw.pose(1.0), motion.pose(1.0), point) <= slack);
             assert!(screw.velocity().cross(screw.spin()).length() <= 1e-12 * screw.spin().length());
-            between += usize::from(difference(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
+            between +=
+                usize::from(position_difference(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
         }
     }
     assert!(between > 2000, "in between they differ: {between}");
@@ -33,7 +34,7 @@ fn screws_start_and_end_where_the_motion_does() {
 fn points_of_the_axis_slide_along_it() {
     let mut samples = RandomSource::new(2);
     for _ in 0..200 {
-        let screw = screw(&samples.query(3.0, 3.0)).unwrap().a;
+        let screw = to_screw_motions(&samples.query(3.0, 3.0)).unwrap().a;
         let centre = |t: f64| screw.pose(t).transform_point(screw.centre());
         let path = centre(1.0) - centre(0.0);
         assert!((path - screw.velocity()).length() < 1e-11);
@@ -55,7 +56,7 @@ fn translations_and_turns_about_the_centre_stay_as_they_are() {
         let start = translation.start();
         let turn = Motion::new(start, DVec3::ZERO, samples.vector(8.0)).unwrap();
         let given = query(translation, turn);
-        assert_eq!(screw(&given).unwrap(), given);
+        assert_eq!(to_screw_motions(&given).unwrap(), given);
     }
 }
 
@@ -65,19 +66,19 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
     for spin in [whole, 2.0 * whole, 1e-16 * DVec3::Z, whole * (1.0 + 1e-5)] {
         let motion = Motion::new(Pose::IDENTITY, DVec3::X, spin).unwrap();
         let given = query(motion, resting_motion(DVec3::ZERO));
-        assert_eq!(screw(&given).unwrap(), given);
+        assert_eq!(to_screw_motions(&given).unwrap(), given);
     }
     // With a slightly larger rotation there is an axis, far away.
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
-    let screw = screw(&query(motion, resting_motion(DVec3::ZERO))).unwrap();
+    let screw = to_screw_motions(&query(motion, resting_motion(DVec3::ZERO))).unwrap();
     assert!((screw.a.centre().length() - 1e3).abs() < 1.0);
-    assert!(difference(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
+    assert!(position_difference(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
 }
 
 #[test]
 fn overflow_is_an_error() {
     let motion = Motion::new(Pose::IDENTITY, 1e308 * DVec3::X, 1e-3 * DVec3::Z).unwrap();
-    let result = screw(&query(motion, resting_motion(DVec3::ZERO)));
+    let result = to_screw_motions(&query(motion, resting_motion(DVec3::ZERO)));
     assert!(matches!(result, Err(InputError::NotFinite { .. })));
 }
 
@@ -86,10 +87,10 @@ fn screws_are_distinguished_from_other_motions() {
     let mut samples = RandomSource::new(4);
     for _ in 0..200 {
         let given = samples.query(3.0, 3.0);
-        assert!(!is_screw(&given));
-        assert!(is_screw(&screw(&given).unwrap()));
+        assert!(!are_screw_motions(&given));
+        assert!(are_screw_motions(&to_screw_motions(&given).unwrap()));
     }
-    assert!(is_screw(&query(
+    assert!(are_screw_motions(&query(
         resting_motion(DVec3::X),
         resting_motion(DVec3::ZERO)
     )));

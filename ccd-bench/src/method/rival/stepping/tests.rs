@@ -1,10 +1,12 @@
 use super::*;
-use crate::method::rival::tests::samples::{cuboid, moving, query, resting_motion};
+use crate::method::rival::tests::samples::{
+    constant_velocity_motion, cuboid, query, resting_motion,
+};
 use ccd_core::glam::{DQuat, DVec3};
 
 /// Returns a query in which a cube of side 1 falls from height 3 at speed 4 onto a slab whose top is at height 0.
-fn fall() -> Motions {
-    let a = moving(
+fn falling_cube_query() -> Motions {
+    let a = constant_velocity_motion(
         3.0 * DVec3::Z,
         DQuat::IDENTITY,
         -4.0 * DVec3::Z,
@@ -13,14 +15,14 @@ fn fall() -> Motions {
     query(a, resting_motion(-0.5 * DVec3::Z))
 }
 
-fn stepping() -> Stepping {
+fn stepping_solver() -> Stepping {
     Stepping::new(&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5))
 }
 
 #[test]
 fn contacts_are_reported_at_the_next_sample() {
     for tolerance in [0.3, 0.01, 0.000_7] {
-        let reply = stepping().answer(&fall(), tolerance);
+        let reply = stepping_solver().answer(&falling_cube_query(), tolerance);
         let Claim::Contact { time } = reply.claim else {
             panic!("{reply:?}")
         };
@@ -35,29 +37,32 @@ fn contacts_are_reported_at_the_next_sample() {
 
 #[test]
 fn a_contact_between_samples_is_missed() {
-    let mut query = fall();
+    let mut query = falling_cube_query();
     let (a, b) = (cuboid(0.5, 0.5, 0.01), cuboid(3.0, 3.0, 0.01));
     let ask = |tolerance: f64| Stepping::new(&a, &b).answer(&query, tolerance);
     let missed = ask(2.0);
-    assert_eq!((missed.claim, missed.steps), (Claim::Free, 3));
+    assert_eq!((missed.claim, missed.steps), (Claim::NoContact, 3));
     assert!(matches!(ask(0.01).claim, Claim::Contact { .. }));
     query.duration = 0.5;
     let before = Stepping::new(&a, &b).answer(&query, 0.01);
-    assert_eq!((before.claim, before.steps), (Claim::Free, 201));
+    assert_eq!((before.claim, before.steps), (Claim::NoContact, 201));
 }
 
 #[test]
 fn bodies_at_rest_are_tested() {
     let apart = query(resting_motion(1.1 * DVec3::Z), resting_motion(DVec3::ZERO));
-    assert_eq!(stepping().answer(&apart, 1e-3).claim, Claim::Free);
+    assert_eq!(
+        stepping_solver().answer(&apart, 1e-3).claim,
+        Claim::NoContact
+    );
     let across = query(resting_motion(0.9 * DVec3::Z), resting_motion(DVec3::ZERO));
     let contact = Claim::Contact { time: 0.0 };
-    assert_eq!(stepping().answer(&across, 1e-3).claim, contact);
+    assert_eq!(stepping_solver().answer(&across, 1e-3).claim, contact);
 }
 
 #[test]
 fn the_number_of_samples_is_limited() {
-    let reply = stepping().answer(&fall(), 1e-9);
+    let reply = stepping_solver().answer(&falling_cube_query(), 1e-9);
     assert_eq!(reply.steps, MAX_SAMPLES);
     let Claim::Unresolved { safe_until } = reply.claim else {
         panic!("{reply:?}")
@@ -65,7 +70,7 @@ fn the_number_of_samples_is_limited() {
     let expected = (MAX_SAMPLES - 1) as f64 * 1e-9 / 4.0;
     assert!((safe_until - expected).abs() < 1e-12, "{safe_until}");
     for tolerance in [0.0, -1.0, f64::NAN] {
-        let reply = stepping().answer(&fall(), tolerance);
+        let reply = stepping_solver().answer(&falling_cube_query(), tolerance);
         assert!(reply.steps <= MAX_SAMPLES, "{tolerance}: {reply:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Node, RssTree, principal_axes};
 use crate::method::rival::Placement;
-use crate::method::rival::tree::{Content, build};
+use crate::method::rival::tree::{NodeContent, build_binary_tree};
 use crate::method::rival::triangles_apart::Triangle;
 use ccd_core::glam::{DMat3, DVec2, DVec3};
 use ccd_core::order::greater;
@@ -12,19 +12,20 @@ const RADIUS_INFLATION: f64 = 1e-14;
 
 /// Builds the tree over triangles, and sorts these into the order of the leaves.
 pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
-    let nodes = build(
+    let nodes = build_binary_tree(
         &mut triangles,
         |triangles, parent: Option<&(Placement, Node)>| {
             let (frame, lengths, radius) = fit(triangles);
             let node = Node {
-                placement: frame.relative_to(parent.map_or(&WORLD, |(frame, _)| frame)),
+                placement: frame
+                    .relative_to(parent.map_or(&IDENTITY_PLACEMENT, |(frame, _)| frame)),
                 lengths,
                 radius,
-                content: Content::Triangle(0),
+                content: NodeContent::Triangle(0),
             };
             (frame, node)
         },
-        |triangles, (frame, _)| partition(triangles, frame.rotation.x_axis),
+        |triangles, (frame, _)| partition_triangles(triangles, frame.rotation.x_axis),
     );
     let node = |((frame, node), below)| {
         (
@@ -43,13 +44,13 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
     }
 }
 
-const WORLD: Placement = Placement {
+const IDENTITY_PLACEMENT: Placement = Placement {
     rotation: DMat3::IDENTITY,
     translation: DVec3::ZERO,
 };
 
 /// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
-fn partition(part: &mut [Triangle], axis: DVec3) -> usize {
+fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
     /// The smallest share of the triangles that a side may get.
     const MIN_FRACTION: f64 = 1.0 / 16.0;
 
@@ -83,9 +84,9 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
         middle,
         radius,
     };
-    points().for_each(|p| shape.reach_sides(p));
+    points().for_each(|p| shape.extend_sides(p));
     shape.repair_crossed_sides();
-    points().for_each(|p| shape.reach_corner(p));
+    points().for_each(|p| shape.extend_corner(p));
     let farthest = points().map(|p| shape.distance(p)).fold(radius, greater);
     let extent = triangles
         .iter()
@@ -118,7 +119,7 @@ impl GrowingRectangle {
     }
 
     /// Moves each side outwards until a point is within the radius of the line along that side.
-    fn reach_sides(&mut self, point: DVec3) {
+    fn extend_sides(&mut self, point: DVec3) {
         let reach = self.foot_radius(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
@@ -132,7 +133,7 @@ impl GrowingRectangle {
     }
 
     /// Moves the corner nearest to a point outwards along its diagonal until the point is within the radius.
-    fn reach_corner(&mut self, point: DVec3) {
+    fn extend_corner(&mut self, point: DVec3) {
         let flat = point.truncate();
         let side = DVec2::select(
             flat.cmpgt(0.5 * (self.low + self.high)),

@@ -1,4 +1,4 @@
-use super::{Content, Pair, PairChildren, RssTree, Trees};
+use super::{NodeContent, Pair, PairChildren, RssTree, Trees};
 use crate::method::rival::Placement;
 use crate::scene::model::Model;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -22,8 +22,8 @@ fn random_placement(rng: &mut Pcg64) -> Placement {
 /// Returns the indices of the triangles below a node.
 fn triangles(tree: &RssTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].content {
-        Content::Triangle(k) => vec![k],
-        Content::Nodes(below) => below.map(|node| triangles(tree, node)).concat(),
+        NodeContent::Triangle(k) => vec![k],
+        NodeContent::Nodes(below) => below.map(|node| triangles(tree, node)).concat(),
     }
 }
 
@@ -70,7 +70,7 @@ fn no_split_is_lopsided() {
     let mesh = TriangleMesh::new((0..400).flat_map(corners).collect(), &faces).unwrap();
     let tree = RssTree::new(&mesh);
     for (k, node) in tree.nodes.iter().enumerate() {
-        let Content::Nodes([left, right]) = node.content else {
+        let NodeContent::Nodes([left, right]) = node.content else {
             continue;
         };
         let all = triangles(&tree, k as u32).len();
@@ -90,7 +90,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
     let (mut checked, mut apart) = (0, 0);
     for _ in 0..60 {
         let placement = random_placement(&mut rng);
-        let mut pair: Pair = trees.roots(&placement).unwrap();
+        let mut pair: Pair = trees.root_pair(&placement).unwrap();
         while let PairChildren::Pairs(pairs) = trees.children(&pair) {
             pair = pairs[rng.random_range(0..2)];
             let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
@@ -101,13 +101,13 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             for &i in &a {
                 for &j in &b {
                     let nearest = trees.nearest(super::TrianglePair { a: i, b: j }, &placement);
-                    true_distance = lesser(true_distance, nearest.between().length());
+                    true_distance = lesser(true_distance, nearest.vector_from_a_to_b().length());
                 }
             }
             let gap = trees.gap(&pair);
             assert_eq!(gap.distance, trees.distance(&pair));
             assert!(gap.distance <= true_distance + 1e-12);
-            assert!(true_distance <= gap.distance + trees.slack(&pair) + 1e-12);
+            assert!(true_distance <= gap.distance + trees.distance_slack(&pair) + 1e-12);
             if gap.distance > 0.0 {
                 let along = |points: &[DVec3; 3]| points.map(|p| gap.direction.dot(p));
                 let high = a
@@ -144,7 +144,7 @@ fn levers_reach_all_points() {
             .map(|p| (p - centre).cross(axis).length())
             .fold(0.0, greater);
         let lever = tree.axis_distance(node, centre, axis);
-        let size = tree.nodes[node as usize].size();
+        let size = tree.nodes[node as usize].diameter_bound();
         assert!(
             farthest <= lever && lever <= farthest + size,
             "{farthest} {lever}"

@@ -56,7 +56,7 @@ pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Motions {
     }
 }
 
-pub(in crate::method::rival) fn moving(
+pub(in crate::method::rival) fn constant_velocity_motion(
     position: DVec3,
     rotation: DQuat,
     velocity: DVec3,
@@ -66,7 +66,7 @@ pub(in crate::method::rival) fn moving(
 }
 
 pub(in crate::method::rival) fn resting_motion(position: DVec3) -> Motion {
-    moving(position, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+    constant_velocity_motion(position, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
 }
 
 pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
@@ -78,7 +78,10 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
     let edge = |t: &[DVec3; 3], k: usize| [t[k], t[(k + 1) % 3]];
     let mut least = f64::INFINITY;
     for i in 0..3 {
-        least = lesser(lesser(least, from_inside(a[i], b)), from_inside(b[i], a));
+        least = lesser(
+            lesser(least, interior_plane_distance(a[i], b)),
+            interior_plane_distance(b[i], a),
+        );
         for j in 0..3 {
             least = lesser(least, edge_distance(edge(a, i), edge(b, j)));
         }
@@ -87,7 +90,7 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
 }
 
 /// Returns the distance of a point from a triangle's plane, if the nearest point of the plane lies in the triangle.
-fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
+fn interior_plane_distance(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;
     if (0..3).all(inside) {

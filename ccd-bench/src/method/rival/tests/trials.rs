@@ -58,7 +58,7 @@ fn moving(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(Pose::at(at).unwrap(), velocity, spin).unwrap()
 }
 
-fn still(at: DVec3) -> Motion {
+fn resting_motion_at(at: DVec3) -> Motion {
     Motion::still(Pose::at(at).unwrap())
 }
 
@@ -85,7 +85,7 @@ fn falling_boxes() -> Vec<ExactCase> {
         b,
         query: query(
             moving(3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
-            still(at_b),
+            resting_motion_at(at_b),
         ),
         time,
         closing_speed: 4.0,
@@ -130,7 +130,7 @@ fn turning_rods() -> Vec<ExactCase> {
         b: box_mesh(SLAB_HALF_EXTENTS),
         query: query(
             moving(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
-            still(SLAB_POSITION),
+            resting_motion_at(SLAB_POSITION),
         ),
         time: angle(height) / PI,
         closing_speed: PI * rise(height),
@@ -142,7 +142,7 @@ fn turning_rods() -> Vec<ExactCase> {
             b: box_mesh(DVec3::new(1.0, 10.0, 10.0)),
             query: query(
                 moving(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
-                still((height + 1.0) * DVec3::X),
+                resting_motion_at((height + 1.0) * DVec3::X),
             ),
             time: angle(height) / (turns * PI),
             closing_speed: turns * PI * rise(height),
@@ -178,7 +178,7 @@ fn rod_on_post() -> ExactCase {
         b: rotated_box_mesh(DVec3::new(0.1, 0.1, 0.5), outward),
         query: query(
             moving(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
-            still(distance * near + 0.1 * SQRT_2 * facing),
+            resting_motion_at(distance * near + 0.1 * SQRT_2 * facing),
         ),
         time: (at - (width / distance).asin()) / 1.5,
         closing_speed: 1.5 * (distance * distance - width * width).sqrt(),
@@ -187,12 +187,12 @@ fn rod_on_post() -> ExactCase {
 
 /// Asserts that times are never late, and not earlier than the time to close the tolerance at half
 /// the contact speed.
-pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
+pub(in crate::method::rival) fn assert_exact_contact_times<C: Solver>(
     tolerance: f64,
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
 ) {
     /// The allowed lateness due to rounding, as a fraction of the duration.
-    const ROUNDING: f64 = 1e-12;
+    const MAX_ROUNDING_LATENESS: f64 = 1e-12;
 
     for scene in falling_boxes().into_iter().chain(turning_rods()) {
         let reply = rival(&scene.a, &scene.b).answer(&scene.query, tolerance);
@@ -202,13 +202,13 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
         let early = scene.time - time;
         let most = 2.0 * tolerance / scene.closing_speed;
         assert!(
-            early >= -ROUNDING,
+            early >= -MAX_ROUNDING_LATENESS,
             "{} at {tolerance:e}: late by {}",
             scene.name,
             -early
         );
         assert!(
-            early <= most + ROUNDING,
+            early <= most + MAX_ROUNDING_LATENESS,
             "{} at {tolerance:e}: early by {early}",
             scene.name
         );
@@ -218,7 +218,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
 /// Two torus knots whose distance is computed over all pairs of triangles.
 struct BruteForceDistance {
     triangles: Vec<Triangle>,
-    balls: Vec<(DVec3, f64)>,
+    bounding_balls: Vec<(DVec3, f64)>,
 }
 
 impl BruteForceDistance {
@@ -233,7 +233,7 @@ impl BruteForceDistance {
             )
         };
         BruteForceDistance {
-            balls: triangles.iter().map(ball).collect(),
+            bounding_balls: triangles.iter().map(ball).collect(),
             triangles,
         }
     }
@@ -245,15 +245,15 @@ impl BruteForceDistance {
             .map(|t| t.map(|p| placement.apply(p)))
             .collect();
         let balls: Vec<_> = self
-            .balls
+            .bounding_balls
             .iter()
             .map(|&(p, r)| (placement.apply(p), r))
             .collect();
         let mut least = f64::INFINITY;
-        for (a, (p, r)) in self.triangles.iter().zip(&self.balls) {
+        for (a, (p, r)) in self.triangles.iter().zip(&self.bounding_balls) {
             for (b, (q, s)) in moved.iter().zip(&balls) {
                 if p.distance(*q) - r - s < least {
-                    least = lesser(least, nearest(a, b).between().length());
+                    least = lesser(least, nearest(a, b).vector_from_a_to_b().length());
                 }
             }
         }
@@ -263,7 +263,10 @@ impl BruteForceDistance {
 
 /// Asserts for shots of small knots that nothing touches until the reported time, and that the
 /// bodies are within the tolerance at that time.
-pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl Solver) {
+pub(in crate::method::rival) fn assert_shots_are_conservative(
+    tolerance: f64,
+    rival: &mut impl Solver,
+) {
     /// The least spacing of samples, as a fraction of the duration; otherwise it is the time to close the distance.
     const MIN_SAMPLE_SPACING: f64 = 5e-4;
 
@@ -293,7 +296,7 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
                 hits += 1;
                 time
             }
-            Claim::Free => {
+            Claim::NoContact => {
                 free += 1;
                 query.duration
             }
@@ -315,13 +318,13 @@ pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl So
 }
 
 /// Asserts that a rival with a small work limit ends with a time, for either kind of limit.
-pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
+pub(in crate::method::rival) fn assert_stops_at_work_limit<C: Solver>(
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
     give: impl Fn(&mut C, WorkLimit),
 ) {
     let (a, b, query) = boxes_rotating_past();
     let mut rival = rival(&a, &b);
-    assert_eq!(rival.answer(&query, 1e-6).claim, Claim::Free);
+    assert_eq!(rival.answer(&query, 1e-6).claim, Claim::NoContact);
     let short = [
         WorkLimit {
             steps: 20,
@@ -348,7 +351,7 @@ pub(in crate::method::rival) fn boxes_rotating_past() -> (TriangleMesh, Triangle
     let turning = box_mesh(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
     let query = query(
         moving(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
-        still(1.51 * DVec3::X),
+        resting_motion_at(1.51 * DVec3::X),
     );
     (turning, box_mesh(DVec3::splat(0.5)), query)
 }

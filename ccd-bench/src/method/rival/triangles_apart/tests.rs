@@ -50,14 +50,14 @@ fn the_points_are_nearest() {
     for _ in 0..50_000 {
         let (a, b) = random_pair(&mut rng);
         let found = nearest(&a, &b);
-        let distance = found.between().length();
+        let distance = found.vector_from_a_to_b().length();
         for (point, triangle) in [(found.on_a, &a), (found.on_b, &b)] {
-            let off = nearest(&[point; 3], triangle).between().length();
+            let off = nearest(&[point; 3], triangle).vector_from_a_to_b().length();
             assert!(off < 1e-9, "{off} off: {a:?} {b:?}");
         }
         if distance > 1e-6 {
             // No plane could separate them by more than their distance, so this proves the distance.
-            let n = found.between() / distance;
+            let n = found.vector_from_a_to_b() / distance;
             let low = b.map(|p| n.dot(p)).into_iter().fold(f64::INFINITY, lesser);
             let high = a
                 .map(|p| n.dot(p))
@@ -85,7 +85,7 @@ fn samples_agree() {
     let mut rng = Pcg64::seed_from_u64(3);
     for _ in 0..100 {
         let (a, b) = random_pair(&mut rng);
-        let distance = nearest(&a, &b).between().length();
+        let distance = nearest(&a, &b).vector_from_a_to_b().length();
         let mut least = f64::INFINITY;
         let [p, q, r] = a;
         for i in 0..=STEPS {

@@ -1,6 +1,6 @@
 use super::*;
 
-fn map(kind: &'static HeatMapKind, cells: Vec<Option<HeatCell>>) -> String {
+fn draw_map(kind: &'static HeatMapKind, cells: Vec<Option<HeatCell>>) -> String {
     let map = HeatMap {
         kind,
         methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
@@ -21,7 +21,7 @@ fn count(svg: &str, colour: &str) -> usize {
 fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
     let cell = |worst, share, limit: &str| Some(HeatCell::reach(worst, share, limit.to_owned()));
     let right = cell(Verdict::Right, 1.0, "");
-    let svg = map(
+    let svg = draw_map(
         SOLVED_RANGE,
         vec![right, cell(Verdict::Missed, 0.25, "1e5"), None],
     );
@@ -44,8 +44,8 @@ fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
 
 #[test]
 fn costs_that_grow_are_darker() {
-    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::growth(factor)));
-    let svg = map(GROWTH, cells.into_iter().chain([None]).collect());
+    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::cost_growth(factor)));
+    let svg = draw_map(COST_GROWTH, cells.into_iter().chain([None]).collect());
     assert_eq!(
         (count(&svg, "#EAF2F8"), count(&svg, "#102F54")),
         (2, 2),

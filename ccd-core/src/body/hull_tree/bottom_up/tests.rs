@@ -27,20 +27,23 @@ fn results_do_not_depend_on_the_number_of_parts() {
             HierarchyNode::Inner(..) => [&left[..], right].concat(),
         })
     };
-    let one = bottom_up_in_parts(1, &hierarchy, make).unwrap();
+    let one = compute_bottom_up_in_parts(1, &hierarchy, make).unwrap();
     assert_eq!(one[0], (0..5000).collect::<Vec<u32>>());
     for parts in [2, 3, 8, 64] {
-        assert_eq!(bottom_up_in_parts(parts, &hierarchy, make).unwrap(), one);
+        assert_eq!(
+            compute_bottom_up_in_parts(parts, &hierarchy, make).unwrap(),
+            one
+        );
     }
 }
 
 /// Tests a tree as deep as there are pieces: every node has a leaf and the rest as children.
 #[test]
 fn chains_take_no_more_stack_than_other_trees() {
-    const PIECES: u32 = 100_000;
+    const PIECE_COUNT: u32 = 100_000;
     for leaf_first in [true, false] {
         let mut nodes = Vec::new();
-        for k in 0..PIECES - 1 {
+        for k in 0..PIECE_COUNT - 1 {
             let (leaf, rest) = (2 * k + 1, 2 * k + 2);
             nodes.push(if leaf_first {
                 HierarchyNode::Inner(leaf, rest)
@@ -49,8 +52,8 @@ fn chains_take_no_more_stack_than_other_trees() {
             });
             nodes.push(HierarchyNode::Leaf(k));
         }
-        nodes.push(HierarchyNode::Leaf(PIECES - 1));
-        let hierarchy = Hierarchy::new(nodes, PIECES as usize).unwrap();
+        nodes.push(HierarchyNode::Leaf(PIECE_COUNT - 1));
+        let hierarchy = Hierarchy::new(nodes, PIECE_COUNT as usize).unwrap();
         let count = |at: usize, [left, right]: [&u32; 2]| {
             Ok(match hierarchy.nodes()[at] {
                 HierarchyNode::Leaf(_) => 1,
@@ -59,11 +62,14 @@ fn chains_take_no_more_stack_than_other_trees() {
         };
         for parts in [1, 8, 64] {
             assert_eq!(
-                bottom_up_in_parts(parts, &hierarchy, count).unwrap()[0],
-                PIECES
+                compute_bottom_up_in_parts(parts, &hierarchy, count).unwrap()[0],
+                PIECE_COUNT
             );
         }
-        assert_eq!(bottom_up(&hierarchy, count).unwrap()[0], PIECES);
+        assert_eq!(
+            compute_bottom_up(&hierarchy, count).unwrap()[0],
+            PIECE_COUNT
+        );
     }
 }
 
@@ -75,10 +81,10 @@ fn the_first_error_is_the_same() {
         999 => Err(fault(at)),
         _ => Ok(0),
     };
-    let one = bottom_up_in_parts(1, &hierarchy, make).unwrap_err();
+    let one = compute_bottom_up_in_parts(1, &hierarchy, make).unwrap_err();
     for parts in [2, 3, 8, 64] {
         assert_eq!(
-            bottom_up_in_parts(parts, &hierarchy, make).unwrap_err(),
+            compute_bottom_up_in_parts(parts, &hierarchy, make).unwrap_err(),
             one
         );
     }

@@ -41,7 +41,7 @@ fn points_get_the_numbers_that_a_table_gives() {
         };
         let found = PointNumbering::new(&hull, [&left, &right]).unwrap();
         let (numbers, positions) = reference_numbering(&hull.points, [&left.points, &right.points]);
-        assert_eq!([found.of_left, found.of_right].concat(), numbers);
+        assert_eq!([found.left_numbers, found.right_numbers].concat(), numbers);
         assert_eq!(found.positions, positions);
     }
 }

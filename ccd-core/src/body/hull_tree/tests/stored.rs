@@ -13,15 +13,15 @@ fn bytes<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_allocvec(value).unwrap()
 }
 
-fn sample() -> (Pieces, HullTree) {
-    let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
+fn pieces_with_hull_tree() -> (Pieces, HullTree) {
+    let pieces = [box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)];
     let tree = tree(&pieces, box_hull(0.0, 3.0)).unwrap();
     (Pieces::polytopes(&pieces).unwrap(), tree)
 }
 
 #[test]
 fn stored_trees_are_read_again() {
-    let (pieces, tree) = sample();
+    let (pieces, tree) = pieces_with_hull_tree();
     let again: Pieces = read(&bytes(&pieces)).unwrap();
     assert!((0..2).all(|k| again.polytope(k) == pieces.polytope(k)));
     let again: HullTree = read(&bytes(&tree)).unwrap();
@@ -63,9 +63,9 @@ fn trees_are_checked_when_read() {
     assert!(soup(0, 0, 0).is_none());
     let nodes = vec![HierarchyNode::Inner(1, 1), HierarchyNode::Leaf(0)];
     assert!(read::<Hierarchy>(&bytes(&nodes)).is_none());
-    let (_, tree) = sample();
+    let (_, tree) = pieces_with_hull_tree();
     let mut nodes = tree.to_nodes();
-    let polytopes = vec![block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
+    let polytopes = vec![box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)];
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_some());
     nodes[0] = HullNode::Inner([1, 2], box_hull(0.0, 1.0));
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
@@ -74,7 +74,7 @@ fn trees_are_checked_when_read() {
 /// Tests that damaged bytes give an error or a valid tree.
 #[test]
 fn no_bytes_make_it_panic() {
-    let (_, tree) = sample();
+    let (_, tree) = pieces_with_hull_tree();
     let good = bytes(&tree);
     for at in 0..good.len() {
         for flip in [0x01, 0x40, 0xff] {

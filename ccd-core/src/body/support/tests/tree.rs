@@ -2,12 +2,12 @@
 
 use super::directions_with_ties;
 use crate::body::support::{Support, SupportTree};
-use crate::rounding::HEIGHT_F64;
+use crate::rounding::HEIGHT_ERROR_F64;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, point_in_ball, rng};
 use glam::DVec3;
 
 /// Returns random points: on a sphere, in a ball, a plane, a line, a single place, a grid, or a needle.
-fn cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
+fn random_point_cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
     let [u, v] = [direction(rng), direction(rng)];
     let whole = |rng: &mut Pcg64| f64::from(rng.random_range(-3..=3));
     let place = |rng: &mut Pcg64| match kind {
@@ -33,7 +33,7 @@ fn searching_agrees_with_a_scan() {
         let size = magnitude(&mut rng, -30.0, 11.0);
         let offset = direction(&mut rng) * size * magnitude(&mut rng, -3.0, 6.0);
         let offset = if number % 3 == 0 { DVec3::ZERO } else { offset };
-        let points: Vec<DVec3> = cloud(&mut rng, number % 7, count)
+        let points: Vec<DVec3> = random_point_cloud(&mut rng, number % 7, count)
             .into_iter()
             .map(|p| p * size + offset)
             .collect();
@@ -52,7 +52,7 @@ fn searching_agrees_with_a_scan() {
             let highest = highest.fold(f64::NEG_INFINITY, crate::math::order::greater);
             let found = height(&points[tree.extremal(look) as usize]);
             // The slack is the tree's own rounding, and that of the heights here.
-            let slack = 4.0 * HEIGHT_F64 * reach * look.abs().element_sum();
+            let slack = 4.0 * HEIGHT_ERROR_F64 * reach * look.abs().element_sum();
             assert!(found >= highest - slack, "{count}: {:e}", highest - found);
         }
     }
@@ -62,17 +62,17 @@ fn searching_agrees_with_a_scan() {
 #[test]
 fn few_points_of_a_curved_surface_are_visited() {
     let mut rng = rng(22);
-    let points = cloud(&mut rng, 0, 32_768);
+    let points = random_point_cloud(&mut rng, 0, 32_768);
     let tree = SupportTree::new(&points);
     let directions = (0..200).map(|_| direction(&mut rng));
-    let seen: usize = directions.map(|look| tree.visits(look)).sum();
+    let seen: usize = directions.map(|look| tree.visited_node_count(look)).sum();
     assert!(seen < 200 * 40, "{} nodes a search", seen / 200);
 }
 
 #[test]
 fn invalid_directions_give_some_point() {
     let mut rng = rng(23);
-    let points = cloud(&mut rng, 1, 300);
+    let points = random_point_cloud(&mut rng, 1, 300);
     let support = Support::of_points(&points);
     for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
         assert!(support.extremal(look) < 300);

@@ -2,7 +2,7 @@
 
 use super::{Disc, Discs, LANES, SupportTree};
 use crate::math::order::greater;
-use crate::rounding::{DISC_F32, DISC_TILT_F32, HEIGHT_F64};
+use crate::rounding::{DISC_HEIGHT_ERROR_F32, DISC_TILT_ERROR_F32, HEIGHT_ERROR_F64};
 use crate::tests::rational::Exact3;
 use crate::tests::scene::direction;
 use crate::tests::worst::{RandomCase, Worst, share};
@@ -21,7 +21,7 @@ fn points(tape: &mut RandomCase) -> (Vec<DVec3>, DVec3) {
 }
 
 /// Scales a direction so that its largest component is 1; returns it exact and rounded.
-fn unit(d: DVec3) -> (DVec3, Vec3) {
+fn unit_in_max_norm(d: DVec3) -> (DVec3, Vec3) {
     let d = d / d.abs().max_element();
     (d, d.as_vec3())
 }
@@ -30,12 +30,12 @@ fn unit(d: DVec3) -> (DVec3, Vec3) {
 fn worst_disc() {
     let found = Worst::of("DISC_F32", 20_000).search(|tape| {
         let (points, along) = points(tape);
-        let (exact, d) = unit(along);
+        let (exact, d) = unit_in_max_norm(along);
         let discs = Discs::new(&points, LANES);
-        let bound = f64::from(discs.bounds(d)[0]) - f64::from(DISC_F32);
+        let bound = f64::from(discs.bounds(d)[0]) - f64::from(DISC_HEIGHT_ERROR_F32);
         let highest = points.iter().map(|p| p.dot(exact));
         let highest = highest.fold(f64::NEG_INFINITY, greater);
-        Some(share(highest - bound, DISC_F32.into()))
+        Some(share(highest - bound, DISC_HEIGHT_ERROR_F32.into()))
     });
     found.is_within(100.0);
 }
@@ -43,7 +43,7 @@ fn worst_disc() {
 #[test]
 fn worst_tilt() {
     let found = Worst::of("DISC_TILT_F32", 40_000).search(|tape| {
-        let (exact, d) = unit(direction(tape));
+        let (exact, d) = unit_in_max_norm(direction(tape));
         let aside = direction(tape) * tape.size(-30..=0);
         // The direction is near the normal: the component across it is a difference of equal squares.
         let toward = (exact.normalize() + aside).normalize();
@@ -57,7 +57,7 @@ fn worst_tilt() {
         let across = f64::from(d.length_squared() - along * along);
         let truth = m.as_dvec3();
         let truth = (exact - truth * exact.dot(truth)).length_squared();
-        let allowed = f64::from(DISC_TILT_F32) * exact.length_squared();
+        let allowed = f64::from(DISC_TILT_ERROR_F32) * exact.length_squared();
         Some(share(truth - across, allowed))
     });
     found.is_within(20.0);
@@ -84,7 +84,7 @@ fn worst_farthest() {
         let missed = points.iter().map(above).fold(0.0, greater);
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(0.0, greater);
-        let allowed = 2.0 * HEIGHT_F64 * along.abs().element_sum() * reach;
+        let allowed = 2.0 * HEIGHT_ERROR_F64 * along.abs().element_sum() * reach;
         Some(share(missed, allowed))
     });
     found.is_within(20.0);

@@ -29,7 +29,7 @@ fn groups_are_half_full_at_least() {
     let lanes: usize = tree
         .boxes
         .iter()
-        .map(|group| group.members.count as usize)
+        .map(|group| group.header.count as usize)
         .sum();
     assert!(
         lanes >= 4 * tree.boxes.len(),

@@ -3,13 +3,13 @@
 use super::NodePoints;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::bounding_box;
-use crate::tuning::SAMPLED_TRIANGLES;
+use crate::tuning::MAX_SAMPLED_TRIANGLES;
 use glam::{DMat3, DVec3, Vec3};
 
 /// The number of values that are computed at once.
 const LANES: usize = 8;
 
-const MAX_POINTS: usize = 3 * SAMPLED_TRIANGLES;
+const MAX_POINTS: usize = 3 * MAX_SAMPLED_TRIANGLES;
 
 /// Points of a node, moved and scaled to unit size. The memory is reused by one sample after the other.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl Sample {
             self.buffer[self.count..][..size].copy_from_slice(points);
             self.count += size;
         }
-        self.fill_unit();
+        self.scale_to_unit_size();
     }
 
     /// Returns the points, moved and scaled.
@@ -68,7 +68,7 @@ impl Sample {
         size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
     }
 
-    fn fill_unit(&mut self) {
+    fn scale_to_unit_size(&mut self) {
         let (low, high) = bounding_box(self.points().iter().copied());
         let middle = 0.5 * (low + high);
         // If the length is too short, it has no reciprocal.

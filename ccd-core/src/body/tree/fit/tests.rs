@@ -3,11 +3,11 @@
 use super::*;
 use crate::math::order::lesser;
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tuning::SAMPLED_TRIANGLES;
+use crate::tuning::MAX_SAMPLED_TRIANGLES;
 use glam::DQuat;
 
 /// Returns the least surface area of the boxes along all frames.
-fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
+fn least_surface_area(points: &[DVec3], triangles: bool) -> f64 {
     let mut frames = vec![DMat3::IDENTITY];
     frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
     if triangles {
@@ -59,7 +59,11 @@ fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
 
 /// Returns triangles of equal winding in a rectangle. In a square no principal axes stand out, and frames turned about
 /// the normal fit best. If half of the triangles are a cluster of tiny ones, principal axes by area fit best.
-fn rectangle(rng: &mut Pcg64, count: usize, [long, cluster]: [f64; 2]) -> Vec<DVec3> {
+fn random_triangles_in_rectangle(
+    rng: &mut Pcg64,
+    count: usize,
+    [long, cluster]: [f64; 2],
+) -> Vec<DVec3> {
     let turn = DQuat::from_axis_angle(direction(rng), 1.0);
     let corner = DVec3::new(0.95 * long, 0.95, 0.0);
     (0..count)
@@ -86,12 +90,12 @@ fn boxes_are_as_small_as_the_best_of_all_frames() {
     let [mut by_area, mut by_turn] = [0; 2];
     for k in 0..60 {
         let shape = [[1.0, 0.0], [2.0, 0.5]][k % 2];
-        let points = rectangle(&mut rng, SAMPLED_TRIANGLES, shape);
+        let points = random_triangles_in_rectangle(&mut rng, MAX_SAMPLED_TRIANGLES, shape);
         sample.fill_from(&triangles(&points));
         let found = surface(best_frame(&sample, true), &points);
-        let least = least_surface(&points, true);
+        let least = least_surface_area(&points, true);
         assert!(found <= (1.0 + 1e-4) * least, "{found} for {least}");
-        let of_points = least_surface(&points, false);
+        let of_points = least_surface_area(&points, false);
         let better = found < 0.99 * of_points;
         by_turn += usize::from(better && k % 2 == 0);
         by_area += usize::from(better && k % 2 == 1);
@@ -104,7 +108,15 @@ fn boxes_are_as_small_as_those_of_all_points() {
     let mut rng = rng(7);
     let mut sample = Sample::EMPTY;
     for size in [1e-9, 1.0, 1e9] {
-        for count in [1, 2, 8, 40, SAMPLED_TRIANGLES, 4 * SAMPLED_TRIANGLES, 1_000] {
+        for count in [
+            1,
+            2,
+            8,
+            40,
+            MAX_SAMPLED_TRIANGLES,
+            4 * MAX_SAMPLED_TRIANGLES,
+            1_000,
+        ] {
             for triangles in [true, false] {
                 let points = sheet(&mut rng, count, size);
                 let node_points = NodePoints {
@@ -116,11 +128,11 @@ fn boxes_are_as_small_as_those_of_all_points() {
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
                 assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
-                let least = least_surface(&points, triangles);
+                let least = least_surface_area(&points, triangles);
                 let most = match count {
                     // The middles of two triangles are on a line, and rounding chooses the axes across it.
                     1 | 2 => 1.5,
-                    _ if points.len() <= 3 * SAMPLED_TRIANGLES => 1.0 + 1e-4,
+                    _ if points.len() <= 3 * MAX_SAMPLED_TRIANGLES => 1.0 + 1e-4,
                     _ => 1.25,
                 };
                 assert!(

@@ -4,7 +4,7 @@
 use super::points_beside_edges;
 use crate::body::Body;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
-use crate::rounding::BESIDE_EDGE;
+use crate::rounding::BESIDE_EDGE_DISTANCE;
 use crate::tests::scene::{Pcg64, RngExt, rng};
 use glam::{DVec2, DVec3};
 
@@ -27,7 +27,7 @@ impl Placement {
         }
     }
 
-    fn place(&self, p: DVec3) -> DVec3 {
+    fn place_point(&self, p: DVec3) -> DVec3 {
         let p = p.to_array();
         DVec3::from([0, 1, 2].map(|k| p[(k + self.axes) % 3])) + self.shift
     }
@@ -45,14 +45,18 @@ fn whole(rng: &mut Pcg64, most: i32) -> DVec3 {
     DVec3::from([0; 3].map(|_| f64::from(rng.random_range(-most..=most))))
 }
 
-fn in_plane(rng: &mut Pcg64) -> DVec2 {
+fn random_plane_point(rng: &mut Pcg64) -> DVec2 {
     whole(rng, 7).truncate()
 }
 
 /// Draws the corners of a plate, counterclockwise: a triangle, or a rectangle.
-fn outline(rng: &mut Pcg64) -> Vec<DVec2> {
+fn random_plate_outline(rng: &mut Pcg64) -> Vec<DVec2> {
     loop {
-        let (a, b, c) = (in_plane(rng), in_plane(rng), in_plane(rng));
+        let (a, b, c) = (
+            random_plane_point(rng),
+            random_plane_point(rng),
+            random_plane_point(rng),
+        );
         match rng.random_bool(0.5) {
             true if (b - a).perp_dot(c - a) > 3.0 => return vec![a, b, c],
             false if (b - a).min_element() > 0.0 => {
@@ -72,7 +76,7 @@ fn ends(rng: &mut Pcg64, outline: &[DVec2]) -> [DVec2; 2] {
         return [from, to + (to - from) * beyond];
     }
     loop {
-        let ends = [in_plane(rng), in_plane(rng)];
+        let ends = [random_plane_point(rng), random_plane_point(rng)];
         if ends[0] != ends[1] {
             return ends;
         }
@@ -80,7 +84,7 @@ fn ends(rng: &mut Pcg64, outline: &[DVec2]) -> [DVec2; 2] {
 }
 
 fn plate(outline: &[DVec2], placement: &Placement) -> Body {
-    let corners = outline.iter().map(|p| placement.place(p.extend(0.0)));
+    let corners = outline.iter().map(|p| placement.place_point(p.extend(0.0)));
     let facets: &[&[u32]] = match outline.len() {
         3 => &[&[0, 1, 2], &[2, 1, 0]],
         // Sides without an area come first.
@@ -111,8 +115,8 @@ fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
 }
 
 /// Creates a triangle or a tetrahedron with a given edge, whose other corners are off the plane of the edge.
-fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
-    let mut apex = |height: f64| in_plane(rng).extend(from.z + height);
+fn random_body_with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
+    let mut apex = |height: f64| random_plane_point(rng).extend(from.z + height);
     let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = if apex(0.0).x > 0.0 {
         (vec![from, to, apex(3.0)], &[])
     } else {
@@ -126,7 +130,10 @@ fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> 
         points.rotate_left(rng.random_range(0..3));
     }
     polytope(
-        points.into_iter().map(|p| placement.place(p)).collect(),
+        points
+            .into_iter()
+            .map(|p| placement.place_point(p))
+            .collect(),
         facets,
     )
 }
@@ -156,8 +163,8 @@ fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec
         return (first == last).then(Vec::new);
     }
     let middle = 0.5 * (at(*first) + at(*last));
-    let aside = (to - from).perp() * (BESIDE_EDGE * share);
-    let off = accuracy([from, to]);
+    let aside = (to - from).perp() * (BESIDE_EDGE_DISTANCE * share);
+    let off = sample_spacing([from, to]);
     let both = [middle + aside, middle - aside];
     let told = both.iter().all(|&p| depth(outline, p).abs() > off);
     told.then(|| {
@@ -167,7 +174,7 @@ fn expected_points(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec
     })
 }
 
-fn accuracy([from, to]: [DVec2; 2]) -> f64 {
+fn sample_spacing([from, to]: [DVec2; 2]) -> f64 {
     from.distance(to) / SAMPLES as f64
 }
 
@@ -176,7 +183,7 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
     let (mut rng, mut counts) = (rng(1), [0; 3]);
     for _ in 0..1_500 {
         let placement = Placement::new(&mut rng);
-        let outline = outline(&mut rng);
+        let outline = random_plate_outline(&mut rng);
         let ends = ends(&mut rng, &outline);
         // One edge in ten is above the plane.
         let height = if rng.random_bool(0.1) { 1.0 } else { 0.0 };
@@ -187,7 +194,7 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
             shift: whole(&mut rng, 9),
             ..placement
         };
-        let other = with_edge(&mut rng, edge, &elsewhere);
+        let other = random_body_with_edge(&mut rng, edge, &elsewhere);
         let back = placement.shift - elsewhere.shift;
         let (a, b) = (plate.pieces().get(0), other.pieces().get(0));
         let found: Vec<DVec3> = points_beside_edges(&a, &b, |p| p + back, REACH).collect();
@@ -200,7 +207,7 @@ fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
         assert_eq!(found.len(), expected.len(), "{outline:?} {ends:?}");
         for p in found {
             let (p, height) = placement.to_plate_plane(p);
-            let near = |q: &DVec2| q.distance(p) <= 2.0 * accuracy(ends);
+            let near = |q: &DVec2| q.distance(p) <= 2.0 * sample_spacing(ends);
             assert!(
                 height == 0.0 && expected.iter().any(near),
                 "{outline:?} {ends:?} {p}"

@@ -7,18 +7,22 @@ use glam::DQuat;
 /// Few of the pairs are visited.
 #[test]
 fn plates_that_fall_flat_meet_at_little_cost() {
-    const SQUARES: usize = 24;
+    const SQUARES_PER_SIDE: usize = 24;
     let own = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
     let corner = |i: usize, j: usize| {
-        let [x, y] = [i, j].map(|k| k as f64 / SQUARES as f64 - 0.5);
+        let [x, y] = [i, j].map(|k| k as f64 / SQUARES_PER_SIDE as f64 - 0.5);
         own * DVec3::new(x, y, 0.0)
     };
     let square = |k: usize| {
-        let (i, j) = (k / SQUARES, k % SQUARES);
+        let (i, j) = (k / SQUARES_PER_SIDE, k % SQUARES_PER_SIDE);
         let (b, d) = (corner(i + 1, j), corner(i, j + 1));
         [[corner(i, j), b, d], [b, corner(i + 1, j + 1), d]]
     };
-    let plate = body(&(0..SQUARES * SQUARES).flat_map(square).collect::<Vec<_>>());
+    let plate = body(
+        &(0..SQUARES_PER_SIDE * SQUARES_PER_SIDE)
+            .flat_map(square)
+            .collect::<Vec<_>>(),
+    );
     for tolerance in [1e-3, 1e-7, 1e-9] {
         let config = Settings {
             tolerance,
@@ -43,7 +47,7 @@ fn plates_that_fall_flat_meet_at_little_cost() {
 /// Returns the triangles of a right-handed thread about z with a pitch of 1. The arguments are the distances of root
 /// and crest from the axis.
 fn screw_thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
-    const SEGMENTS: usize = 24;
+    const SEGMENTS_PER_TURN: usize = 24;
     let profile = [
         (root, 0.0),
         (root, 0.25),
@@ -52,7 +56,7 @@ fn screw_thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
         (root, 1.0),
     ];
     let corner = |k: usize, p: usize| {
-        let turn = k as f64 / SEGMENTS as f64;
+        let turn = k as f64 / SEGMENTS_PER_TURN as f64;
         let (sin, cos) = (turn * std::f64::consts::TAU).sin_cos();
         let (r, z) = profile[p];
         DVec3::new(r * cos, r * sin, z + turn)
@@ -63,7 +67,7 @@ fn screw_thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
             [[corner(k, p), b, d], [b, corner(k + 1, p + 1), d]]
         })
     };
-    (0..turns * SEGMENTS).flat_map(strip).collect()
+    (0..turns * SEGMENTS_PER_TURN).flat_map(strip).collect()
 }
 
 /// Tests a bolt that turns in a nut and keeps its distance all the time.

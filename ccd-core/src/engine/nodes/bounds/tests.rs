@@ -8,7 +8,7 @@ mod worst;
 
 use super::*;
 use crate::body::tree::LANES;
-use crate::engine::nodes::axis::Axis;
+use crate::engine::nodes::axis::AxesX8;
 use crate::engine::nodes::clock;
 use crate::math::order::{greater, lesser};
 use crate::math::simd::{Vec3x8, load};
@@ -44,7 +44,7 @@ impl Solid {
     }
 
     /// Returns the largest second derivative of a height along `n`, at any time.
-    fn second_derivative(&self, n: DVec3) -> f64 {
+    fn max_second_derivative(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
@@ -63,9 +63,9 @@ struct Sample<C, P> {
     /// The gap to keep, which is the slack minus the rounding of a gap.
     kept_gap: f64,
     /// The error of a gap for which the slack allows.
-    allowed: f32,
+    allowed_gap_error: f32,
     children: Vec<Solid>,
-    far: Solid,
+    other_solid: Solid,
     /// The velocity of the children's centre of rotation relative to the other node's.
     velocity: DVec3,
     acceleration: DVec3,
@@ -76,7 +76,7 @@ struct Sample<C, P> {
 struct WorstShares {
     support: f64,
     rate: f64,
-    across: f64,
+    cross_product: f64,
     clock: f64,
     /// The smallest excess of a gap over the gap to keep at the end of a free time, relative to that at the start.
     min_relative_excess: f64,
@@ -84,7 +84,7 @@ struct WorstShares {
     still: usize,
     attached_count: usize,
     /// The number of free times of bodies that accelerate.
-    accelerating: usize,
+    accelerating_count: usize,
     unbounded_count: usize,
 }
 
@@ -121,7 +121,7 @@ struct AxisValues {
     /// The lengths of `n × ω` for the split body and the other body.
     across: [[f32; LANES]; 2],
     /// The free times of planes that are fixed, turn with the split body, or turn with the other body.
-    free: [[f32; LANES]; 3],
+    free_times: [[f32; LANES]; 3],
 }
 
 impl AxisValues {
@@ -133,7 +133,7 @@ impl AxisValues {
     fn numbers(&self) -> Vec<Option<f32>> {
         let rows = [
             &self.axis[..],
-            &self.free,
+            &self.free_times,
             &self.across,
             &[self.gap, self.rate],
         ];
@@ -155,7 +155,7 @@ impl WorstShares {
     fn assert_within_allowances(&self) {
         assert!(self.support < 1.0, "{self:?}");
         assert!(self.rate < 1.0, "{self:?}");
-        assert!(self.across < 1.0, "{self:?}");
+        assert!(self.cross_product < 1.0, "{self:?}");
         assert!(self.clock < 1.0, "{self:?}");
         // Samples that come nowhere near the bounds would prove nothing.
         assert!(self.min_relative_excess < 0.01, "{self:?}");
@@ -164,7 +164,7 @@ impl WorstShares {
             "{self:?}"
         );
         assert!(
-            self.accelerating > 5_000 && self.unbounded_count > 500,
+            self.accelerating_count > 5_000 && self.unbounded_count > 500,
             "{self:?}"
         );
     }
@@ -173,7 +173,7 @@ impl WorstShares {
 /// Computes the values along three axes: two that the bounds try, and a given one.
 ///
 /// Nothing is inlined: in one function without vectors, the compiler would take minutes.
-fn find<L: Simd, C: Children, P: OtherNode>(
+fn axis_values<L: Simd, C: Children, P: OtherNode>(
     level: L,
     sample: &Sample<C, P>,
     some: Vec3,
@@ -191,14 +191,14 @@ fn find<L: Simd, C: Children, P: OtherNode>(
 type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
-fn widest_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
-    axis::widest_axis(pairs.children, pairs.other, pairs.offset)
+fn widest_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> AxesX8<L> {
+    axis::widest_gap_axis(pairs.children, pairs.other, pairs.offset)
 }
 
 #[inline(never)]
 fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
-) -> Axis<L> {
+) -> AxesX8<L> {
     let travel = pairs.velocity * splat(pairs.offset.level(), pairs.motion.horizon);
     axis::closest_approach_axis(pairs.children, pairs.other, pairs.offset, travel)
 }
@@ -206,7 +206,7 @@ fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
 #[inline(never)]
 fn along<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
-    axis: Axis<L>,
+    axis: AxesX8<L>,
 ) -> AxisValues {
     let motion = pairs.motion;
     let (m, o) = (
@@ -220,10 +220,10 @@ fn along<L: Simd, C: Children, P: OtherNode>(
         gap: *axis.gap,
         rate: *rate,
         across: [*m.length(), *o.length()],
-        free: [
+        free_times: [
             free(pairs, axis),
-            free_with_split(pairs, axis),
-            free_with_other(pairs, axis),
+            free_times_turning_with_split(pairs, axis),
+            free_times_turning_with_other(pairs, axis),
         ],
     }
 }
@@ -231,23 +231,23 @@ fn along<L: Simd, C: Children, P: OtherNode>(
 #[inline(never)]
 fn free<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
-    axis: Axis<L>,
+    axis: AxesX8<L>,
 ) -> [f32; LANES] {
     *pairs.free(axis)
 }
 
 #[inline(never)]
-fn free_with_split<L: Simd, C: Children, P: OtherNode>(
+fn free_times_turning_with_split<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
-    axis: Axis<L>,
+    axis: AxesX8<L>,
 ) -> [f32; LANES] {
     *pairs.free_with_split(axis)
 }
 
 #[inline(never)]
-fn free_with_other<L: Simd, C: Children, P: OtherNode>(
+fn free_times_turning_with_other<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
-    axis: Axis<L>,
+    axis: AxesX8<L>,
 ) -> [f32; LANES] {
     *pairs.free_with_other(axis)
 }
@@ -275,26 +275,26 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     fn check_random_axes(&self, rng: &mut Pcg64, worst: &mut WorstShares) {
         // Axes may have any length.
         let some = direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
-        let found = self.found_on_all_levels(some);
+        let found = self.axis_values_on_all_levels(some);
         let reach = vectorize!(Instructions::Best.level(), level => {
             *(self.group.centre(level).length() + self.group.radius(level))
         });
         let reach = reach.into_iter().fold(0.0, greater);
         for found in &found {
-            self.sample_allowances(found, worst);
+            self.record_errors(found, worst);
             self.check_fixed_plane(found, worst);
             if reach > MUCH_LARGER_RATIO * self.other.radius() {
-                self.check_turning_plane(found, LargerBody::Split, worst);
+                self.check_turning_plane(found, LargerBody::SplitBody, worst);
             } else if self.other.radius() > MUCH_LARGER_RATIO * reach {
-                self.check_turning_plane(found, LargerBody::Other, worst);
+                self.check_turning_plane(found, LargerBody::OtherBody, worst);
             }
         }
     }
 
     /// Computes the values with all sets of vector instructions, and checks that they are equal.
-    fn found_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
+    fn axis_values_on_all_levels(&self, some: Vec3) -> [AxisValues; 3] {
         let [best, baseline] = [Instructions::Best, Instructions::Baseline]
-            .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
+            .map(|instructions| vectorize!(instructions.level(), level => axis_values(level, self, some)));
         for (best, baseline) in best.iter().zip(&baseline) {
             assert_eq!(best.numbers(), baseline.numbers(), "{:?}", self.motion);
         }
@@ -302,13 +302,13 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Compares each rounded value with the same in f64, and records the error.
-    fn sample_allowances(&self, found: &AxisValues, worst: &mut WorstShares) {
+    fn record_errors(&self, found: &AxisValues, worst: &mut WorstShares) {
         let frees = self.clocks(found);
         for lane in 0..self.children.len() {
-            let of = self.shares(found, &frees, lane);
+            let of = self.error_shares(found, &frees, lane);
             worst.support = greater(worst.support, of.support);
             worst.rate = greater(worst.rate, of.rate);
-            worst.across = greater(worst.across, of.across);
+            worst.cross_product = greater(worst.cross_product, of.across);
             worst.clock = greater(worst.clock, of.clock);
         }
     }
@@ -319,12 +319,12 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
 
     /// Checks that a fixed plane keeps the pair apart for its whole free time.
     fn check_fixed_plane(&self, found: &AxisValues, worst: &mut WorstShares) {
-        let [free, ..] = found.free;
+        let [free, ..] = found.free_times;
         for (lane, free) in free.into_iter().enumerate() {
             let n = found.normal(lane);
             let gap = |tau: f64| {
                 let child = self.children[lane].highest(n, tau) + n.dot(self.displacement(tau));
-                (-self.far.highest(-n, tau) - child) / n.length()
+                (-self.other_solid.highest(-n, tau) - child) / n.length()
             };
             worst.still += usize::from(self.check(lane, free, gap, worst));
         }
@@ -332,21 +332,21 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
 
     /// Checks that a plane that turns with a body keeps the pair apart for its whole free time.
     fn check_turning_plane(&self, found: &AxisValues, with: LargerBody, worst: &mut WorstShares) {
-        let [_, with_split, with_other] = found.free;
+        let [_, with_split, with_other] = found.free_times;
         let free = match with {
-            LargerBody::Split => with_split,
-            LargerBody::Other => with_other,
+            LargerBody::SplitBody => with_split,
+            LargerBody::OtherBody => with_other,
         };
         for (lane, child) in self.children.iter().enumerate() {
             assert!(free[lane] <= MAX_TURNING_PLANE_TIME);
             let spin = match with {
-                LargerBody::Split => child.spin,
-                LargerBody::Other => self.far.spin,
+                LargerBody::SplitBody => child.spin,
+                LargerBody::OtherBody => self.other_solid.spin,
             };
             let gap = |tau: f64| {
                 let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
                 let top = child.highest(n, tau) + n.dot(self.displacement(tau));
-                (-self.far.highest(-n, tau) - top) / n.length()
+                (-self.other_solid.highest(-n, tau) - top) / n.length()
             };
             worst.attached_count += usize::from(self.check(lane, free[lane], gap, worst));
         }
@@ -366,7 +366,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
         let kept = self.kept_gap;
         let travel = self.velocity.length() + self.acceleration.length();
-        let size = self.children[lane].size_bound() + self.far.size_bound() + travel;
+        let size = self.children[lane].size_bound() + self.other_solid.size_bound() + travel;
         let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
             let tau = until * f64::from(k) / 16.0;
@@ -377,7 +377,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 self.motion,
             );
         }
-        worst.accelerating += usize::from(self.motion.acceleration.is_some());
+        worst.accelerating_count += usize::from(self.motion.acceleration.is_some());
         worst.unbounded_count += usize::from(free == f32::INFINITY);
         let rest = (gap(until) - kept) / (gap(0.0) - kept);
         worst.min_relative_excess = lesser(worst.min_relative_excess, rest);

@@ -17,60 +17,60 @@ struct Tally {
     free: usize,
     no_free_time: usize,
     /// The number of free times that only planes turning with a body give.
-    attached: usize,
+    turning_plane_only: usize,
     /// The number of lanes whose pieces are not apart at the clock.
     overlapping: usize,
     /// The number of samples proven apart by one axis.
     proven_by_axis: usize,
     proven_by_pieces: usize,
     /// The number of splits by the kind of the split node, and by that of the other node.
-    by_role: [usize; 2],
+    splits_by_kind: [usize; 2],
     boxes: usize,
     triangles: usize,
-    against_triangle: usize,
+    splits_against_triangle: usize,
 }
 
 #[test]
 fn free_times_hold_for_any_bodies_and_motions() {
-    let tally = audit(Kind::Any, 1, 75_000);
-    shares_are_substantial(&tally);
+    let tally = audit_random_scenes(Kind::Any, 1, 75_000);
+    assert_shares_are_substantial(&tally);
 }
 
 #[test]
 fn free_times_hold_for_sliding_bodies() {
-    let tally = audit(Kind::Sliding, 2, 30_000);
-    shares_are_substantial(&tally);
+    let tally = audit_random_scenes(Kind::Sliding, 2, 30_000);
+    assert_shares_are_substantial(&tally);
 }
 
 #[test]
 fn free_times_hold_near_the_rim_of_a_turning_body() {
-    let tally = audit(Kind::Rim, 3, 45_000);
-    shares_are_substantial(&tally);
+    let tally = audit_random_scenes(Kind::NearRim, 3, 45_000);
+    assert_shares_are_substantial(&tally);
     // Such scenes need planes that turn with the larger body.
-    assert!(20 * tally.attached > tally.free, "{tally:?}");
+    assert!(20 * tally.turning_plane_only > tally.free, "{tally:?}");
 }
 
 #[test]
 fn overlapping_pairs_get_no_free_time_though_they_recede() {
-    let tally = audit(Kind::Receding, 4, 20_000);
+    let tally = audit_random_scenes(Kind::Receding, 4, 20_000);
     assert!(4 * tally.no_free_time > tally.free, "{tally:?}");
     assert!(tally.overlapping > 200, "{tally:?}");
 }
 
-fn shares_are_substantial(tally: &Tally) {
+fn assert_shares_are_substantial(tally: &Tally) {
     assert!(20 * tally.no_free_time > tally.free, "{tally:?}");
     assert!(8 * tally.free > tally.no_free_time, "{tally:?}");
     assert!(
-        tally.by_role.iter().all(|&n| 4 * n > tally.free),
+        tally.splits_by_kind.iter().all(|&n| 4 * n > tally.free),
         "{tally:?}"
     );
     assert!(10 * tally.boxes > tally.free, "{tally:?}");
     assert!(10 * tally.triangles > tally.free, "{tally:?}");
-    assert!(20 * tally.against_triangle > tally.free, "{tally:?}");
+    assert!(20 * tally.splits_against_triangle > tally.free, "{tally:?}");
 }
 
 /// Checks lanes of random scenes until enough of them have a free time.
-fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
+fn audit_random_scenes(kind: Kind, seed: u64, lanes: usize) -> Tally {
     let mut rng = rng(seed);
     let mut tally = Tally::default();
     for number in 0.. {
@@ -78,7 +78,7 @@ fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
             break;
         }
         let scene = scene(&mut rng, kind, 200).with_random_accelerations(&mut rng);
-        let audit = Audit {
+        let audit = SceneAudit {
             problem: &scene.problem(),
             scene: &scene,
             name: (kind, seed, number),
@@ -90,7 +90,7 @@ fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
     tally
 }
 
-struct Audit<'a> {
+struct SceneAudit<'a> {
     problem: &'a Problem<'a>,
     scene: &'a Scene,
     name: (Kind, u64, usize),
@@ -106,7 +106,7 @@ struct Lane {
     until: f64,
 }
 
-impl Audit<'_> {
+impl SceneAudit<'_> {
     /// Descends from the roots to a pair of pieces, splitting either side, and checks each split at another clock.
     fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
         let mut ids = [0, 0];
@@ -164,8 +164,8 @@ impl Audit<'_> {
         let tree = split.of(self.problem).body.tree();
         match tree.get(node) {
             NodeOrTriangle::Node(node) => match node.below {
-                NodeChildren::Boxes(group) => (tree.box_group(group).members.count, false),
-                NodeChildren::Triangles(group) => (tree.triangle_members(group).count, true),
+                NodeChildren::Boxes(group) => (tree.box_group(group).header.count, false),
+                NodeChildren::Triangles(group) => (tree.triangle_group_header(group).count, true),
                 NodeChildren::Piece(_) => (0, false),
             },
             NodeOrTriangle::Triangle(_) => (0, false),
@@ -194,13 +194,13 @@ impl Audit<'_> {
                 until: lesser(1.0, s + f64::from(free)),
             };
             if free > 0.0 {
-                self.verify(&pair, tally);
+                self.verify_lane(&pair, tally);
                 tally.free += 1;
-                tally.by_role[split as usize] += 1;
-                tally.attached +=
+                tally.splits_by_kind[split as usize] += 1;
+                tally.turning_plane_only +=
                     usize::from(free > 1.5 * still.free_times.time_of_lane(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
-                tally.against_triangle += usize::from(other_tree.piece(other).is_some());
+                tally.splits_against_triangle += usize::from(other_tree.piece(other).is_some());
                 if triangles {
                     tally.triangles += 1;
                 } else {
@@ -221,7 +221,7 @@ impl Audit<'_> {
 
     /// Checks all triangles below the child against all below the other node, at every sampled time. They have to be
     /// farther apart than the gap of all clocks.
-    fn verify(&self, lane: &Lane, tally: &mut Tally) {
+    fn verify_lane(&self, lane: &Lane, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
         let kept = self.problem.gap() - self.problem.rounding;
         let mut prover = AxisSearch::default();
@@ -286,8 +286,8 @@ fn below(side: &BodyWithPath<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
         NodeOrTriangle::Triangle(piece) => return visit(piece),
         NodeOrTriangle::Node(node) => match node.below {
             NodeChildren::Piece(piece) => return visit(piece),
-            NodeChildren::Boxes(group) => tree.box_group(group).members,
-            NodeChildren::Triangles(group) => *tree.triangle_members(group),
+            NodeChildren::Boxes(group) => tree.box_group(group).header,
+            NodeChildren::Triangles(group) => *tree.triangle_group_header(group),
         },
     };
     for k in 0..members.count {
@@ -347,7 +347,7 @@ fn expand_with_fixed_planes(
     node: NodeId,
     other: NodeId,
     s: f64,
-) -> Bounds {
+) -> EightPairBounds {
     let tree = split.of(problem).body.tree();
     let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
@@ -359,7 +359,7 @@ fn expand_with_fixed_planes(
         match below.below {
             NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
-                still(&motion, group, &group.members)
+                still(&motion, group, &group.header)
             }
             NodeChildren::Triangles(group) => {
                 let pieces = split.of(problem).body.pieces();
@@ -378,7 +378,7 @@ fn still<L: Simd, C: Children>(
     motion: &RelativeMotion<'_, L>,
     group: &C,
     members: &GroupHeader,
-) -> Bounds {
+) -> EightPairBounds {
     let far = motion.other_side;
     let radius = match far.body.tree().get(motion.split.other) {
         NodeOrTriangle::Node(node) => node.radius,

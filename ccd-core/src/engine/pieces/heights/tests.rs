@@ -54,7 +54,7 @@ fn many_points_are_bounded_like_all_of_them() {
         let normal = direction(&mut rng);
         let piece = body.piece(0);
         let bare = Piece {
-            support: None,
+            support_map: None,
             ..piece
         };
         let heights = Heights::new(side, &piece, &frame, normal, clock);
@@ -75,7 +75,7 @@ fn many_points_are_bounded_like_all_of_them() {
             * (span + velocity.length() + linear_acceleration.length());
         assert!((heights.least_height() - twin.least_height()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
-            let (bound, all) = (heights.bound_all(tau), twin.bound_all(tau));
+            let (bound, all) = (heights.bound_all_points(tau), twin.bound_all_points(tau));
             if piece.points.len() <= MAX_TRACKED_POINTS {
                 continue;
             }
@@ -180,7 +180,7 @@ impl ReferenceHeights {
             .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
     }
 
-    fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+    fn least_point_value(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
         let each = (0..self.arms.len()).map(|k| of(&self.point(k, tau)));
         each.fold(f64::INFINITY, lesser)
     }
@@ -196,7 +196,10 @@ impl ReferenceHeights {
                 && is(heights.least_linear_acceleration(), linear_acceleration)
         );
         assert!(heights.least_linear_acceleration() <= heights.linear_acceleration());
-        assert!(is(heights.least_height(), self.least_of(0.0, |p| p.height)));
+        assert!(is(
+            heights.least_height(),
+            self.least_point_value(0.0, |p| p.height)
+        ));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
         assert_eq!(
@@ -204,19 +207,20 @@ impl ReferenceHeights {
             self.arms.len() <= MAX_TRACKED_POINTS
         );
         for tau in [0.0, 0.1, 0.5, 1.0] {
-            let bound = heights.bound_all(tau);
-            assert!(is(bound.height, self.least_of(tau, |p| p.height)));
-            assert!(is(bound.rate, self.least_of(tau, |p| p.rate)));
+            let bound = heights.bound_all_points(tau);
+            assert!(is(bound.height, self.least_point_value(tau, |p| p.height)));
+            assert!(is(bound.rate, self.least_point_value(tau, |p| p.rate)));
             assert!(
-                -bound.second_derivative <= self.least_of(tau, |p| -p.second_derivative) + 1e-12
+                -bound.second_derivative
+                    <= self.least_point_value(tau, |p| -p.second_derivative) + 1e-12
             );
             let both = |p: &Point| p.height + p.rate;
             let least = heights.least_value_after(tau, both);
-            assert!(least <= self.least_of(tau, both) + 1e-11 * (1.0 + rate * rate));
+            assert!(least <= self.least_point_value(tau, both) + 1e-11 * (1.0 + rate * rate));
             let Some(few) = heights.few_tracks() else {
                 continue;
             };
-            assert!(is(least, self.least_of(tau, both)));
+            assert!(is(least, self.least_point_value(tau, both)));
             for (k, point) in few.at(heights.angle(tau), tau).into_iter().enumerate() {
                 // The last point is repeated.
                 let twin = self.point(lesser(k as u32, self.arms.len() as u32 - 1) as usize, tau);
@@ -226,20 +230,20 @@ impl ReferenceHeights {
         self.check_descent(heights, 0.7);
     }
 
-    /// Checks that `descent_until` is no less than the largest sampled descent by rotation, and at most 1e-3 more; or
+    /// Checks that `max_descent_until` is no less than the largest sampled descent by rotation, and at most 1e-3 more; or
     /// `None`, if the piece has many points.
     fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
         let many = heights.piece.bounding_ball().is_some();
-        let Some(descent) = heights.descent_until(horizon) else {
+        let Some(descent) = heights.max_descent_until(horizon) else {
             assert!(many);
             return;
         };
         assert!(!many);
         let samples = (0..=1_000).map(|k| horizon * f64::from(k) / 1e3);
         let lowest = samples
-            .map(|tau| self.least_of(tau, |p| p.height) - self.linear_rate(tau))
+            .map(|tau| self.least_point_value(tau, |p| p.height) - self.linear_rate(tau))
             .fold(f64::INFINITY, lesser);
-        let sampled = self.least_of(0.0, |p| p.height) - lowest;
+        let sampled = self.least_point_value(0.0, |p| p.height) - lowest;
         assert!(
             (-1e-12..1e-3).contains(&(descent - sampled)),
             "{descent} {sampled}"

@@ -23,12 +23,12 @@ fn balls<R>(x: f64, speed: f64, config: &Settings, then: impl FnOnce(&Problem<'_
 }
 
 /// Advances a new pair until the step is not a later clock.
-fn run(problem: &Problem<'_>) -> (f64, Step) {
+fn run(problem: &Problem<'_>) -> (f64, PairStep) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
     for _ in 0..128 {
         match pair.advance(problem, &mut ExhaustiveOracle, &mut Meter::new(problem), s) {
-            Step::FreeUntil(clock) if clock < 1.0 => {
+            PairStep::FreeUntil(clock) if clock < 1.0 => {
                 assert!(clock > s);
                 s = clock;
             }
@@ -42,7 +42,7 @@ fn run(problem: &Problem<'_>) -> (f64, Step) {
 fn two_balls_meet_when_they_do() {
     let config = Settings::DEFAULT;
     let (s, step) = balls(4.0, 4.0, &config, run);
-    assert!(matches!(step, Step::Contact(_)), "two balls meet");
+    assert!(matches!(step, PairStep::Contact(_)), "two balls meet");
     // The gap of 2 is closed at half the duration. The balls stop within the tolerance of it.
     assert!(s <= 0.5 && s > 0.5 - config.tolerance / 4.0, "{s}");
 }
@@ -51,7 +51,7 @@ fn two_balls_meet_when_they_do() {
 fn a_pair_that_recedes_is_done_with() {
     let (s, step) = balls(4.0, -4.0, &Settings::DEFAULT, run);
     assert_eq!(s, 0.0);
-    assert!(matches!(step, Step::FreeUntil(clock) if clock > 1.0));
+    assert!(matches!(step, PairStep::FreeUntil(clock) if clock > 1.0));
 }
 
 #[test]
@@ -61,16 +61,16 @@ fn the_margin_is_kept() {
         ..Settings::DEFAULT
     };
     let (s, step) = balls(4.0, 4.0, &config, run);
-    assert!(matches!(step, Step::Contact(_)));
+    assert!(matches!(step, PairStep::Contact(_)));
     assert!(s <= 0.25 && s > 0.2497, "{s}");
 }
 
 #[test]
 fn overlap_and_touching_are_distinguished() {
     let (s, step) = balls(1.9, 0.0, &Settings::DEFAULT, run);
-    assert!(s == 0.0 && matches!(step, Step::Overlap(_)));
+    assert!(s == 0.0 && matches!(step, PairStep::Overlap(_)));
     let (s, step) = balls(2.0, 0.0, &Settings::DEFAULT, run);
-    assert!(s == 0.0 && matches!(step, Step::Contact(_)));
+    assert!(s == 0.0 && matches!(step, PairStep::Contact(_)));
 }
 
 #[test]
@@ -82,16 +82,16 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     // Pairs that begin with a gap are handled by the search, which uses half of the gap.
     let x = 2.0;
     let (_, step) = balls(x, -1.0, &config, run);
-    assert!(matches!(step, Step::FreeUntil(_)), "parting");
+    assert!(matches!(step, PairStep::FreeUntil(_)), "parting");
     let (_, step) = balls(x, 0.0, &config, run);
-    assert!(matches!(step, Step::FreeUntil(_)), "resting");
+    assert!(matches!(step, PairStep::FreeUntil(_)), "resting");
     let (s, step) = balls(x, 1.0, &config, run);
-    assert!(matches!(step, Step::Contact(_)), "approaching");
+    assert!(matches!(step, PairStep::Contact(_)), "approaching");
     // The contact is never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
     // A second touch after parting is a contact at the query's own tolerance.
     let (s, step) = with_returning_bar(&config, run);
-    assert!(matches!(step, Step::Contact(_)));
+    assert!(matches!(step, PairStep::Contact(_)));
     let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
     assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
 }
@@ -117,7 +117,7 @@ fn an_oracle_that_gives_up_is_counted() {
         let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
         (step, meter.stats)
     });
-    assert!(matches!(step, Step::GaveUp));
+    assert!(matches!(step, PairStep::GaveUp));
     assert_eq!((stats.oracle_calls, stats.give_ups), (1, 1));
 }
 
@@ -147,8 +147,8 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
         });
         // A pair of points has only one axis, which the check finds for any claim.
         match step {
-            Step::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
-            Step::Stalled => {}
+            PairStep::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
+            PairStep::Stalled => {}
             _ => panic!("neither contact nor overlap"),
         }
     }

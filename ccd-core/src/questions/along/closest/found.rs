@@ -95,7 +95,7 @@ impl StretchResult {
 }
 
 /// The bounds of the least distance found so far.
-pub(super) struct BestSoFar {
+pub(super) struct LeastDistanceSoFar {
     /// A lower bound of the distance in all finished stretches.
     pub(super) lower: f64,
     pub(super) best: Option<(f64, Contact)>,
@@ -103,10 +103,10 @@ pub(super) struct BestSoFar {
     pub(super) ladder: LowerBoundLadder,
 }
 
-impl BestSoFar {
+impl LeastDistanceSoFar {
     pub(super) fn new(query: &Query<'_>) -> Self {
         let is_timed = query.terms.deadline.is_some() || query.terms.stop.is_some();
-        BestSoFar {
+        LeastDistanceSoFar {
             lower: f64::INFINITY,
             best: None,
             ladder: LowerBoundLadder::new(0.0, query.terms.budget).with_early_start(is_timed),
@@ -137,7 +137,7 @@ impl BestSoFar {
                 time,
                 contact,
             } => {
-                self.take(motions.time(time), motions.contact(contact));
+                self.record_contact(motions.time(time), motions.contact(contact));
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
@@ -145,12 +145,12 @@ impl BestSoFar {
             }
             Outcome::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
-                    self.take(motions.span.from, motions.contact(contact));
+                    self.record_contact(motions.span.from, motions.contact(contact));
                 }
             }
             Outcome::Unresolved(known) => {
                 if let Some((time, contact)) = known.at {
-                    self.take(motions.time(time), motions.contact(contact));
+                    self.record_contact(motions.time(time), motions.contact(contact));
                 }
                 return Err(known.limit);
             }
@@ -159,7 +159,7 @@ impl BestSoFar {
         Ok(seen)
     }
 
-    pub(super) fn take(&mut self, time: f64, contact: Contact) {
+    pub(super) fn record_contact(&mut self, time: f64, contact: Contact) {
         if contact.separation.upper < self.upper() {
             self.best = Some((time, contact));
         }

@@ -175,12 +175,12 @@ fn each_part_between_two_corners_has_a_budget() {
 }
 
 /// A trajectory with unbounded deviations, with a corner near the end of every stretch, or with invalid bounds.
-struct Hostile {
+struct HostileTrajectory {
     stray: DeviationBound,
     step: f64,
 }
 
-impl Trajectory for Hostile {
+impl Trajectory for HostileTrajectory {
     fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
         Ok(Stretch {
             deviation: self.stray,
@@ -198,7 +198,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let ball = Body::sphere(0.5).unwrap();
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
-        let hostile = Hostile {
+        let hostile = HostileTrajectory {
             stray: DeviationBound { shift, turn },
             step,
         };

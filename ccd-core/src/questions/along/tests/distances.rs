@@ -6,7 +6,7 @@ use crate::answer::Limit;
 use crate::answer::Unresolved;
 
 /// Returns the least distance at equal time steps, so short that distances in between hardly differ.
-fn sampled(swings: &SwingingBodies) -> f64 {
+fn sampled_least_distance(swings: &SwingingBodies) -> f64 {
     let distances = (0..=200).map(|k| swings.distance(f64::from(k) / 200.0));
     distances.fold(f64::INFINITY, lesser)
 }
@@ -18,7 +18,7 @@ fn a_required_distance_is_kept_or_not_on_either_side_of_the_least() {
     for number in 0..200 {
         let mut swings = SwingingBodies::draw(&mut rng);
         let tolerance = swings.config.tolerance;
-        let least = sampled(&swings);
+        let least = sampled_least_distance(&swings);
         let ask = |swings: &SwingingBodies| {
             let query = swings.query();
             let answer = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
@@ -77,7 +77,7 @@ fn budgets_end_a_search_with_bounds_that_hold() {
     let (mut ended, mut proven) = (0, 0);
     for number in 0..100 {
         let mut swings = SwingingBodies::draw(&mut rng);
-        let least = sampled(&swings);
+        let least = sampled_least_distance(&swings);
         let query = swings.query();
         let whole = DepthFirst::default().closest_approach(&query, &mut ExhaustiveOracle);
         let work = whole.unwrap().stats.work();

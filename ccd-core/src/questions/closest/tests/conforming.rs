@@ -1,7 +1,7 @@
 //! Tests bodies whose surfaces stay close to each other while one of them turns.
 
 use super::*;
-use crate::engine::answer::Solve;
+use crate::engine::answer::EngineSchedule;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
 use crate::tests::nearest::Triangle;

@@ -1,10 +1,10 @@
 //! Compares the extent of a flat node with that of all points between its planes and in its ball.
 
-use super::super::Flat;
+use super::super::FlatNode;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, direction, rotation};
@@ -21,14 +21,14 @@ fn worst_reach() {
         let still = Motion::still(Pose::new(DVec3::ZERO, rotation(tape)).ok()?);
         let problem =
             Problem::about((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT).ok()?;
-        let node = Flat::new(&problem.a, 0, 0.0)?;
+        let node = FlatNode::new(&problem.a, 0, 0.0)?;
         let n = (node.normal + direction(tape) * tape.size(-30..=4)).normalize();
         let [exact, normal] = [n, node.normal].map(Double3::from);
         let along = exact.dot(normal).get().abs();
         let radius = node.node.radius;
         let truth = Double::from(node.half?) * Double::from(along)
             + Double::from(radius) * exact.cross(normal).length();
-        let allowed = RATE_F64 * radius;
+        let allowed = RATE_ERROR_F64 * radius;
         let lost = truth - (Double::from(node.extent_along(n)) - Double::from(allowed));
         Some(share(lost.get(), allowed))
     });

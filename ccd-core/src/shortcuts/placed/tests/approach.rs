@@ -4,9 +4,9 @@ use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{BodyWithPath, Problem};
-use crate::rounding::RATE_F64;
+use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
-use crate::shortcuts::placed::{Approach, Placed};
+use crate::shortcuts::placed::{ApproachRateBounds, PlacedNode};
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
 use crate::tests::worst::{RandomCase, Worst, share};
@@ -41,7 +41,14 @@ impl Sums {
         }
     }
 
-    fn add(&mut self, side: &BodyWithPath<'_>, motion: &Motion, node: &Placed, n: DVec3, s: f64) {
+    fn add(
+        &mut self,
+        side: &BodyWithPath<'_>,
+        motion: &Motion,
+        node: &PlacedNode,
+        n: DVec3,
+        s: f64,
+    ) {
         let path = &side.path;
         let frame = path.frame(s);
         let centre = Double3::from(path.centre_at(s));
@@ -90,14 +97,14 @@ fn shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let problem = Problem::accelerated(bodies, pulls, 1.0, &Settings::DEFAULT.terms()).ok()?;
     let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.fraction());
     let sides = [&problem.a, &problem.b];
-    let nodes = sides.map(|side| Placed::new(side, side.body.tree().nodes() as u32, s));
+    let nodes = sides.map(|side| PlacedNode::new(side, side.body.tree().nodes() as u32, s));
     let [at, bt] = &nodes;
-    let found = Approach::along(&problem, [at, bt], n, s);
+    let found = ApproachRateBounds::along(&problem, [at, bt], n, s);
     let mut sums = Sums::new();
     for (k, n) in [(0, n), (1, -n)] {
         sums.add(sides[k], &motions[k], &nodes[k], n, s);
     }
-    let allowed = RATE_F64 * (2.0 * sums.speed + sums.size);
+    let allowed = RATE_ERROR_F64 * (2.0 * sums.speed + sums.size);
     let rate = Double::from(found.rate) - Double::from(allowed);
     let rate = share((sums.rate - rate).get(), allowed);
     let allowed = found.second_derivative - sums.plain_second_derivative;

@@ -8,14 +8,14 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::rounding::profile_rounding;
 use crate::settings::Settings;
-use crate::shortcuts::placed::Placed;
+use crate::shortcuts::placed::PlacedNode;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::body;
 use crate::tests::worst::{RandomCase, Worst, share};
 use glam::DVec3;
 
 /// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
-fn cylindrical(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
+fn cylindrical_coordinates(axis: &ScrewAxis, point: Double3, near: f64) -> [Double; 3] {
     let unit = Double3::from(axis.unit).unit();
     let way = point - Double3::from(axis.origin);
     let height = way.dot(unit);
@@ -41,7 +41,7 @@ fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let still = Motion::still(Pose::IDENTITY);
     let body = body(&[corners]);
     let problem = Problem::about((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
-    let node = Placed::new(&problem.a, body.tree().nodes() as u32, 0.0);
+    let node = PlacedNode::new(&problem.a, body.tree().nodes() as u32, 0.0);
     let profile = Profile::new(&node, axis)?;
     let (arm, distance) = {
         let way = node.centre - axis.origin;
@@ -52,7 +52,7 @@ fn worst_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let places = corners.map(|x| {
         // The position is relative to the node's centre, as in the node.
         let from_centre = Double3::from(frame.point(x) - node.centre);
-        cylindrical(
+        cylindrical_coordinates(
             axis,
             from_centre + Double3::from(node.centre),
             profile.azimuth,

@@ -4,7 +4,7 @@ use crate::math::vector::length;
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
-use crate::rounding::ADVANCE_F64;
+use crate::rounding::ADVANCE_ERROR_F64;
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
 use glam::DVec3;
@@ -27,7 +27,7 @@ fn worst_advance() {
         let [v, w] = [velocity, spin].map(Double3::from);
         let exact = v - w.scale(Double::from(per_radian));
         let lost = exact.length() - Double::from(drift);
-        Some(share(lost.get(), ADVANCE_F64 * length(velocity)))
+        Some(share(lost.get(), ADVANCE_ERROR_F64 * length(velocity)))
     });
     found.is_within(40.0);
 }

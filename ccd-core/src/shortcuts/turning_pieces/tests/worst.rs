@@ -39,9 +39,9 @@ impl Setting<'_> {
             height,
             axis,
             rate,
-            closing,
+            rate_axis: closing,
         } = self.sweep.turned(tau);
-        let arm = self.point - self.sweep.reference;
+        let arm = self.point - self.sweep.reference_point;
         [height + axis.dot(arm), rate + closing.dot(arm)].map(Double::from)
     }
 
@@ -56,7 +56,7 @@ impl Setting<'_> {
             }
         };
         let normal = turned(Double3::from(self.normal), spin);
-        let local = Double3::from(self.point) - Double3::from(self.sweep.reference);
+        let local = Double3::from(self.point) - Double3::from(self.sweep.reference_point);
         let rotation = self.sweep.frame.rotation;
         let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(Double3::from);
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));

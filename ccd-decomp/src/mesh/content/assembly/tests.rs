@@ -1,7 +1,7 @@
 use super::{Assembly, Object, Part, PlacedObject};
 use crate::MeshFault;
 use crate::mesh::affine::AffineMap;
-use crate::mesh::content::allowance::Allowance;
+use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::polygons::Polygons;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
@@ -15,7 +15,7 @@ fn triangle() -> Polygons {
     }
 }
 
-fn shifted(object: usize, x: f64) -> PlacedObject {
+fn shifted_object(object: usize, x: f64) -> PlacedObject {
     let map = AffineMap::from(Pose::at([x, 0.0, 0.0]).unwrap());
     PlacedObject { object, map }
 }
@@ -23,7 +23,7 @@ fn shifted(object: usize, x: f64) -> PlacedObject {
 fn part(object: usize) -> Part {
     Part {
         name: None,
-        placed: shifted(object, 0.0),
+        placed: shifted_object(object, 0.0),
     }
 }
 
@@ -44,12 +44,15 @@ fn leaf() -> Object {
 #[test]
 fn members_are_placed_in_order() {
     let objects = vec![
-        of(vec![shifted(2, 10.0), shifted(1, 20.0)]),
-        of(vec![shifted(2, 1.0), shifted(2, 2.0)]),
+        of(vec![shifted_object(2, 10.0), shifted_object(1, 20.0)]),
+        of(vec![shifted_object(2, 1.0), shifted_object(2, 2.0)]),
         leaf(),
     ];
-    let Ok(assembly) = Assembly::new(objects, vec![part(0), part(2)], Allowance::for_file(0))
-    else {
+    let Ok(assembly) = Assembly::new(
+        objects,
+        vec![part(0), part(2)],
+        ExpansionBudget::for_file(0),
+    ) else {
         panic!("there is no circle");
     };
     let all = assembly.expand(0..2).unwrap();
@@ -61,31 +64,34 @@ fn members_are_placed_in_order() {
 #[test]
 fn circles_are_found() {
     let circle = |objects: Vec<Object>| {
-        let made = Assembly::new(objects, vec![part(0)], Allowance::for_file(0));
+        let made = Assembly::new(objects, vec![part(0)], ExpansionBudget::for_file(0));
         made.err().map(|circle| circle.object)
     };
-    assert_eq!(circle(vec![of(vec![shifted(0, 1.0)])]), Some(0));
+    assert_eq!(circle(vec![of(vec![shifted_object(0, 1.0)])]), Some(0));
     // The first object leads to the cycle, but is not on it.
     let lead = vec![
-        of(vec![shifted(3, 0.0), shifted(1, 0.0)]),
-        of(vec![shifted(2, 0.0)]),
-        of(vec![shifted(1, 0.0)]),
+        of(vec![shifted_object(3, 0.0), shifted_object(1, 0.0)]),
+        of(vec![shifted_object(2, 0.0)]),
+        of(vec![shifted_object(1, 0.0)]),
         leaf(),
     ];
     assert!(matches!(circle(lead), Some(1 | 2)));
-    assert_eq!(circle(vec![of(vec![shifted(1, 0.0); 3]), leaf()]), None);
+    assert_eq!(
+        circle(vec![of(vec![shifted_object(1, 0.0); 3]), leaf()]),
+        None
+    );
 }
 
 #[test]
 fn parts_without_faces_are_left_out() {
     let objects = vec![
-        of(vec![shifted(1, 0.0)]),
+        of(vec![shifted_object(1, 0.0)]),
         of(Vec::new()),
-        of(vec![shifted(3, 0.0)]),
+        of(vec![shifted_object(3, 0.0)]),
         leaf(),
     ];
     let parts = vec![part(0), part(2), part(1), part(3)];
-    let Ok(assembly) = Assembly::new(objects, parts, Allowance::for_file(0)) else {
+    let Ok(assembly) = Assembly::new(objects, parts, ExpansionBudget::for_file(0)) else {
         panic!("there is no circle");
     };
     let kept: Vec<usize> = assembly
@@ -101,10 +107,18 @@ fn parts_without_faces_are_left_out() {
 fn doubling_is_refused_before_it_is_done() {
     for bottom in [leaf(), of(Vec::new())] {
         let mut objects = vec![leaf(), bottom];
-        objects
-            .extend((1..1000).map(|k| of(vec![shifted(k, 1.0), shifted(k, 2.0), shifted(0, 0.0)])));
-        let Ok(assembly) = Assembly::new(objects, vec![part(1000)], Allowance::for_file(100_000))
-        else {
+        objects.extend((1..1000).map(|k| {
+            of(vec![
+                shifted_object(k, 1.0),
+                shifted_object(k, 2.0),
+                shifted_object(0, 0.0),
+            ])
+        }));
+        let Ok(assembly) = Assembly::new(
+            objects,
+            vec![part(1000)],
+            ExpansionBudget::for_file(100_000),
+        ) else {
             panic!("there is no circle");
         };
         let fault = assembly.expand(0..1).unwrap_err();

@@ -3,21 +3,21 @@
 use super::buffers::Buffers;
 use super::element;
 use super::schema::{self, Root, Sparse};
-use crate::mesh::content::allowance::{Allowance, cost};
+use crate::mesh::content::allowance::{ExpansionBudget, expansion_cost};
 use crate::mesh::error::{MeshFault, element_name};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 /// Reads accessors, and charges their elements to the limit on what the file may expand to.
-pub(super) struct Accessors<'a> {
+pub(super) struct AccessorReader<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: &'a Buffers<'a>,
-    pub(super) allowance: Allowance,
+    pub(super) allowance: ExpansionBudget,
 }
 
 /// The component types of glTF accessors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Component {
+enum ComponentType {
     I8,
     U8,
     I16,
@@ -26,45 +26,52 @@ enum Component {
     F32,
 }
 
-impl<'a> Accessors<'a> {
+impl<'a> AccessorReader<'a> {
     /// Returns whether an accessor has uncompressed data, not only a compression extension.
-    pub(super) fn has_bytes(&self, accessor: usize) -> bool {
+    pub(super) fn has_uncompressed_data(&self, accessor: usize) -> bool {
         let about = self.root.accessors.get(accessor);
         about.is_some_and(|about| about.buffer_view.is_some() || about.sparse.is_some())
     }
 
     /// Spends the cost of `count` face corners from the allowance.
     pub(super) fn spend_corners(&mut self, count: usize) -> Result<(), MeshFault> {
-        self.allowance.spend(cost(0, count as u64))
+        self.allowance.spend(expansion_cost(0, count as u64))
     }
 
     /// Reads the points of a `VEC3` accessor as f64.
     pub(super) fn points(&mut self, accessor: usize) -> Result<Vec<DVec3>, MeshFault> {
-        self.read_named(accessor, |accessors, about| {
+        self.read_accessor(accessor, |accessors, about| {
             check_kind(about, "VEC3")?;
-            let component = Component::from_code(about.component_type)?;
+            let component = ComponentType::from_code(about.component_type)?;
             let size = component.size();
             let point = |row: &[u8]| {
-                let number = |k: usize| component.coordinate(&row[k * size..], about.normalized);
+                let number =
+                    |k: usize| component.read_coordinate(&row[k * size..], about.normalized);
                 DVec3::new(number(0), number(1), number(2))
             };
-            let price = cost(about.count, 0);
-            accessors.elements(about, 3 * size, price, DVec3::ZERO, point)
+            let price = expansion_cost(about.count, 0);
+            accessors.read_elements(about, 3 * size, price, DVec3::ZERO, point)
         })
     }
 
     /// Reads the indices of a `SCALAR` accessor.
     pub(super) fn indices(&mut self, accessor: usize) -> Result<Vec<u32>, MeshFault> {
-        self.read_named(accessor, |accessors, about| {
+        self.read_accessor(accessor, |accessors, about| {
             check_kind(about, "SCALAR")?;
-            let component = Component::index_from_code(about.component_type)?;
-            let whole = |row: &[u8]| component.to_f64(row) as u32;
-            accessors.elements(about, component.size(), cost(0, about.count), 0, whole)
+            let component = ComponentType::index_type_from_code(about.component_type)?;
+            let whole = |row: &[u8]| component.read_f64(row) as u32;
+            accessors.read_elements(
+                about,
+                component.size(),
+                expansion_cost(0, about.count),
+                0,
+                whole,
+            )
         })
     }
 
     /// Calls `read` for an accessor, and names the accessor in faults.
-    fn read_named<T>(
+    fn read_accessor<T>(
         &mut self,
         accessor: usize,
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
@@ -74,7 +81,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// Reads all elements of an accessor, sparse ones included.
-    fn elements<T: Clone>(
+    fn read_elements<T: Clone>(
         &mut self,
         about: &schema::Accessor,
         size: usize,
@@ -89,7 +96,7 @@ impl<'a> Accessors<'a> {
                 Some(self.rows(view, about.byte_offset, layout, stride)?)
             }
             None if about.sparse.is_some() => None,
-            None => return Err(MeshFault::malformed("has no buffer view")),
+            None => return Err(MeshFault::malformed_content("has no buffer view")),
         };
         self.allowance.spend(price)?;
         let mut elements: Vec<T> = match rows {
@@ -117,17 +124,17 @@ impl<'a> Accessors<'a> {
         (count, size): (u64, usize),
         stride: Option<u64>,
     ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, MeshFault> {
-        let bytes = self.buffers.view(view, offset)?;
+        let bytes = self.buffers.view_bytes(view, offset)?;
         let stride = stride.unwrap_or(size as u64);
         if stride < size as u64 {
             let problem = format!("has elements of {size} bytes every {stride} bytes");
-            return Err(MeshFault::malformed(problem));
+            return Err(MeshFault::malformed_content(problem));
         }
         let before_last = stride.checked_mul(count.saturating_sub(1));
         let end = before_last.and_then(|before| before.checked_add(size as u64));
         if count > 0 && end.is_none_or(|end| end > bytes.len() as u64) {
             let missing = format!("all {count} elements of {size} bytes in buffer view {view}");
-            return Err(MeshFault::truncated(missing));
+            return Err(MeshFault::truncated_file(missing));
         }
         // All elements are within the bytes.
         Ok((0..count as usize).map(move |k| &bytes[k * stride as usize..][..size]))
@@ -136,13 +143,13 @@ impl<'a> Accessors<'a> {
     /// Reads the positions at which a sparse accessor replaces elements of a list of a given length.
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
-        let component = Component::index_from_code(about.component_type)?;
+        let component = ComponentType::index_type_from_code(about.component_type)?;
         let layout = (sparse.count, component.size());
         let rows = self.rows(about.buffer_view, about.byte_offset, layout, None)?;
-        self.allowance.spend(cost(0, sparse.count))?;
-        let checked = |row| match component.to_f64(row) as usize {
+        self.allowance.spend(expansion_cost(0, sparse.count))?;
+        let checked = |row| match component.read_f64(row) as usize {
             number if number < length => Ok(number),
-            number => Err(MeshFault::malformed(format!(
+            number => Err(MeshFault::malformed_content(format!(
                 "replaces element {number} of {length}"
             ))),
         };
@@ -155,31 +162,33 @@ fn check_kind(about: &schema::Accessor, kind: &str) -> Result<(), MeshFault> {
         Ok(())
     } else {
         let problem = format!("is of type {:?} instead of {kind}", about.kind);
-        Err(MeshFault::malformed(problem))
+        Err(MeshFault::malformed_content(problem))
     }
 }
 
-impl Component {
+impl ComponentType {
     fn from_code(number: u32) -> Result<Self, MeshFault> {
         Ok(match number {
-            5120 => Component::I8,
-            5121 => Component::U8,
-            5122 => Component::I16,
-            5123 => Component::U16,
-            5125 => Component::U32,
-            5126 => Component::F32,
+            5120 => ComponentType::I8,
+            5121 => ComponentType::U8,
+            5122 => ComponentType::I16,
+            5123 => ComponentType::U16,
+            5125 => ComponentType::U32,
+            5126 => ComponentType::F32,
             _ => {
                 let problem = format!("has components of type {number}, which there is not");
-                return Err(MeshFault::malformed(problem));
+                return Err(MeshFault::malformed_content(problem));
             }
         })
     }
 
     /// Returns the component type of vertex indices for a numeric code.
-    fn index_from_code(number: u32) -> Result<Self, MeshFault> {
-        match Component::from_code(number)? {
-            unsigned @ (Component::U8 | Component::U16 | Component::U32) => Ok(unsigned),
-            _ => Err(MeshFault::malformed(format!(
+    fn index_type_from_code(number: u32) -> Result<Self, MeshFault> {
+        match ComponentType::from_code(number)? {
+            unsigned @ (ComponentType::U8 | ComponentType::U16 | ComponentType::U32) => {
+                Ok(unsigned)
+            }
+            _ => Err(MeshFault::malformed_content(format!(
                 "has components of type {number} instead of whole numbers"
             ))),
         }
@@ -187,35 +196,35 @@ impl Component {
 
     fn size(self) -> usize {
         match self {
-            Component::I8 | Component::U8 => 1,
-            Component::I16 | Component::U16 => 2,
-            Component::U32 | Component::F32 => 4,
+            ComponentType::I8 | ComponentType::U8 => 1,
+            ComponentType::I16 | ComponentType::U16 => 2,
+            ComponentType::U32 | ComponentType::F32 => 4,
         }
     }
 
     /// Reads a coordinate from its bytes. A normalized integer is a fraction of the largest value of its type.
-    fn coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
-        let number = self.to_f64(bytes);
+    fn read_coordinate(self, bytes: &[u8], normalized: bool) -> f64 {
+        let number = self.read_f64(bytes);
         let largest: f64 = match self {
             _ if !normalized => return number,
-            Component::I8 => i8::MAX.into(),
-            Component::U8 => u8::MAX.into(),
-            Component::I16 => i16::MAX.into(),
-            Component::U16 => u16::MAX.into(),
-            Component::U32 => u32::MAX.into(),
-            Component::F32 => return number,
+            ComponentType::I8 => i8::MAX.into(),
+            ComponentType::U8 => u8::MAX.into(),
+            ComponentType::I16 => i16::MAX.into(),
+            ComponentType::U16 => u16::MAX.into(),
+            ComponentType::U32 => u32::MAX.into(),
+            ComponentType::F32 => return number,
         };
         greater(number / largest, -1.0)
     }
 
-    fn to_f64(self, bytes: &[u8]) -> f64 {
+    fn read_f64(self, bytes: &[u8]) -> f64 {
         match self {
-            Component::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
-            Component::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
-            Component::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
-            Component::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),
-            Component::U32 => u32::from_le_bytes(first_bytes(bytes)).into(),
-            Component::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
+            ComponentType::I8 => i8::from_le_bytes(first_bytes(bytes)).into(),
+            ComponentType::U8 => u8::from_le_bytes(first_bytes(bytes)).into(),
+            ComponentType::I16 => i16::from_le_bytes(first_bytes(bytes)).into(),
+            ComponentType::U16 => u16::from_le_bytes(first_bytes(bytes)).into(),
+            ComponentType::U32 => u32::from_le_bytes(first_bytes(bytes)).into(),
+            ComponentType::F32 => f32::from_le_bytes(first_bytes(bytes)).into(),
         }
     }
 }

@@ -34,7 +34,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// Returns the bytes of a buffer view from `offset` on.
-    pub(super) fn view(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
+    pub(super) fn view_bytes(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
         let about = element(&self.root.buffer_views, "buffer view", view)?;
         let buffer = self.bytes.get(about.buffer);
         if about.extensions.meshopt.is_some() && buffer.is_none_or(Option::is_none) {
@@ -43,7 +43,7 @@ impl<'a> Buffers<'a> {
         let found = || {
             let Some(buffer) = element(&self.bytes, "buffer", about.buffer)? else {
                 let problem = format!("buffer {} has neither bytes nor a file", about.buffer);
-                return Err(MeshFault::malformed(problem));
+                return Err(MeshFault::malformed_content(problem));
             };
             let start = about.byte_offset.checked_add(offset);
             let end = about.byte_offset.checked_add(about.byte_length);
@@ -54,7 +54,7 @@ impl<'a> Buffers<'a> {
             let within = range.and_then(|(start, end)| buffer.get(start as usize..end as usize));
             within.ok_or_else(|| {
                 let (bytes, buffer) = (buffer.len(), about.buffer);
-                MeshFault::malformed(format!(
+                MeshFault::malformed_content(format!(
                     "reaches beyond buffer {buffer}, which has {bytes} bytes"
                 ))
             })
@@ -79,23 +79,23 @@ fn content<'a>(
             None => return Ok(None),
         },
         Some(uri) => match data_uri_payload(uri) {
-            Some(data) => decode(data?)?.into(),
+            Some(data) => decode_base64(data?)?.into(),
             None => {
                 let name = percent_decoded(uri)?;
                 let bytes = linked.get(&name).map(Vec::as_slice);
-                bytes.ok_or_else(|| file_needed(name))?.into()
+                bytes.ok_or_else(|| linked_file_fault(name))?.into()
             }
         },
     };
     if (bytes.len() as u64) < buffer.byte_length {
         let missing = format!("byte {} of {}", bytes.len(), buffer.byte_length);
-        Err(MeshFault::truncated(missing))
+        Err(MeshFault::truncated_file(missing))
     } else {
         Ok(Some(bytes))
     }
 }
 
-fn file_needed(name: String) -> MeshFault {
+fn linked_file_fault(name: String) -> MeshFault {
     MeshFault::UnreadableLinkedFile {
         name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
@@ -122,25 +122,27 @@ fn data_uri_payload(uri: &str) -> Option<Result<&str, MeshFault>> {
     };
     Some(match rest.split_once(',') {
         Some((kind, data)) if kind.to_ascii_lowercase().ends_with(";base64") => Ok(data),
-        _ => Err(MeshFault::malformed("its data is not in base64")),
+        _ => Err(MeshFault::malformed_content("its data is not in base64")),
     })
 }
 
-fn decode(data: &str) -> Result<Vec<u8>, MeshFault> {
+fn decode_base64(data: &str) -> Result<Vec<u8>, MeshFault> {
     // Some programs omit the padding.
-    const LENIENT: GeneralPurposeConfig = GeneralPurposeConfig::new()
+    const LENIENT_CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
         .with_decode_padding_mode(DecodePaddingMode::Indifferent)
         .with_decode_allow_trailing_bits(true);
-    const BASE64_ENGINE: GeneralPurpose = GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT);
+    const BASE64_ENGINE: GeneralPurpose =
+        GeneralPurpose::new(&base64::alphabet::STANDARD, LENIENT_CONFIG);
     let decoded = BASE64_ENGINE.decode(data);
-    decoded.map_err(|error| MeshFault::malformed(format!("its base64 is not valid: {error}")))
+    decoded
+        .map_err(|error| MeshFault::malformed_content(format!("its base64 is not valid: {error}")))
 }
 
 /// Decodes the percent escapes of a URI to a path: `%20` is a space, and so on.
 fn percent_decoded(uri: &str) -> Result<String, MeshFault> {
     let problem = |what| {
         let problem = format!("its URI {:?} {what}", Quote(uri));
-        Err(MeshFault::malformed(problem))
+        Err(MeshFault::malformed_content(problem))
     };
     // This also refuses drive letters.
     if uri.contains(':') {

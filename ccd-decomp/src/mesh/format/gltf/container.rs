@@ -14,7 +14,7 @@ use crate::mesh::error::MeshFault;
 #[derive(Debug)]
 pub(super) struct Container<'a> {
     pub(super) json: &'a [u8],
-    pub(super) binary: Option<&'a [u8]>,
+    pub(super) binary_chunk: Option<&'a [u8]>,
 }
 
 const VERSION: u32 = 2;
@@ -24,7 +24,7 @@ impl<'a> Container<'a> {
         let Some(mut rest) = bytes.strip_prefix(b"glTF") else {
             return Ok(Container {
                 json: bytes,
-                binary: None,
+                binary_chunk: None,
             });
         };
         let version = read_u32(&mut rest)?;
@@ -37,11 +37,11 @@ impl<'a> Container<'a> {
         let length = read_u32(&mut rest)? as usize;
         if bytes.len() < length {
             let missing = format!("byte {} of the {length} that it announces", bytes.len());
-            return Err(MeshFault::truncated(missing));
+            return Err(MeshFault::truncated_file(missing));
         }
         let (kind, json) = read_chunk(&mut rest)?;
         if kind != *b"JSON" {
-            return Err(MeshFault::malformed("its first chunk is not JSON"));
+            return Err(MeshFault::malformed_content("its first chunk is not JSON"));
         }
         let next = (!rest.is_empty())
             .then(|| read_chunk(&mut rest))
@@ -49,7 +49,10 @@ impl<'a> Container<'a> {
         // Other chunks are of extensions.
         let binary = next.filter(|(kind, _)| kind == b"BIN\0");
         let binary = binary.map(|(_, content)| content);
-        Ok(Container { json, binary })
+        Ok(Container {
+            json,
+            binary_chunk: binary,
+        })
     }
 }
 
@@ -73,5 +76,5 @@ fn read_four_bytes(rest: &mut &[u8]) -> Result<[u8; 4], MeshFault> {
 }
 
 fn truncated_fault() -> MeshFault {
-    MeshFault::truncated("a chunk")
+    MeshFault::truncated_file("a chunk")
 }

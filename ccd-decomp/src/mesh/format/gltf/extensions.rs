@@ -22,14 +22,14 @@ const HARMLESS_PREFIXES: [&str; 14] = [
 ];
 
 /// The extension for integer positions, which is supported.
-const QUANTIZATION: &str = "KHR_mesh_quantization";
+const QUANTIZATION_EXTENSION: &str = "KHR_mesh_quantization";
 
-const DRACO: &str = "KHR_draco_mesh_compression";
+const DRACO_EXTENSION: &str = "KHR_draco_mesh_compression";
 
 /// Refuses a file that requires an unsupported extension, as the specification demands.
-pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
+pub(super) fn check_required_extensions(root: &Root) -> Result<(), MeshFault> {
     let known = |name: &str| {
-        name == QUANTIZATION
+        name == QUANTIZATION_EXTENSION
             || HARMLESS_PREFIXES
                 .iter()
                 .any(|prefix| name.starts_with(prefix))
@@ -37,7 +37,7 @@ pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
     let mut required = root.extensions_required.iter();
     match required.find(|name| !known(name)).map(String::as_str) {
         None => Ok(()),
-        Some(DRACO) => Err(draco_fault()),
+        Some(DRACO_EXTENSION) => Err(draco_fault()),
         Some(name) if name.ends_with("_meshopt_compression") => Err(meshopt_fault()),
         Some(name) => Err(MeshFault::unsupported(
             format!("what the extension {:?} says", Quote(name)),
@@ -48,7 +48,7 @@ pub(super) fn check_required(root: &Root) -> Result<(), MeshFault> {
 
 pub(super) fn draco_fault() -> MeshFault {
     MeshFault::unsupported(
-        format!("meshes compressed by Draco ({DRACO})"),
+        format!("meshes compressed by Draco ({DRACO_EXTENSION})"),
         "glTF without compression",
     )
 }

@@ -1,6 +1,6 @@
 //! Traverses the nodes of a glTF scene, and collects the parts that they place.
 
-use super::accessor::Accessors;
+use super::accessor::AccessorReader;
 use super::schema::Root;
 use super::{element, primitive, transform};
 use crate::mesh::affine::AffineMap;
@@ -19,12 +19,12 @@ pub(super) struct Scene {
 
 /// Reads the default scene of the file, or else the first one. A file without scenes gives all nodes; one without
 /// nodes, all meshes.
-pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, MeshFault> {
+pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene, MeshFault> {
     let mut walk = SceneTraversal {
         root,
         accessors,
         object_of_mesh: HashMap::new(),
-        visited: vec![false; root.nodes.len()],
+        visited_nodes: vec![false; root.nodes.len()],
         scene: Scene::default(),
     };
     match (root.scene, root.scenes.first()) {
@@ -34,7 +34,7 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
         (None, Some(first)) => walk.visit_descendants(&first.nodes)?,
         (None, None) if root.nodes.is_empty() => (0..root.meshes.len())
             .try_for_each(|mesh| walk.place(mesh, None, AffineMap::IDENTITY))?,
-        (None, None) => walk.visit_all()?,
+        (None, None) => walk.visit_all_nodes()?,
     }
     walk.add_remarks();
     Ok(walk.scene)
@@ -43,10 +43,10 @@ pub(super) fn scene(root: &Root, accessors: Accessors<'_>) -> Result<Scene, Mesh
 /// The state of a traversal of the nodes. Each mesh is read at its first use.
 struct SceneTraversal<'a> {
     root: &'a Root,
-    accessors: Accessors<'a>,
+    accessors: AccessorReader<'a>,
     /// The object number of each mesh that has been read, by mesh index.
     object_of_mesh: HashMap<usize, usize>,
-    visited: Vec<bool>,
+    visited_nodes: Vec<bool>,
     scene: Scene,
 }
 
@@ -59,9 +59,10 @@ impl SceneTraversal<'_> {
             let node = element(&self.root.nodes, "node", number)?;
             let place = || element_name("node", number, node.name.as_deref());
             // Nodes form a tree. The check also ends at cycles.
-            if std::mem::replace(&mut self.visited[number], true) {
+            if std::mem::replace(&mut self.visited_nodes[number], true) {
                 return Err(
-                    MeshFault::malformed("is below itself, or below two others").at(place())
+                    MeshFault::malformed_content("is below itself, or below two others")
+                        .at(place()),
                 );
             }
             let own = transform::node_transform(node).map_err(|fault| fault.at(place()))?;
@@ -85,7 +86,7 @@ impl SceneTraversal<'_> {
     }
 
     /// Visits all nodes of the file, starting at the roots.
-    fn visit_all(&mut self) -> Result<(), MeshFault> {
+    fn visit_all_nodes(&mut self) -> Result<(), MeshFault> {
         let mut is_below = vec![false; self.root.nodes.len()];
         for &child in self.root.nodes.iter().flat_map(|node| &node.children) {
             element(&self.root.nodes, "node", child)?;
@@ -95,7 +96,9 @@ impl SceneTraversal<'_> {
             .filter(|&node| !is_below[node])
             .collect();
         if tops.is_empty() {
-            return Err(MeshFault::malformed("is below itself").at(element_name("node", 0, None)));
+            return Err(
+                MeshFault::malformed_content("is below itself").at(element_name("node", 0, None))
+            );
         }
         self.visit_descendants(&tops)
     }
@@ -106,7 +109,7 @@ impl SceneTraversal<'_> {
         let with_mesh = root
             .nodes
             .iter()
-            .zip(&self.visited)
+            .zip(&self.visited_nodes)
             .filter(|(node, _)| node.mesh.is_some());
         let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
         let skinned = shown.iter().filter(|(node, _)| node.skin.is_some());

@@ -1,6 +1,6 @@
 //! Reads the primitives of a glTF mesh as triangles.
 
-use super::accessor::Accessors;
+use super::accessor::AccessorReader;
 use super::extensions;
 use super::schema::{Mesh, Primitive};
 use crate::mesh::error::{MeshFault, element_name};
@@ -9,7 +9,10 @@ use ccd_core::glam::DVec3;
 use std::collections::HashMap;
 
 /// Reads the triangles of a mesh, one primitive after the other. Primitives with the same positions share vertices.
-pub(super) fn shape(mesh: &Mesh, accessors: &mut Accessors<'_>) -> Result<Polygons, MeshFault> {
+pub(super) fn shape(
+    mesh: &Mesh,
+    accessors: &mut AccessorReader<'_>,
+) -> Result<Polygons, MeshFault> {
     let mut shape = Polygons::default();
     let mut known = HashMap::new();
     for (k, primitive) in mesh.primitives.iter().enumerate() {
@@ -21,7 +24,7 @@ pub(super) fn shape(mesh: &Mesh, accessors: &mut Accessors<'_>) -> Result<Polygo
 
 /// The range of vertex numbers in the shape that an accessor's points have.
 #[derive(Clone, Copy)]
-struct Vertices {
+struct VertexRange {
     first: usize,
     count: usize,
 }
@@ -29,20 +32,20 @@ struct Vertices {
 fn add(
     primitive: &Primitive,
     shape: &mut Polygons,
-    known: &mut HashMap<usize, Vertices>,
-    accessors: &mut Accessors<'_>,
+    known: &mut HashMap<usize, VertexRange>,
+    accessors: &mut AccessorReader<'_>,
 ) -> Result<(), MeshFault> {
-    let mode = primitive.mode.unwrap_or(TRIANGLES);
-    if mode > FAN {
+    let mode = primitive.mode.unwrap_or(TRIANGLES_MODE);
+    if mode > TRIANGLE_FAN_MODE {
         let problem = format!("is of mode {mode}, which there is not");
-        return Err(MeshFault::malformed(problem));
+        return Err(MeshFault::malformed_content(problem));
     }
     // A primitive without positions draws nothing.
     let position = primitive.attributes.position;
     let Some(position) = position.filter(|_| !primitive.is_points_or_lines()) else {
         return Ok(());
     };
-    if primitive.extensions.draco.is_some() && !accessors.has_bytes(position) {
+    if primitive.extensions.draco.is_some() && !accessors.has_uncompressed_data(position) {
         return Err(extensions::draco_fault());
     }
     let vertices = match known.get(&position) {
@@ -51,7 +54,7 @@ fn add(
             let points = accessors.points(position)?;
             check_count("vertices", points.len())?;
             check_finite(&points)?;
-            let vertices = Vertices {
+            let vertices = VertexRange {
                 first: shape.vertices.len(),
                 count: points.len(),
             };
@@ -63,10 +66,10 @@ fn add(
         Some(indices) => accessors.indices(indices)?,
         None => (0..vertices.count as u32).collect(),
     };
-    if mode == TRIANGLES && !corners.len().is_multiple_of(3) {
+    if mode == TRIANGLES_MODE && !corners.len().is_multiple_of(3) {
         let count = corners.len();
         let problem = format!("has {count} corners, which make no whole triangles");
-        return Err(MeshFault::malformed(problem));
+        return Err(MeshFault::malformed_content(problem));
     }
     // A strip has a triangle for almost each corner.
     accessors.spend_corners(3 * corners.len())?;
@@ -95,20 +98,20 @@ fn check_finite(points: &[DVec3]) -> Result<(), MeshFault> {
 }
 
 /// The codes of glTF for primitives of triangles. Smaller ones are of points and lines.
-const TRIANGLES: u32 = 4;
-const STRIP: u32 = 5;
-const FAN: u32 = 6;
+const TRIANGLES_MODE: u32 = 4;
+const TRIANGLE_STRIP_MODE: u32 = 5;
+const TRIANGLE_FAN_MODE: u32 = 6;
 
 /// Returns the triangles in a common orientation: every second triangle of a strip is reversed.
 fn triangles(mode: u32, corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     let count = match mode {
-        TRIANGLES => corners.len() / 3,
+        TRIANGLES_MODE => corners.len() / 3,
         _ => corners.len().saturating_sub(2),
     };
     (0..count).map(move |k| {
         let at = match mode {
-            TRIANGLES => [3 * k, 3 * k + 1, 3 * k + 2],
-            STRIP => [k, k + 1 + k % 2, k + 2 - k % 2],
+            TRIANGLES_MODE => [3 * k, 3 * k + 1, 3 * k + 2],
+            TRIANGLE_STRIP_MODE => [k, k + 1 + k % 2, k + 2 - k % 2],
             _ => [k + 1, k + 2, 0],
         };
         at.map(|corner| corners[corner])

@@ -12,7 +12,7 @@ pub(super) struct Root {
     asset: Asset,
     #[serde(default)]
     pub(super) extensions_required: Vec<String>,
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) scene: Option<usize>,
     #[serde(default)]
     pub(super) scenes: Vec<SceneNodes>,
@@ -35,16 +35,16 @@ struct Asset {
 
 #[derive(Deserialize)]
 pub(super) struct SceneNodes {
-    #[serde(default, deserialize_with = "whole::list")]
+    #[serde(default, deserialize_with = "whole::number_list")]
     pub(super) nodes: Vec<usize>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Node {
     pub(super) name: Option<String>,
-    #[serde(default, deserialize_with = "whole::list")]
+    #[serde(default, deserialize_with = "whole::number_list")]
     pub(super) children: Vec<usize>,
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<IgnoredAny>,
     pub(super) matrix: Option<[f64; 16]>,
@@ -71,9 +71,9 @@ pub(super) struct Mesh {
 #[derive(Deserialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) indices: Option<usize>,
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) mode: Option<u32>,
     #[serde(default)]
     pub(super) targets: Vec<IgnoredAny>,
@@ -84,7 +84,7 @@ pub(super) struct Primitive {
 #[derive(Deserialize)]
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) position: Option<usize>,
 }
 
@@ -97,7 +97,7 @@ pub(super) struct PrimitiveExtensions {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Accessor {
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) buffer_view: Option<usize>,
     #[serde(default, deserialize_with = "whole::required")]
     pub(super) byte_offset: u64,
@@ -149,7 +149,7 @@ pub(super) struct BufferView {
     pub(super) byte_offset: u64,
     #[serde(deserialize_with = "whole::required")]
     pub(super) byte_length: u64,
-    #[serde(default, deserialize_with = "whole::optional")]
+    #[serde(default, deserialize_with = "whole::optional_number")]
     pub(super) byte_stride: Option<u64>,
     #[serde(default)]
     pub(super) extensions: ViewExtensions,
@@ -181,9 +181,9 @@ impl Root {
         let root: Result<Root, _> = serde_json::from_slice(json);
         let root = root.map_err(|error| {
             if error.is_eof() {
-                MeshFault::truncated("its JSON")
+                MeshFault::truncated_file("its JSON")
             } else {
-                MeshFault::malformed(format!("its JSON is not that of a glTF: {error}"))
+                MeshFault::malformed_content(format!("its JSON is not that of a glTF: {error}"))
             }
         })?;
         match root.asset.version.split('.').next() {

@@ -10,12 +10,12 @@ use crate::{Format, MeshError, MeshFile, TriangleMesh, Unit};
 use ccd_core::glam::DVec3;
 use serde_json::json;
 
-fn file(gltf: &Gltf) -> MeshFile {
+fn mesh_file(gltf: &Gltf) -> MeshFile {
     MeshFile::from_reader(Format::Gltf, &gltf.glb()[..]).unwrap()
 }
 
 fn read(gltf: &Gltf) -> TriangleMesh {
-    file(gltf).into_mesh().unwrap()
+    mesh_file(gltf).into_mesh().unwrap()
 }
 
 fn error(gltf: &Gltf) -> MeshError {
@@ -32,7 +32,7 @@ fn corner(gltf: &Gltf) -> DVec3 {
 }
 
 /// Returns a glTF of a square: two triangles over four vertices.
-fn square() -> Gltf {
+fn square_gltf() -> Gltf {
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
     gltf
@@ -58,9 +58,9 @@ fn metres_are_converted() {
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&[[0., 0., 0.], [0.1, 0., 0.], [0., 1., 0.]]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}}));
-    assert_eq!(file(&gltf).unit(), Some(Unit::Metre));
+    assert_eq!(mesh_file(&gltf).unit(), Some(Unit::Metre));
     assert_eq!(corner(&gltf).x, f64::from(0.1_f32));
-    let file = file(&gltf).in_unit(Unit::Millimetre);
+    let file = mesh_file(&gltf).in_unit(Unit::Millimetre);
     assert_eq!(file.unit(), Some(Unit::Millimetre));
     assert_eq!(
         file.into_mesh().unwrap().vertices()[1].x,
@@ -102,23 +102,25 @@ fn data_beside_a_compression_is_read() {
 /// Tests that 1.0 and 1e0 are read as 1 in counts and indices, as JSON allows.
 #[test]
 fn whole_numbers_may_have_a_fraction_of_zero() {
-    fn with_fractions(value: &mut serde_json::Value) {
+    fn convert_numbers_to_floats(value: &mut serde_json::Value) {
         match value {
             serde_json::Value::Number(number) => {
                 *value = json!(number.as_f64().expect("a number"));
             }
-            serde_json::Value::Array(list) => list.iter_mut().for_each(with_fractions),
-            serde_json::Value::Object(fields) => fields.values_mut().for_each(with_fractions),
+            serde_json::Value::Array(list) => list.iter_mut().for_each(convert_numbers_to_floats),
+            serde_json::Value::Object(fields) => {
+                fields.values_mut().for_each(convert_numbers_to_floats)
+            }
             _ => {}
         }
     }
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 2, 3]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices, "mode": 6}));
     let mut gltf = gltf.set("scene", json!(0));
     let plain = read(&gltf);
     gltf.json["buffers"] = json!([{"byteLength": gltf.binary.len()}]);
-    with_fractions(&mut gltf.json);
+    convert_numbers_to_floats(&mut gltf.json);
     assert!(
         gltf.json.to_string().contains("\"mode\":6.0"),
         "{}",
@@ -152,6 +154,6 @@ fn what_is_not_read_is_remarked_upon() {
         primitives of points or lines passed over: 1; nodes taken without their skin: 1; \
         primitives with morph targets taken at rest: 1";
     assert_eq!(read(&gltf).repairs().remarks.to_string(), expected);
-    let part = file(&gltf).part("0").unwrap();
+    let part = mesh_file(&gltf).part("0").unwrap();
     assert_eq!(part.repairs().remarks.to_string(), expected);
 }

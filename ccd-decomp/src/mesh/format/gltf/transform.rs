@@ -16,7 +16,7 @@ pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
         Ok(DAffine3::from_mat4(matrix).into())
     } else {
         let problem = "has a matrix that is not affine: its last row is not 0 0 0 1";
-        Err(MeshFault::malformed(problem))
+        Err(MeshFault::malformed_content(problem))
     }
 }
 
@@ -26,7 +26,7 @@ fn compose(node: &Node) -> Result<AffineMap, MeshFault> {
     let rotation = node.rotation.unwrap_or(DQuat::IDENTITY.to_array());
     let translation = node.translation.unwrap_or([0.0; 3]);
     let pose = Pose::new(translation, rotation).map_err(|error| {
-        MeshFault::malformed(format!(
+        MeshFault::malformed_content(format!(
             "has a rotation or translation that is none: {error}"
         ))
     })?;

@@ -9,7 +9,7 @@ pub(super) fn required<'de, D: Deserializer<'de>, T: TryFrom<u64>>(from: D) -> R
 }
 
 /// Deserializes an optional whole number.
-pub(super) fn optional<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+pub(super) fn optional_number<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Option<T>, D::Error> {
     let number = Option::<Value>::deserialize(from)?;
@@ -17,17 +17,18 @@ pub(super) fn optional<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
 }
 
 /// Deserializes a list of whole numbers.
-pub(super) fn list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
+pub(super) fn number_list<'de, D: Deserializer<'de>, T: TryFrom<u64>>(
     from: D,
 ) -> Result<Vec<T>, D::Error> {
     Vec::<Value>::deserialize(from)?.iter().map(whole).collect()
 }
 
 /// The number 2⁵³, from which on f64 does not represent every whole number.
-const FIRST_INEXACT: f64 = (1_u64 << 53) as f64;
+const EXACT_INTEGER_LIMIT: f64 = (1_u64 << 53) as f64;
 
 fn whole<T: TryFrom<u64>, E: Error>(value: &Value) -> Result<T, E> {
-    let is_whole = |number: &f64| number.fract() == 0.0 && (0.0..FIRST_INEXACT).contains(number);
+    let is_whole =
+        |number: &f64| number.fract() == 0.0 && (0.0..EXACT_INTEGER_LIMIT).contains(number);
     let of_float = || value.as_f64().filter(is_whole).map(|number| number as u64);
     let number = value.as_u64().or_else(of_float);
     let number = number.and_then(|number| T::try_from(number).ok());

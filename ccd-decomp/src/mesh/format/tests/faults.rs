@@ -1,6 +1,6 @@
 //! Tests the error message for every kind of invalid mesh file.
 
-use super::{Format, PLY, binary_stl, read};
+use super::{Format, TETRAHEDRON_PLY, binary_stl, read};
 use crate::{MeshFault, TriangleMesh};
 use rstest::rstest;
 
@@ -166,9 +166,9 @@ fn bad_input_is_named(#[case] format: Format, #[case] text: &str, #[case] expect
     "element edge 2",
     "ends before what its header announces"
 )]
-fn bad_ply_is_named(#[case] good: &str, #[case] bad: &str, #[case] expected: &str) {
-    assert!(PLY.contains(good));
-    let text = PLY.replace(good, bad);
+fn ply_faults_name_the_problem(#[case] good: &str, #[case] bad: &str, #[case] expected: &str) {
+    assert!(TETRAHEDRON_PLY.contains(good));
+    let text = TETRAHEDRON_PLY.replace(good, bad);
     let message = read(Format::Ply, text.as_bytes()).unwrap_err().to_string();
     assert!(message.contains(expected), "{message}");
 }

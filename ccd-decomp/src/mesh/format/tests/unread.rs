@@ -1,10 +1,13 @@
 //! Tests that unsupported content is an error if it defines faces, and a remark otherwise.
 
-use super::{Format, OBJ, OFF, PLY, RICH_OBJ, STL, binary_ply, binary_stl, corners, read};
+use super::{
+    Format, RICH_OBJ, TETRAHEDRON_OBJ, TETRAHEDRON_OFF, TETRAHEDRON_PLY, TETRAHEDRON_STL,
+    binary_ply, binary_stl, corners, read,
+};
 use crate::TriangleMesh;
 use rstest::rstest;
 
-const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
+const TRIANGLE_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
 
 fn remarks(mesh: &TriangleMesh) -> String {
     mesh.repairs().remarks.to_string()
@@ -21,7 +24,7 @@ fn remarks(mesh: &TriangleMesh) -> String {
 #[case::call("call other.obj\n", "line 6: holds a call of another file")]
 #[case::shell("csh -ls\n", "line 6: holds a call of another file")]
 fn statements_that_make_faces_are_errors(#[case] more: &str, #[case] expected: &str) {
-    let text = [TRIANGLE, more].concat();
+    let text = [TRIANGLE_OBJ, more].concat();
     let message = read(Format::Obj, text.as_bytes()).unwrap_err().to_string();
     assert!(message.contains(expected), "{message}");
 }
@@ -43,7 +46,7 @@ fn statements_that_make_faces_are_errors(#[case] more: &str, #[case] expected: &
     "vertices divided by their fourth number: 1 (line 6)"
 )]
 fn other_statements_are_remarked_upon(#[case] more: &str, #[case] expected: &str) {
-    let text = [TRIANGLE, more].concat();
+    let text = [TRIANGLE_OBJ, more].concat();
     let mesh = read(Format::Obj, text.as_bytes()).unwrap();
     assert_eq!(remarks(&mesh), expected);
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
@@ -52,7 +55,7 @@ fn other_statements_are_remarked_upon(#[case] more: &str, #[case] expected: &str
 #[test]
 fn kinds_of_statements_are_counted_to_a_limit() {
     let unknown: String = (0..1000).map(|k| format!("x{k} 1\n")).collect();
-    let text = [TRIANGLE, &unknown].concat();
+    let text = [TRIANGLE_OBJ, &unknown].concat();
     let mesh = read(Format::Obj, text.as_bytes()).unwrap();
     let counts: Vec<usize> = mesh
         .repairs()
@@ -76,19 +79,23 @@ fn kinds_of_statements_are_counted_to_a_limit() {
 
 #[test]
 fn an_element_that_is_passed_over_is_named() {
-    let mesh = read(Format::Ply, PLY.as_bytes()).unwrap();
+    let mesh = read(Format::Ply, TETRAHEDRON_PLY.as_bytes()).unwrap();
     assert_eq!(remarks(&mesh), "elements \"edge\" passed over: 1");
     let mesh = read(Format::Obj, RICH_OBJ).unwrap();
     let expected =
         "lines passed over: 1 (line 12); vertices divided by their fourth number: 1 (line 13)";
     assert_eq!(remarks(&mesh), expected);
-    for (format, bytes) in [(Format::Obj, OBJ), (Format::Off, OFF), (Format::Stl, STL)] {
+    for (format, bytes) in [
+        (Format::Obj, TETRAHEDRON_OBJ),
+        (Format::Off, TETRAHEDRON_OFF),
+        (Format::Stl, TETRAHEDRON_STL),
+    ] {
         assert_eq!(remarks(&read(format, bytes.as_bytes()).unwrap()), "");
     }
 }
 
 /// Returns a text PLY with the given face elements in its header, and the given lines.
-fn ply(faces: &str, lines: &str) -> String {
+fn ply_text(faces: &str, lines: &str) -> String {
     format!(
         "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
          {faces}end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n{lines}"
@@ -119,11 +126,11 @@ fn strips_are_triangles_turned_alike() {
             &[[2, 3, 4], [0, 1, 2], [2, 1, 3]],
         ),
     ] {
-        let mesh = read(Format::Ply, ply(&elements, lines).as_bytes()).unwrap();
+        let mesh = read(Format::Ply, ply_text(&elements, lines).as_bytes()).unwrap();
         assert_eq!(mesh.faces(), expected, "{lines}");
         assert!(mesh.repairs().remarks.is_empty());
     }
-    let text = ply(STRIPS, "3 0 1 7\n");
+    let text = ply_text(STRIPS, "3 0 1 7\n");
     let message = read(Format::Ply, text.as_bytes()).unwrap_err().to_string();
     assert!(message.contains("names vertex 7"), "{message}");
 }
@@ -142,7 +149,7 @@ fn faces_beyond_the_header_are_errors(
     #[case] lines: &str,
     #[case] expected: &str,
 ) {
-    let text = ply(&elements, lines);
+    let text = ply_text(&elements, lines);
     let message = read(Format::Ply, text.as_bytes()).unwrap_err().to_string();
     assert!(message.contains(expected), "{message}");
 }
@@ -151,8 +158,8 @@ fn faces_beyond_the_header_are_errors(
 fn what_follows_the_end_is_an_error() {
     let longer = |bytes: &[u8], more: &[u8]| [bytes, more].concat();
     for (format, bytes) in [
-        (Format::Off, OFF.as_bytes()),
-        (Format::Ply, PLY.as_bytes()),
+        (Format::Off, TETRAHEDRON_OFF.as_bytes()),
+        (Format::Ply, TETRAHEDRON_PLY.as_bytes()),
         (Format::Ply, &binary_ply("little")),
         (Format::Ply, &binary_ply("big")),
     ] {
@@ -165,7 +172,7 @@ fn what_follows_the_end_is_an_error() {
             "{message}"
         );
     }
-    let text = OFF.replace("4 4 6", "4 3 6");
+    let text = TETRAHEDRON_OFF.replace("4 4 6", "4 3 6");
     let message = read(Format::Off, text.as_bytes()).unwrap_err().to_string();
     let expected = "line 12: goes on after the 4 vertices and 3 faces that it announces";
     assert!(message.contains(expected), "{message}");
@@ -176,11 +183,11 @@ fn what_follows_the_end_is_an_error() {
 fn texts_are_read_however_they_are_written() {
     let rich = String::from_utf8_lossy(RICH_OBJ).into_owned();
     for (format, text) in [
-        (Format::Obj, OBJ),
+        (Format::Obj, TETRAHEDRON_OBJ),
         (Format::Obj, &rich),
-        (Format::Stl, STL),
-        (Format::Ply, PLY),
-        (Format::Off, OFF),
+        (Format::Stl, TETRAHEDRON_STL),
+        (Format::Ply, TETRAHEDRON_PLY),
+        (Format::Off, TETRAHEDRON_OFF),
     ] {
         let expected = corners(&read(format, text.as_bytes()).unwrap());
         let units = |text: &str, bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
@@ -205,7 +212,8 @@ fn texts_are_read_however_they_are_written() {
     }
     let message = read(
         Format::Obj,
-        OBJ.replace("f 3 1 4", "f 3 1 9")
+        TETRAHEDRON_OBJ
+            .replace("f 3 1 4", "f 3 1 9")
             .replace('\n', "\r")
             .as_bytes(),
     );
@@ -246,8 +254,8 @@ fn a_fault_of_a_ply_is_told_in_words() {
         ("9 3 1 2 3", "9 3 1", "line 21: "),
         ("9 3 1 2 3", "300 3 1 2 3", "line 21: "),
     ] {
-        assert!(PLY.contains(good));
-        let text = PLY.replace(good, bad);
+        assert!(TETRAHEDRON_PLY.contains(good));
+        let text = TETRAHEDRON_PLY.replace(good, bad);
         let message = read(Format::Ply, text.as_bytes()).unwrap_err().to_string();
         assert!(message.contains(expected), "{message}");
         for inner in [

@@ -1,7 +1,7 @@
 //! Reads one model file of a 3MF: its objects and build items.
 
 use super::transform;
-use super::xml::{Element, Xml, XmlEvent};
+use super::xml::{Element, XmlEvent, XmlReader};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::{MeshFault, Quote, element_name};
 use crate::mesh::polygons::Polygons;
@@ -32,7 +32,7 @@ pub(super) struct ModelObject {
     pub(super) mesh: Polygons,
     pub(super) components: Vec<ObjectRef>,
     /// The name of the element that defines the shape, if it is neither a mesh nor components.
-    pub(super) foreign: Option<String>,
+    pub(super) foreign_element: Option<String>,
 }
 
 /// A reference from a component or build item to an object.
@@ -68,7 +68,7 @@ enum Tag {
 }
 
 /// Reads a model from an XML reader.
-pub(super) fn read<R: BufRead>(xml: &mut Xml<R>) -> Result<Model, MeshFault> {
+pub(super) fn read<R: BufRead>(xml: &mut XmlReader<R>) -> Result<Model, MeshFault> {
     let mut model = Model::default();
     let mut open: Vec<Tag> = Vec::new();
     loop {
@@ -126,7 +126,7 @@ impl Model {
         }
         match (within, element.name()) {
             (None, "model") => self.start_model(element).map(|()| Tag::Model),
-            (None, _) => Err(MeshFault::malformed(format!(
+            (None, _) => Err(MeshFault::malformed_content(format!(
                 "begins with {:?} instead of a model",
                 Quote(element.name())
             ))),
@@ -176,7 +176,7 @@ impl Model {
             name: name.filter(|name| given(name)).map(Into::into),
             mesh: Polygons::default(),
             components: Vec::new(),
-            foreign: Some("nothing".into()),
+            foreign_element: Some("nothing".into()),
         });
         Ok(Tag::Object)
     }
@@ -190,9 +190,11 @@ impl Model {
             other => return Ok(self.start_extension_element(Some(Tag::Object), other)),
         };
         if let Some(object) = self.objects.last_mut()
-            && object.foreign.take().is_none()
+            && object.foreign_element.take().is_none()
         {
-            return Err(MeshFault::malformed("has two shapes; an object has one"));
+            return Err(MeshFault::malformed_content(
+                "has two shapes; an object has one",
+            ));
         }
         Ok(tag)
     }
@@ -204,7 +206,11 @@ impl Model {
         if of_shape && name != "trianglesets" {
             self.remarks.add_named("elements", name, 1, None);
         }
-        if let Some(ModelObject { foreign, .. }) = self.objects.last_mut() {
+        if let Some(ModelObject {
+            foreign_element: foreign,
+            ..
+        }) = self.objects.last_mut()
+        {
             let is_shape = within == Some(Tag::Object) && foreign.is_some();
             if is_shape || within == Some(Tag::Mesh) && name == "beamlattice" {
                 *foreign = Some(name.into());
@@ -248,7 +254,11 @@ impl Model {
     /// Checks the triangle indices of a complete mesh, because triangles may precede vertices.
     fn check_mesh(&self) -> Result<(), MeshFault> {
         match self.objects.last() {
-            Some(ModelObject { mesh, foreign, .. }) if foreign.is_none() => mesh.check_corners(),
+            Some(ModelObject {
+                mesh,
+                foreign_element: foreign,
+                ..
+            }) if foreign.is_none() => mesh.check_corners(),
             _ => Ok(()),
         }
     }
@@ -287,7 +297,7 @@ fn parse_unit(name: &str) -> Result<Unit, MeshFault> {
         .find(|unit| unit.name_in_3mf() == name)
         .ok_or_else(|| {
             let name = Quote(name);
-            MeshFault::malformed(format!("is in the unit {name:?}, which there is not"))
+            MeshFault::malformed_content(format!("is in the unit {name:?}, which there is not"))
         })
 }
 
@@ -298,10 +308,12 @@ fn parse_number<T: FromStr>(
     name: &str,
 ) -> Result<T, MeshFault> {
     let Some(value) = value else {
-        return Err(MeshFault::malformed(format!("{what} has no {name}")));
+        return Err(MeshFault::malformed_content(format!(
+            "{what} has no {name}"
+        )));
     };
     value.trim().parse().map_err(|_| {
-        MeshFault::malformed(format!(
+        MeshFault::malformed_content(format!(
             "{what} has {:?} instead of a number as its {name}",
             Quote(value)
         ))

@@ -1,9 +1,9 @@
 //! Opens the zip archive of a 3MF, and finds its root model.
 
 use super::model::{self, Model};
-use super::xml::{Xml, XmlEvent};
+use super::xml::{XmlEvent, XmlReader};
 use crate::mesh::error::{MeshFault, Quote};
-use crate::tolerance::{UNPACKED_BASE, UNPACKED_PER_BYTE};
+use crate::tolerance::{UNPACKED_SIZE_BASE, UNPACKED_SIZE_PER_BYTE};
 use flate2::bufread::DeflateDecoder;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 use std::collections::BTreeMap;
@@ -15,25 +15,25 @@ pub(super) struct Package<'a> {
     entries: BTreeMap<String, Entry>,
     limit: u64,
     /// The number of bytes that may still be unpacked; `None` after more.
-    left: Option<u64>,
+    remaining_bytes: Option<u64>,
 }
 
 #[derive(Clone, Copy)]
 struct Entry {
     wayfinder: ZipArchiveEntryWayfinder,
     method: CompressionMethod,
-    encrypted: bool,
+    is_encrypted: bool,
 }
 
 /// The path in the archive of the file that names the root model.
-const RELATIONSHIPS: &str = "_rels/.rels";
+const RELATIONSHIPS_PATH: &str = "_rels/.rels";
 const DEFAULT_MODEL_PATH: &str = "3D/3dmodel.model";
 
 /// The suffix of the relationship type that marks the root model.
-const MODEL_TYPE: &str = "/3dmodel";
+const MODEL_TYPE_SUFFIX: &str = "/3dmodel";
 
 /// The buffer size for unpacking, in bytes.
-const BUFFER: usize = 1 << 16;
+const BUFFER_BYTES: usize = 1 << 16;
 
 impl<'a> Package<'a> {
     pub(super) fn open(bytes: &'a [u8]) -> Result<Self, MeshFault> {
@@ -45,37 +45,38 @@ impl<'a> Package<'a> {
             entries.entry(normalized_path(&path)).or_insert(Entry {
                 wayfinder: record.wayfinder(),
                 method: record.compression_method(),
-                encrypted: record.flags().is_encrypted(),
+                is_encrypted: record.flags().is_encrypted(),
             });
         }
-        let limit = UNPACKED_BASE + UNPACKED_PER_BYTE.saturating_mul(bytes.len() as u64);
+        let limit = UNPACKED_SIZE_BASE + UNPACKED_SIZE_PER_BYTE.saturating_mul(bytes.len() as u64);
         Ok(Package {
             archive,
             entries,
             limit,
-            left: Some(limit),
+            remaining_bytes: Some(limit),
         })
     }
 
     /// Returns the number of bytes that have been unpacked from the archive.
     pub(super) fn unpacked_bytes(&self) -> u64 {
-        self.limit - self.left.unwrap_or(0)
+        self.limit - self.remaining_bytes.unwrap_or(0)
     }
 
     /// Returns the path of the root model in the archive.
     pub(super) fn root_model_path(&mut self) -> Result<String, MeshFault> {
-        if !self.entries.contains_key(RELATIONSHIPS) {
+        if !self.entries.contains_key(RELATIONSHIPS_PATH) {
             return if self
                 .entries
                 .contains_key(&normalized_path(DEFAULT_MODEL_PATH))
             {
                 Ok(DEFAULT_MODEL_PATH.into())
             } else {
-                let problem = format!("is a zip without {RELATIONSHIPS:?}, so that it is no 3MF");
-                Err(MeshFault::malformed(problem))
+                let problem =
+                    format!("is a zip without {RELATIONSHIPS_PATH:?}, so that it is no 3MF");
+                Err(MeshFault::malformed_content(problem))
             };
         }
-        let found = self.read(RELATIONSHIPS, |xml| {
+        let found = self.read(RELATIONSHIPS_PATH, |xml| {
             loop {
                 let element = match xml.next()? {
                     XmlEvent::Start(element) if element.name() == "Relationship" => element,
@@ -83,14 +84,16 @@ impl<'a> Package<'a> {
                     _ => continue,
                 };
                 let [kind, target] = element.attribute_values(["Type", "Target"])?;
-                let is_model = kind.is_some_and(|kind| kind.ends_with(MODEL_TYPE));
+                let is_model = kind.is_some_and(|kind| kind.ends_with(MODEL_TYPE_SUFFIX));
                 if let Some(target) = target.filter(|_| is_model) {
                     return Ok(Some(target.into_owned()));
                 }
             }
         });
-        let found = found.map_err(|fault| fault.at(format!("{RELATIONSHIPS:?}")))?;
-        found.ok_or_else(|| MeshFault::malformed(format!("its {RELATIONSHIPS:?} names no model")))
+        let found = found.map_err(|fault| fault.at(format!("{RELATIONSHIPS_PATH:?}")))?;
+        found.ok_or_else(|| {
+            MeshFault::malformed_content(format!("its {RELATIONSHIPS_PATH:?} names no model"))
+        })
     }
 
     /// Unpacks and parses one model of the package.
@@ -105,23 +108,24 @@ impl<'a> Package<'a> {
     fn read<T>(
         &mut self,
         path: &str,
-        parse: impl FnOnce(&mut Xml<BufReader<Unpacking<'_>>>) -> Result<T, MeshFault>,
+        parse: impl FnOnce(&mut XmlReader<BufReader<EntryReader<'_>>>) -> Result<T, MeshFault>,
     ) -> Result<T, MeshFault> {
         let Some(&entry) = self.entries.get(&normalized_path(path)) else {
-            return Err(MeshFault::malformed("is not in the package"));
+            return Err(MeshFault::malformed_content("is not in the package"));
         };
         let content = unpacked(&self.archive, entry)?;
-        let left = &mut self.left;
-        let unpacking = BufReader::with_capacity(BUFFER, Unpacking { content, left });
-        let parsed = parse(&mut Xml::new(unpacking));
+        let left = &mut self.remaining_bytes;
+        let unpacking = BufReader::with_capacity(BUFFER_BYTES, EntryReader { content, left });
+        let parsed = parse(&mut XmlReader::new(unpacking));
         let limit = self.limit;
-        self.left.ok_or(MeshFault::UnpackedTooLarge { limit })?;
+        self.remaining_bytes
+            .ok_or(MeshFault::UnpackedTooLarge { limit })?;
         parsed
     }
 }
 
 /// A reader of one archive entry, which unpacks on reading and verifies the checksum at the end.
-struct Unpacking<'a> {
+struct EntryReader<'a> {
     content: Box<dyn Read + 'a>,
     left: &'a mut Option<u64>,
 }
@@ -131,7 +135,7 @@ fn unpacked<'a>(
     archive: &'a ZipSliceArchive<&'a [u8]>,
     entry: Entry,
 ) -> Result<Box<dyn Read + 'a>, MeshFault> {
-    if entry.encrypted {
+    if entry.is_encrypted {
         let instead = "3MF without encryption";
         return Err(MeshFault::unsupported("an encrypted model", instead));
     }
@@ -150,7 +154,7 @@ fn unpacked<'a>(
     }
 }
 
-impl Read for Unpacking<'_> {
+impl Read for EntryReader<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let read = self.content.read(out)?;
         *self.left = self.left.and_then(|left| left.checked_sub(read as u64));
@@ -166,5 +170,5 @@ pub(super) fn normalized_path(path: &str) -> String {
 
 fn zip_fault(error: &rawzip::Error) -> MeshFault {
     let error = error.to_string();
-    MeshFault::malformed(format!("its zip is not whole: {:?}", Quote(&error)))
+    MeshFault::malformed_content(format!("its zip is not whole: {:?}", Quote(&error)))
 }

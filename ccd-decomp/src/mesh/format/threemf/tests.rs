@@ -2,7 +2,7 @@
 
 mod faults;
 
-use crate::test_files::{Entry, model, object, package, zip};
+use crate::test_files::{Entry, model, object, package, zip_archive};
 use crate::{Format, MeshError, MeshFile, TriangleMesh, Unit};
 use ccd_core::glam::{DVec3, dvec3};
 use rawzip::CompressionMethod;
@@ -57,7 +57,7 @@ fn a_model_is_read() {
 #[case("unit=\"inch\"", Unit::Inch, 25.4)]
 #[case("unit=\"foot\"", Unit::Foot, 304.8)]
 #[case("unit=\"meter\"", Unit::Metre, 1000.0)]
-fn the_unit_is_stated(#[case] attribute: &str, #[case] unit: Unit, #[case] millimetres: f64) {
+fn the_stated_unit_is_read(#[case] attribute: &str, #[case] unit: Unit, #[case] millimetres: f64) {
     let bytes = package_of_model(&model(
         attribute,
         &tetrahedron(r#"id="1""#),
@@ -224,7 +224,7 @@ fn a_package_without_relationships_has_the_usual_model() {
             content: model.as_bytes(),
             method: CompressionMethod::STORE,
         };
-        assert_eq!(read(&zip(&[entry])).faces().len(), 4);
+        assert_eq!(read(&zip_archive(&[entry])).faces().len(), 4);
     }
     // A model at another path must be named.
     let bytes = package(&[("elsewhere.model", &model)]);

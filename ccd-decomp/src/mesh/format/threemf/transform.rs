@@ -19,7 +19,7 @@ pub(super) fn parse(text: &str) -> Result<AffineMap, MeshFault> {
     filled &= words.next().is_none();
     if !filled {
         let problem = format!("has the transform {:?} instead of 12 numbers", Quote(text));
-        return Err(MeshFault::malformed(problem));
+        return Err(MeshFault::malformed_content(problem));
     }
     let [x, y, z, translation] = [0, 3, 6, 9].map(|at| DVec3::from_slice(&numbers[at..]));
     // The rows of a matrix from the right are the columns of one from the left.

@@ -9,12 +9,12 @@ use std::borrow::Cow;
 use std::io::BufRead;
 
 /// A reader of XML elements. Text between them is skipped.
-pub(super) struct Xml<R> {
+pub(super) struct XmlReader<R> {
     reader: NsReader<R>,
     buffer: Vec<u8>,
     depth: usize,
     /// The namespace of the outermost element, once it has been read.
-    own_namespace: Option<Namespace>,
+    root_namespace: Option<Namespace>,
 }
 
 /// The URI of a namespace; `None` for names without a namespace.
@@ -39,18 +39,18 @@ pub(super) struct Element<'a> {
     pub(super) is_extension: bool,
 }
 
-impl<R: BufRead> Xml<R> {
+impl<R: BufRead> XmlReader<R> {
     pub(super) fn new(reader: R) -> Self {
         let mut reader = NsReader::from_reader(reader);
         let config = reader.config_mut();
         config.expand_empty_elements = true;
         // Texts are skipped, with their faults.
         config.allow_dangling_amp = true;
-        Xml {
+        XmlReader {
             reader,
             buffer: Vec::new(),
             depth: 0,
-            own_namespace: None,
+            root_namespace: None,
         }
     }
 
@@ -60,7 +60,7 @@ impl<R: BufRead> Xml<R> {
         let event = event.map_err(|error| {
             let (error, position) = (error.to_string(), self.reader.buffer_position());
             let error = Quote(&error);
-            MeshFault::malformed(format!(
+            MeshFault::malformed_content(format!(
                 "its XML is not valid before byte {position}: {error:?}"
             ))
         });
@@ -70,7 +70,7 @@ impl<R: BufRead> Xml<R> {
                 let (found, _) = self.reader.resolver().resolve_element(start.name());
                 let found = namespace(&found);
                 let own = self
-                    .own_namespace
+                    .root_namespace
                     .get_or_insert_with(|| found.map(str::to_owned));
                 let is_extension = own.as_deref() != found;
                 Ok(XmlEvent::Start(Element {
@@ -84,9 +84,9 @@ impl<R: BufRead> Xml<R> {
             }
             Event::DocType(_) => {
                 let problem = "has a document type, which a 3MF must not have";
-                Err(MeshFault::malformed(problem))
+                Err(MeshFault::malformed_content(problem))
             }
-            Event::Eof if self.depth > 0 => Err(MeshFault::truncated("its XML")),
+            Event::Eof if self.depth > 0 => Err(MeshFault::truncated_file("its XML")),
             Event::Eof => Ok(XmlEvent::Done),
             _ => Ok(XmlEvent::TextOrComment),
         }
@@ -149,5 +149,5 @@ fn namespace<'r>(resolved: &'r ResolveResult<'_>) -> Option<&'r str> {
 
 fn bad_attribute(error: &dyn std::fmt::Display) -> MeshFault {
     let error = error.to_string();
-    MeshFault::malformed(format!("its XML has a bad attribute: {:?}", Quote(&error)))
+    MeshFault::malformed_content(format!("its XML has a bad attribute: {:?}", Quote(&error)))
 }

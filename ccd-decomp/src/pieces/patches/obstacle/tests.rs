@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 /// Tests by brute force, over all planes through three of the points, whether one separates the triangle from the
 /// hull.
-fn is_apart_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
+fn is_separated_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
     let obstacle = Obstacle::new(points, hull);
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
     let planes = all.iter().flat_map(|&a| {
@@ -33,8 +33,8 @@ proptest! {
         let first = points.len() as u32;
         points.extend(triangle);
         let triangle = [first, first + 1, first + 2];
-        let expected = is_apart_by_any_plane(&points, &hull, triangle);
-        prop_assert_eq!(Obstacle::new(&points, &hull).is_apart_from(triangle), expected);
+        let expected = is_separated_by_any_plane(&points, &hull, triangle);
+        prop_assert_eq!(Obstacle::new(&points, &hull).is_separated_from(triangle), expected);
     }
 
     /// Tests that a triangle with a point strictly inside all facets is not reported as apart. The coordinates make
@@ -54,7 +54,7 @@ proptest! {
         let inside = hull.facets().iter().all(|f| side(f.map(at), p) == Ordering::Less);
         let first = points.len() as u32;
         points.extend(triangle);
-        let apart = Obstacle::new(&points, &hull).is_apart_from([first, first + 1, first + 2]);
+        let apart = Obstacle::new(&points, &hull).is_separated_from([first, first + 1, first + 2]);
         prop_assert!(!(inside && apart));
     }
 }

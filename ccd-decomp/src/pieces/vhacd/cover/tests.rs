@@ -20,8 +20,8 @@ fn only_the_ends_of_edges_are_kept() {
             for [from, to] in [[a, b], [b, c], [c, a]] {
                 points.extend((0..8).map(|_| from + (0.1 + 0.8 * next()) * (to - from)));
             }
-            let near = on_edge_distance(offset + 1.0);
-            let found = remove_between(points.clone(), triangle, near);
+            let near = edge_tolerance(offset + 1.0);
+            let found = remove_points_between(points.clone(), triangle, near);
             assert!(found.iter().all(|p| points.contains(p)));
             let lost = points.iter().filter(|p| !found.contains(p));
             for &point in lost {

@@ -2,7 +2,7 @@
 
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact};
-use crate::tolerance::{clip_rounding, on_edge_distance};
+use crate::tolerance::{clip_rounding, edge_tolerance};
 use crate::worst::{RandomCase, Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -17,7 +17,7 @@ fn edge(tape: &mut RandomCase) -> [DVec3; 2] {
 
 /// Returns the distance from a point to the line through an edge. The square is an exact fraction; the root is
 /// rounded once.
-fn off_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
+fn distance_from_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
     let [x, p, q] = [point, p, q].map(Exact3::of);
     let along = q.minus(&p);
     let across = x.minus(&p).cross(&along);
@@ -42,7 +42,7 @@ fn cut(tape: &mut RandomCase, polygon: &mut Vec<DVec3>) -> Option<()> {
     more.then_some(())
 }
 
-fn largest(of: [DVec3; 2]) -> f64 {
+fn largest_coordinate(of: [DVec3; 2]) -> f64 {
     greater(of[0].abs().max_element(), of[1].abs().max_element())
 }
 
@@ -53,10 +53,10 @@ fn worst_cut() {
         let edge = edge(tape);
         let mut polygon = edge.to_vec();
         cut(tape, &mut polygon)?;
-        let off = polygon.iter().map(|&x| off_line(x, edge));
+        let off = polygon.iter().map(|&x| distance_from_line(x, edge));
         Some(share(
             off.fold(0.0, greater),
-            on_edge_distance(largest(edge)) / 3.0,
+            edge_tolerance(largest_coordinate(edge)) / 3.0,
         ))
     });
     found.is_within(40.0);
@@ -77,9 +77,9 @@ fn worst_cuts() {
             }
         }
         for &x in &polygon {
-            worst = greater(worst, off_line(x, edge));
+            worst = greater(worst, distance_from_line(x, edge));
         }
-        Some(share(worst, clip_rounding(largest(edge))))
+        Some(share(worst, clip_rounding(largest_coordinate(edge))))
     });
     found.is_within(4_000.0);
 }

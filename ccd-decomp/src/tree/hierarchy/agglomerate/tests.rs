@@ -1,4 +1,4 @@
-use super::super::nodes::{Cuboid, Node};
+use super::super::nodes::{AabbF32, Node};
 use super::{best_neighbours, spread_bits};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ fn row() -> impl Strategy<Value = Vec<Node>> {
     let number = || (0u8..8).prop_map(f32::from);
     let corner = move || [number(), number(), number()].prop_map(Vec3A::from);
     let node = (corner(), corner()).prop_map(|(p, q)| {
-        let cuboid = Cuboid {
+        let cuboid = AabbF32 {
             lo: p.min(q),
             hi: p.max(q),
         };

@@ -1,12 +1,12 @@
 use super::super::agglomerate::agglomerate;
-use super::super::nodes::{Below, Cuboid, Node};
-use super::{Tree, reinsert};
+use super::super::nodes::{AabbF32, Below, Node};
+use super::{Tree, reinsert_subtrees};
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
 fn leaves() -> impl Strategy<Value = Vec<Node>> {
     let point = || prop::array::uniform3(0.0f32..1.0).prop_map(Vec3A::from);
-    let cuboid = (point(), 0.0f32..0.2).prop_map(|(lo, size)| Cuboid { lo, hi: lo + size });
+    let cuboid = (point(), 0.0f32..0.2).prop_map(|(lo, size)| AabbF32 { lo, hi: lo + size });
     prop::collection::vec(cuboid, 2..120).prop_map(|cuboids| {
         let leaves = cuboids.into_iter().zip(0..);
         leaves
@@ -15,7 +15,7 @@ fn leaves() -> impl Strategy<Value = Vec<Node>> {
     })
 }
 
-fn area(nodes: &[Node]) -> f64 {
+fn total_half_area(nodes: &[Node]) -> f64 {
     nodes
         .iter()
         .map(|node| f64::from(node.cuboid.half_area()))
@@ -50,24 +50,24 @@ fn total_area_after_move(nodes: &[Node], from: u32, to: u32) -> f64 {
     let mut copy = nodes.to_vec();
     Tree::new(&mut copy).apply(from, to);
     check(&copy);
-    area(&copy)
+    total_half_area(&copy)
 }
 
 proptest! {
     #[test]
     fn trees_stay_trees_and_their_boxes_shrink(leaves in leaves()) {
         let mut nodes = agglomerate(&leaves);
-        let before = area(&nodes);
-        reinsert(&mut nodes);
+        let before = total_half_area(&nodes);
+        reinsert_subtrees(&mut nodes);
         prop_assert_eq!(check(&nodes), (0..leaves.len() as u32).collect::<Vec<_>>());
-        prop_assert!(area(&nodes) <= before * (1.0 + 1e-6));
+        prop_assert!(total_half_area(&nodes) <= before * (1.0 + 1e-6));
     }
 
     #[test]
     fn the_best_move_is_the_best_of_all(leaves in leaves()) {
         let mut nodes = agglomerate(&leaves);
         let all = nodes.clone();
-        let before = area(&all);
+        let before = total_half_area(&all);
         let tree = Tree::new(&mut nodes);
         for from in (1..all.len() as u32).step_by(7) {
             let is_above = |upper: u32, mut node: u32| {
@@ -81,7 +81,7 @@ proptest! {
                 .filter(|&to| to != beside && !is_above(from, to) && !is_above(to, from));
             let gains = targets.map(|to| before - total_area_after_move(&all, from, to));
             let best = gains.fold(0.0, ccd_core::order::greater);
-            let found = tree.best_move(from, &mut Vec::new()).map_or(0.0, |best| f64::from(best.gain));
+            let found = tree.best_move(from, &mut Vec::new()).map_or(0.0, |best| f64::from(best.area_reduction));
             prop_assert!((found - best).abs() <= 1e-4, "{from}: {found} instead of {best}");
         }
     }

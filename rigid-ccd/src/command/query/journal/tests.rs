@@ -28,10 +28,10 @@ fn changes_are_described() {
             Some("another version of ccd wrote it"),
         ),
     ] {
-        let changes = with(values).changes(&before);
+        let changes = with(values).describe_changes(&before);
         assert_eq!(changes.as_deref(), expected, "{values:?}");
     }
     let older = "ccd 1\nQueryArgs {\n    a: \"x\",\n}";
-    let changes = with(["1", "x", "12"]).changes(older).unwrap();
+    let changes = with(["1", "x", "12"]).describe_changes(older).unwrap();
     assert_eq!(changes, "another version of ccd wrote it");
 }

@@ -65,7 +65,7 @@ fn raised_tolerances_are_counted() {
     let answers = [timed(1.0, 1e-9), timed(1.0, 4e-8), timed(1.0, 3e-8)];
     let summary = sum(&answers, 1e-9);
     assert_eq!(
-        (summary.raised_tolerances, summary.largest_tolerance),
+        (summary.raised_tolerance_count, summary.largest_tolerance),
         (2, 4e-8)
     );
     let text = summary.to_string();
@@ -106,7 +106,7 @@ fn the_median_of_many_times_has_a_relative_error_below_a_thousandth() {
 fn rows_of_earlier_runs_are_counted_separately() {
     let mut earlier = sum(&[timed(3.0, 1e-3)], 1e-3);
     earlier.add_error();
-    let mut summary = Summary::new(1e-3).with_earlier(earlier.counts);
+    let mut summary = Summary::new(1e-3).with_earlier_counts(earlier.counts);
     assert_eq!(
         summary.to_string(),
         "2 rows: 1 free, 1 error; 0 in this run"

@@ -4,7 +4,7 @@ use crate::method::rival::contact::boxes::{BoxRelation, relate_boxes};
 use crate::method::rival::contact::clock::{HalvedInterval, MotionEncloser};
 use crate::method::rival::contact::elementary::{Facet, TrianglePair};
 use crate::method::rival::contact::leaf::{FirstTouch, first_touch};
-use crate::method::rival::contact::relative::{Enclosure, Relative, Span};
+use crate::method::rival::contact::relative::{Enclosure, RelativeMotion, Span};
 use crate::method::rival::obb_tree::Obb;
 use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::method::rival::triangles_cross::triangles_cross;
@@ -12,10 +12,10 @@ use crate::method::rival::{Placement, RivalMotion};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 
-fn relative(samples: &mut RandomSource, speed: f64, spin: f64) -> Relative {
+fn relative(samples: &mut RandomSource, speed: f64, spin: f64) -> RelativeMotion {
     let query = samples.query(speed, spin);
     let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
-    Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
+    RelativeMotion::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
 }
 
 /// Returns the distance by which a placement, or a rate, lies outside an enclosure.
@@ -37,7 +37,7 @@ fn span(samples: &mut RandomSource) -> Span {
     }
 }
 
-fn times(span: Span, count: u32) -> impl Iterator<Item = f64> {
+fn sample_times(span: Span, count: u32) -> impl Iterator<Item = f64> {
     (0..=count).map(move |k| span.start + span.width() * f64::from(k) / f64::from(count))
 }
 
@@ -48,10 +48,10 @@ fn placements_are_those_of_the_motions() {
         let query = samples.query(3.0, 5.0);
         let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
         let (from_a, from_b) = (samples.vector(1.0), samples.vector(1.0));
-        let relative = Relative::new((&a, from_a), (&b, from_b));
+        let relative = RelativeMotion::new((&a, from_a), (&b, from_b));
         let (point, time) = (samples.vector(2.0), samples.uniform(0.0, 1.0));
         let world = query.a.pose(time).transform_point(point);
-        let seen = relative.at(time).apply(point - from_a) + from_b;
+        let seen = relative.placement_at(time).apply(point - from_a) + from_b;
         let back = query.b.pose(time).transform_point(seen);
         assert!(back.distance(world) < 1e-12);
     }
@@ -67,14 +67,17 @@ fn enclosures_contain_all_placements_and_rates_between() {
             let query = samples.query(3.0, 3.0);
             let still = ccd_core::Motion::still(query.b.start());
             let (a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&still));
-            relative = Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
+            relative = RelativeMotion::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
         let span = span(&mut samples);
         let (placements, rates) = (relative.enclosure_over(span), relative.rates_over(span));
-        for time in times(span, 20) {
-            let at = relative.at(time);
+        for time in sample_times(span, 20) {
+            let at = relative.placement_at(time);
             assert!(distance_outside(&placements, at.rotation, at.translation) < 1e-12);
-            let (before, after) = (relative.at(time - 1e-5), relative.at(time + 1e-5));
+            let (before, after) = (
+                relative.placement_at(time - 1e-5),
+                relative.placement_at(time + 1e-5),
+            );
             let rotation = (after.rotation - before.rotation) * 0.5e5;
             let offset = (after.translation - before.translation) * 0.5e5;
             // Central differences are off by h²/6 of the third derivative, here about 1e-10 · 60³ · 4.
@@ -113,12 +116,12 @@ fn random_box(samples: &mut RandomSource) -> Obb {
 
 /// Returns true if a point of a grid over one box lies in the other.
 fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
-    const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
+    const GRID_COORDINATES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
     let grid = |o: &Obb| {
         let o = *o;
-        let points = STEPS.iter().flat_map(|&x| {
-            let lines = STEPS.iter().map(move |&y| (x, y));
-            lines.flat_map(|(x, y)| STEPS.iter().map(move |&z| DVec3::new(x, y, z)))
+        let points = GRID_COORDINATES.iter().flat_map(|&x| {
+            let lines = GRID_COORDINATES.iter().map(move |&y| (x, y));
+            lines.flat_map(|(x, y)| GRID_COORDINATES.iter().map(move |&z| DVec3::new(x, y, z)))
         });
         points.map(move |p| o.centre + o.axes * (p * o.half_extents))
     };
@@ -142,10 +145,11 @@ fn separated_boxes_never_meet() {
             start,
             end: start + samples.uniform(0.0, 0.2),
         };
-        let meet = times(span, 8).any(|time| boxes_meet(&a, &b, &relative.at(time)));
+        let meet =
+            sample_times(span, 8).any(|time| boxes_meet(&a, &b, &relative.placement_at(time)));
         met += usize::from(meet);
         match relate_boxes(&a, &b, &relative.enclosure_over(span)) {
-            BoxRelation::Apart => {
+            BoxRelation::Separated => {
                 assert!(!meet);
                 apart += 1;
             }
@@ -172,8 +176,8 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     let enclosure = |offset: DVec3| {
         let still = crate::method::rival::tests::samples::resting_motion(DVec3::ZERO);
         let course = RivalMotion::new(&still);
-        let relative = Relative::new((&course, -offset), (&course, DVec3::ZERO));
-        assert_eq!(relative.at(0.3).rotation, at.rotation);
+        let relative = RelativeMotion::new((&course, -offset), (&course, DVec3::ZERO));
+        assert_eq!(relative.placement_at(0.3).rotation, at.rotation);
         relative.enclosure_over(Span {
             start: 0.0,
             end: 1.0,
@@ -187,8 +191,8 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     let spread = 0.0;
     for axis in DVec3::AXES {
         let ask = |offset: f64| relate_boxes(&cube, &cube, &enclosure(offset * axis));
-        assert_eq!(ask(1.0 + 1e-9), BoxRelation::Apart);
-        assert_eq!(ask(-1.0 - 1e-9), BoxRelation::Apart);
+        assert_eq!(ask(1.0 + 1e-9), BoxRelation::Separated);
+        assert_eq!(ask(-1.0 - 1e-9), BoxRelation::Separated);
         assert_eq!(ask(1.0 - 1e-9), BoxRelation::NotSeparated { spread });
     }
 }
@@ -198,11 +202,11 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
 const MAX_SPEED: f64 = 30.0;
 
 /// Returns a motion of the first body towards the second one's start.
-fn approach(samples: &mut RandomSource) -> Relative {
+fn approaching_motion(samples: &mut RandomSource) -> RelativeMotion {
     let query = samples.query(1.0, 1.0);
     let (mut a, b) = (RivalMotion::new(&query.a), RivalMotion::new(&query.b));
     a.velocity += query.b.start().translation() - query.a.start().translation();
-    Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
+    RelativeMotion::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
 }
 
 #[test]
@@ -210,9 +214,9 @@ fn triangles_touch_when_samples_first_cross() {
     let mut samples = RandomSource::new(5);
     let (mut hits, mut free) = (0, 0);
     for k in 0..1500 {
-        let relative = approach(&mut samples);
+        let relative = approaching_motion(&mut samples);
         let (a, b) = (samples.triangle(), samples.triangle());
-        let at = |time: f64| a.map(|p| relative.at(time).apply(p));
+        let at = |time: f64| a.map(|p| relative.placement_at(time).apply(p));
         if triangles_cross(&at(0.0), &b) {
             continue;
         }
@@ -222,14 +226,14 @@ fn triangles_touch_when_samples_first_cross() {
             b: Facet::new(&b),
         };
         let mut clock = MotionEncloser::new(relative, tolerance / MAX_SPEED, 1 << 20);
-        let touch = first_touch(&triangles, HalvedInterval::whole(1.0), &mut clock);
+        let touch = first_touch(&triangles, HalvedInterval::whole_duration(1.0), &mut clock);
         let span = Span {
             start: 0.0,
             end: 1.0,
         };
-        let crossing = times(span, 500).find(|&time| triangles_cross(&at(time), &b));
+        let crossing = sample_times(span, 500).find(|&time| triangles_cross(&at(time), &b));
         match touch {
-            FirstTouch::At(time) => {
+            FirstTouch::AtTime(time) => {
                 assert!(crossing.is_none_or(|crossing| time <= crossing));
                 let gap = distance(&at(time), &b);
                 assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");

@@ -2,7 +2,6 @@
 
 use super::super::*;
 use crate::method::rival::Placement;
-use crate::method::rival::screw;
 use crate::method::rival::tests::samples::{RandomSource, distance};
 use crate::scene::model::Model;
 use crate::scene::tests::shots::Shots;
@@ -11,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
 /// The number of samples of a motion for the reference answer.
-const SAMPLES: u32 = 1000;
+const SAMPLE_COUNT: u32 = 1000;
 
 fn placement(query: &Motions, time: f64) -> Placement {
     let [a, b] = [query.a, query.b].map(|motion| RivalMotion::new(&motion).at(time));
@@ -21,13 +20,13 @@ fn placement(query: &Motions, time: f64) -> Placement {
 /// Returns the first sample at which the meshes cross.
 fn first_crossing(tree: &ObbTree, query: &Motions) -> Option<f64> {
     let mut stack = Vec::new();
-    (0..=SAMPLES)
-        .map(|k| query.duration * f64::from(k) / f64::from(SAMPLES))
-        .find(|&time| crosses(tree, tree, &placement(query, time), &mut stack))
+    (0..=SAMPLE_COUNT)
+        .map(|k| query.duration * f64::from(k) / f64::from(SAMPLE_COUNT))
+        .find(|&time| trees_intersect(tree, tree, &placement(query, time), &mut stack))
 }
 
 /// Returns the distance of two meshes that do not cross, by all pairs of triangles.
-fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
+fn mesh_distance(mesh: &TriangleMesh, at: &Placement) -> f64 {
     let triangles = || {
         let corner = |v: u32| mesh.vertices()[v as usize];
         mesh.faces().iter().map(move |face| face.map(corner))
@@ -40,30 +39,30 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
 
 /// Compares the method's answers to queries with samples, and returns the number of contacts. Returns the number of
 /// hits.
-fn judge(queries: &[Motions], tolerance: f64) -> usize {
+fn check_against_samples(queries: &[Motions], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
     let mut contact = Contact::new(&mesh, &mesh);
     let mut hits = 0;
     for query in queries {
         let reply = contact.answer(query, tolerance);
-        let moved = screw(query).unwrap();
+        let moved = to_screw_motions(query).unwrap();
         let crossing = first_crossing(&tree, &moved);
         match reply.claim {
             Claim::Contact { time } => {
                 assert!(crossing.is_none_or(|crossing| time <= crossing), "late");
-                let gap = gap(&mesh, &placement(&moved, time));
+                let gap = mesh_distance(&mesh, &placement(&moved, time));
                 assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");
                 hits += 1;
             }
-            Claim::Free => assert_eq!(crossing, None, "missed"),
+            Claim::NoContact => assert_eq!(crossing, None, "missed"),
             claim => panic!("{claim:?}"),
         }
     }
     hits
 }
 
-fn shots(count: usize) -> Vec<Motions> {
+fn shot_queries(count: usize) -> Vec<Motions> {
     let shots = Shots {
         count,
         translation_count: count / 3,
@@ -76,9 +75,9 @@ fn shots(count: usize) -> Vec<Motions> {
 
 #[test]
 fn shots_are_answered_never_late_and_within_the_tolerance() {
-    let queries = shots(45);
+    let queries = shot_queries(45);
     for (tolerance, part) in [(1e-2, 0..15), (1e-4, 15..30), (1e-8, 30..45)] {
-        let hits = judge(&queries[part], tolerance);
+        let hits = check_against_samples(&queries[part], tolerance);
         assert!((4..15).contains(&hits), "{hits} of 15 hit");
     }
 }
@@ -86,7 +85,7 @@ fn shots_are_answered_never_late_and_within_the_tolerance() {
 #[test]
 fn both_bodies_may_move_and_turn_far() {
     let mut samples = RandomSource::new(8);
-    let queries: Vec<Motions> = shots(20)
+    let queries: Vec<Motions> = shot_queries(20)
         .into_iter()
         .map(|query| {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
@@ -98,7 +97,7 @@ fn both_bodies_may_move_and_turn_far() {
             }
         })
         .collect();
-    let hits = judge(&queries, 1e-4);
+    let hits = check_against_samples(&queries, 1e-4);
     assert!((6..20).contains(&hits), "{hits} of 20 hit");
 }
 

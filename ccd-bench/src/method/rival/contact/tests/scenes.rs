@@ -1,7 +1,9 @@
 //! Scenes with exact answers, whose motions are screws.
 
 use super::super::*;
-use crate::method::rival::tests::samples::{cuboid, moving, query, resting_motion};
+use crate::method::rival::tests::samples::{
+    constant_velocity_motion, cuboid, query, resting_motion,
+};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -40,15 +42,15 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Motions, exact: f64, speed
 }
 
 /// Returns a fall from a height of 3 with speed 4 onto a body whose top is at 0.
-fn falling_flat() -> Motions {
+fn flat_fall_query() -> Motions {
     let down = -4.0 * DVec3::Z;
-    let a = moving(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
+    let a = constant_velocity_motion(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
     query(a, resting_motion(-0.5 * DVec3::Z))
 }
 
 #[test]
 fn a_cube_falls_flat_on_a_slab() {
-    let query = falling_flat();
+    let query = flat_fall_query();
     let meshes = [&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5)];
     assert_contact(meshes, &query, 0.625, 4.0);
 }
@@ -57,7 +59,7 @@ fn a_cube_falls_flat_on_a_slab() {
 fn a_corner_falls_on_a_slab() {
     // The diagonal of the cube points down.
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
-    let a = moving(3.0 * DVec3::Z, upright, -4.0 * DVec3::Z, DVec3::ZERO);
+    let a = constant_velocity_motion(3.0 * DVec3::Z, upright, -4.0 * DVec3::Z, DVec3::ZERO);
     let query = query(a, resting_motion(-0.5 * DVec3::Z));
     let meshes = [&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5)];
     assert_contact(meshes, &query, (3.0 - 0.75f64.sqrt()) / 4.0, 4.0);
@@ -66,8 +68,8 @@ fn a_corner_falls_on_a_slab() {
 #[test]
 fn two_edges_meet_across() {
     let about_x = DQuat::from_rotation_x(FRAC_PI_4);
-    let a = moving(3.0 * DVec3::Z, about_x, -4.0 * DVec3::Z, DVec3::ZERO);
-    let b = moving(
+    let a = constant_velocity_motion(3.0 * DVec3::Z, about_x, -4.0 * DVec3::Z, DVec3::ZERO);
+    let b = constant_velocity_motion(
         DVec3::ZERO,
         DQuat::from_rotation_y(FRAC_PI_4),
         DVec3::ZERO,
@@ -85,7 +87,8 @@ fn a_rod_turns_into_a_wall() {
     let wall = cuboid(0.5, 3.0, 3.0);
     for (turns, height) in [(1.0, 1.2), (1.9, 1.2), (2.0, 1.9), (7.0, 0.5)] {
         let spin = turns * PI;
-        let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin * DVec3::Y);
+        let a =
+            constant_velocity_motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin * DVec3::Y);
         let query = query(a, resting_motion((height + 0.5) * DVec3::X));
         let angle = (height / radius).asin();
         let exact = (angle - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / spin;
@@ -108,7 +111,7 @@ fn a_rod_turns_past_a_wall() {
         cuboid(0.5, 3.0, 3.0),
     );
     for (share, hits) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-3, false)] {
-        let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
+        let a = constant_velocity_motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
         let query = query(a, resting_motion((radius * share + 0.5) * DVec3::X));
         let exact = (lesser(1.0, share).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / PI;
         match ask(&rod, &wall, 1e-7, &query) {
@@ -118,7 +121,7 @@ fn a_rod_turns_past_a_wall() {
                     "{time} {exact}"
                 );
             }
-            claim => assert_eq!((claim, hits), (Claim::Free, false)),
+            claim => assert_eq!((claim, hits), (Claim::NoContact, false)),
         }
     }
 }
@@ -127,13 +130,13 @@ fn a_rod_turns_past_a_wall() {
 fn parallel_edges_meet() {
     let (reach, polar) = (1.3, 1.0f64);
     let exact = (polar - f64::asin(ROD_HALF_WIDTH / reach)) / 1.5;
-    let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, 1.5 * DVec3::Z);
+    let a = constant_velocity_motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, 1.5 * DVec3::Z);
     let (sin, cos) = polar.sin_cos();
     let edge = reach * DVec3::new(cos, sin, 0.0);
     let onward = DVec3::new(-sin, cos, 0.0);
     // The corner (−, −) of the post's square faces the rod.
     let half = 0.2;
-    let post = moving(
+    let post = constant_velocity_motion(
         edge + onward * (half * 2f64.sqrt()),
         DQuat::from_rotation_z(polar + FRAC_PI_4),
         DVec3::ZERO,
@@ -152,8 +155,8 @@ fn both_bodies_turn() {
     let radius = ROD_HALF_LENGTH.hypot(ROD_HALF_WIDTH);
     let rod = cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH);
     let spin = 2.0 * DVec3::Y;
-    let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin);
-    let b = moving(3.0 * DVec3::X, DQuat::IDENTITY, DVec3::ZERO, -spin);
+    let a = constant_velocity_motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin);
+    let b = constant_velocity_motion(3.0 * DVec3::X, DQuat::IDENTITY, DVec3::ZERO, -spin);
     let angle = (1.5 / radius).asin();
     let exact = (angle - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / 2.0;
     assert_contact(
@@ -167,7 +170,7 @@ fn both_bodies_turn() {
 #[test]
 fn surfaces_that_cross_at_the_start_touch_there() {
     let cube = cuboid(0.5, 0.5, 0.5);
-    let a = moving(0.9 * DVec3::Z, DQuat::IDENTITY, DVec3::Z, DVec3::Y);
+    let a = constant_velocity_motion(0.9 * DVec3::Z, DQuat::IDENTITY, DVec3::Z, DVec3::Y);
     let claim = ask(&cube, &cube, 1e-3, &query(a, resting_motion(DVec3::ZERO)));
     assert_eq!(claim, Claim::Contact { time: 0.0 });
 }
@@ -179,7 +182,7 @@ fn bodies_at_rest_are_free() {
         resting_motion(1.001 * DVec3::Z),
         resting_motion(DVec3::ZERO),
     );
-    assert_eq!(ask(&cube, &cube, 1e-3, &apart), Claim::Free);
+    assert_eq!(ask(&cube, &cube, 1e-3, &apart), Claim::NoContact);
 }
 
 #[test]
@@ -190,9 +193,9 @@ fn work_is_limited() {
     let tilted = TriangleMesh::new(tilted, slab.faces()).unwrap();
     // The body slides over the slab at a distance of a millionth.
     let position = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
-    let slide = moving(position, tilt, tilt * DVec3::X, DVec3::ZERO);
+    let slide = constant_velocity_motion(position, tilt, tilt * DVec3::X, DVec3::ZERO);
     let slide = query(slide, resting_motion(DVec3::ZERO));
-    let fall = moving(
+    let fall = constant_velocity_motion(
         3.0 * DVec3::Z,
         DQuat::IDENTITY,
         -4.0 * DVec3::Z,
@@ -218,7 +221,7 @@ fn work_is_limited() {
 
 #[test]
 fn invalid_tolerances_are_never_late() {
-    let query = falling_flat();
+    let query = flat_fall_query();
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         match ask(&cube, &slab, tolerance, &query) {

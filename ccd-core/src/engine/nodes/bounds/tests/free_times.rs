@@ -42,7 +42,7 @@ fn times_come_out_in_order_each_lane_once() {
         many += usize::from(expected.len() > 2);
         for lane in expected {
             assert_eq!(times.least(), rounded(lane), "{free:?} {used:b}");
-            assert_eq!(times.take_least(), lane, "{free:?} {used:b}");
+            assert_eq!(times.finish_least_lane(), lane, "{free:?} {used:b}");
         }
         assert_eq!(times.least(), f32::INFINITY, "{free:?} {used:b}");
     }

@@ -10,7 +10,8 @@ use crate::engine::nodes::eight_pairs::RelativeMotionF32;
 use crate::engine::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::math::order::greater;
 use crate::rounding::{
-    ARM_DISTANCE_SHARE, GAP_PER_DISTANCE_F32, GAP_PER_RADIUS_F32, LEAST_GAP_F32, RATE_F32,
+    ARM_DISTANCE_SHARE, GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, LEAST_GAP_F32,
+    RATE_ERROR_F32,
 };
 use crate::tests::scene::{RngExt, direction, magnitude, point_in_ball, rotation};
 use glam::{DMat3, DVec3, Vec3};
@@ -43,10 +44,10 @@ impl Shape {
     /// Draws a box of any proportions, a needle, or a tiny box.
     pub(super) fn new(rng: &mut impl RngExt) -> Self {
         let size = magnitude(rng, -4.0, 4.0);
-        Shape::of_size(rng, size, DVec3::ZERO)
+        Shape::random_of_size(rng, size, DVec3::ZERO)
     }
 
-    fn of_size(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
+    fn random_of_size(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
         let frame = DMat3::from_quat(rotation(rng));
         let mut ratio = || match rng.random_range(0..3) {
             0 => 1e-7,
@@ -182,7 +183,7 @@ impl Setting {
     fn child_shape(&self, rng: &mut impl RngExt) -> Shape {
         let size = self.size * magnitude(rng, -2.0, 0.0);
         let centre = self.origin + point_in_ball(rng, self.size);
-        Shape::of_size(rng, size, centre)
+        Shape::random_of_size(rng, size, centre)
     }
 
     pub(super) fn boxes(&self, rng: &mut impl RngExt, other: &Shape) -> Sample<BoxGroup, OtherBox> {
@@ -200,7 +201,7 @@ impl Setting {
             radius: node.radius,
             piece: false,
         };
-        let reach = group.members.reach;
+        let reach = group.header.reach;
         self.sample(group, boxed, reach, children, self.far(other))
     }
 
@@ -250,8 +251,8 @@ impl Setting {
         let (split, turning_far) = (turning(0), turning(1));
         let velocity = self.velocity.as_vec3();
         let [x, y, z] = other.centre().abs().to_array();
-        let allowed =
-            GAP_PER_DISTANCE_F32 * (x + y + z) + GAP_PER_RADIUS_F32 * (other.radius() + reach);
+        let allowed = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
+            + GAP_ERROR_PER_RADIUS_F32 * (other.radius() + reach);
         let places = other.centre().length() + turning_far.distance_from_centre(Vec3::ZERO);
         let far_arm =
             turning_far.distance_from_centre(other.centre()) + ARM_DISTANCE_SHARE as f32 * places;
@@ -269,16 +270,16 @@ impl Setting {
                 other: turning_far,
                 horizon: 1.0,
                 slack: (kept + allowed).next_up(),
-                closed: LEAST_GAP_F32,
-                rate_slack: RATE_F32 * speed,
+                closed_gap: LEAST_GAP_F32,
+                rate_slack: RATE_ERROR_F32 * speed,
                 larger: None,
             },
             group,
             other,
             kept_gap: f64::from(kept),
-            allowed,
+            allowed_gap_error: allowed,
             children,
-            far,
+            other_solid: far,
             velocity: self.velocity,
             acceleration: self.acceleration.unwrap_or(DVec3::ZERO),
         }

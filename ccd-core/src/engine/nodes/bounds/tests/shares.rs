@@ -5,7 +5,7 @@ use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::rounding::{
-    CROSS_PRODUCT_F32, FREE_TIME_FACTOR_F32, LEAST_SECOND_DERIVATIVE_F32,
+    CROSS_PRODUCT_ERROR_F32, FREE_TIME_FACTOR_F32, LEAST_SECOND_DERIVATIVE_F32,
     SECOND_DERIVATIVE_FACTOR_F32,
 };
 use crate::settings::Instructions;
@@ -20,7 +20,7 @@ pub(super) struct AxisFreeTimes {
 
 /// The errors of one pair along one axis, as shares of their allowances.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Shares {
+pub(super) struct ErrorShares {
     pub(super) support: f64,
     pub(super) rate: f64,
     pub(super) across: f64,
@@ -28,7 +28,7 @@ pub(super) struct Shares {
 }
 
 /// Returns the error of a free time as a share of [`FREE_TIME_FACTOR_F32`].
-pub(super) fn share_of_clock(numbers: [f32; 4]) -> f64 {
+pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
     let [free, apart, rate, second_derivative] = numbers.map(f64::from);
     let root = (rate * rate + 2.0 * second_derivative * apart).sqrt();
     let exact = if rate > 0.0 {
@@ -46,10 +46,11 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         let apart = found.gap.map(|gap| gap - self.motion.slack);
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
-            (self.children[lane].second_derivative(n) + self.far.second_derivative(n)) as f32
+            (self.children[lane].max_second_derivative(n)
+                + self.other_solid.max_second_derivative(n)) as f32
                 + LEAST_SECOND_DERIVATIVE_F32
         });
-        let closed = self.motion.closed;
+        let closed = self.motion.closed_gap;
         let level = Instructions::Best.level();
         AxisFreeTimes {
             free: free_times(level, &apart, &found.rate, &second_derivative, closed),
@@ -59,32 +60,38 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     /// Returns the errors of a lane as shares of their allowances.
-    pub(super) fn shares(&self, found: &AxisValues, clocks: &AxisFreeTimes, lane: usize) -> Shares {
+    pub(super) fn error_shares(
+        &self,
+        found: &AxisValues,
+        clocks: &AxisFreeTimes,
+        lane: usize,
+    ) -> ErrorShares {
         let (motion, child) = (&self.motion, &self.children[lane]);
         let (n, rate) = (found.normal(lane), found.rate[lane]);
-        let exact =
-            n.dot(self.velocity) + child.max_rotational_rate(n) + self.far.max_rotational_rate(-n);
+        let exact = n.dot(self.velocity)
+            + child.max_rotational_rate(n)
+            + self.other_solid.max_rotational_rate(-n);
         let below = exact - f64::from(rate);
-        let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
+        let gap = -self.other_solid.highest(-n, 0.0) - child.highest(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;
-        let mut shares = Shares {
-            support: share(above, self.allowed.into()),
+        let mut shares = ErrorShares {
+            support: share(above, self.allowed_gap_error.into()),
             rate: share(below, motion.rate_slack.into()),
-            ..Shares::default()
+            ..ErrorShares::default()
         };
-        let turning = [(motion.split, child), (motion.other, &self.far)];
+        let turning = [(motion.split, child), (motion.other, &self.other_solid)];
         for ((turning, body), length) in turning.iter().zip(found.across) {
             let across = n.cross(body.spin).length();
             let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
             let of = share(
                 across - f64::from(found),
-                (CROSS_PRODUCT_F32 * turning.rate).into(),
+                (CROSS_PRODUCT_ERROR_F32 * turning.rate).into(),
             );
             shares.across = greater(shares.across, of);
         }
         let free = clocks.free[lane];
         if free > 0.0 && free < 1e30 {
-            shares.clock = share_of_clock([
+            shares.clock = free_time_error_share([
                 free,
                 clocks.apart[lane],
                 rate,

@@ -1,9 +1,9 @@
 //! Compares the choices of the pairs that wait, and of the nodes to split, with choices in f64.
 
 use super::setting::{Setting, Shape};
-use super::{Sample, find, widest_axis};
+use super::{Sample, axis_values, widest_axis};
 use crate::body::tree::LANES;
-use crate::engine::nodes::bounds::{Bounds, bound};
+use crate::engine::nodes::bounds::{EightPairBounds, bound};
 use crate::engine::nodes::eight_pairs::LargerBody;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -25,18 +25,18 @@ struct PairValues {
     /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
     free: [[f32; LANES]; 4],
     pieces: u8,
-    found: Bounds,
+    found: EightPairBounds,
 }
 
 #[inline(never)]
-fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -> Bounds {
+fn bounds<L: Simd, C: Children, P: OtherNode>(level: L, sample: &Sample<C, P>) -> EightPairBounds {
     bound(level, &sample.group, &sample.other, &sample.motion, u8::MAX)
 }
 
 impl<C: Children, P: OtherNode> Sample<C, P> {
     fn rows(&self) -> PairValues {
         let level = Instructions::Best.level();
-        let [along, passing, _] = vectorize!(level, level => find(level, self, Vec3::X));
+        let [along, passing, _] = vectorize!(level, level => axis_values(level, self, Vec3::X));
         vectorize!(level, level => {
             let axis = widest_axis(&self.pairs(level));
             PairValues {
@@ -45,7 +45,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 split_reach: *axis.split_extent,
                 other_reach: *axis.other_extent,
                 gap: along.gap,
-                free: [along.free[0], passing.free[0], along.free[1], along.free[2]],
+                free: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
                 pieces: self.group.pieces(level).to_bitmask() as u8,
                 found: bounds(level, self),
             }
@@ -62,8 +62,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             reach > MUCH_LARGER_RATIO * other,
             other > MUCH_LARGER_RATIO * reach,
         ) {
-            (true, _) => Some(LargerBody::Split),
-            (_, true) => Some(LargerBody::Other),
+            (true, _) => Some(LargerBody::SplitBody),
+            (_, true) => Some(LargerBody::OtherBody),
             _ => None,
         };
         self
@@ -125,7 +125,7 @@ impl PairValues {
         };
         let (swept, past) = match motion.larger {
             None => (Some(false), Some(false)),
-            Some(LargerBody::Split) => {
+            Some(LargerBody::SplitBody) => {
                 let arm = motion.split.distance_from_centre(sample.other.centre());
                 let other_is_piece = self.pieces >> lane & 1 == 1;
                 (
@@ -137,7 +137,7 @@ impl PairValues {
                     },
                 )
             }
-            Some(LargerBody::Other) => {
+            Some(LargerBody::OtherBody) => {
                 let (rate, other_is_piece) = (motion.other.rate, sample.other.is_piece());
                 (
                     swept(greater(fixed, free(3)), rate, self.arms[lane], other),

@@ -3,14 +3,14 @@
 //! References are in f64, whose own error is a five hundred millionth of that of f32.
 
 use super::setting::{Setting, Shape};
-use super::shares::{Shares, share_of_clock};
+use super::shares::{ErrorShares, free_time_error_share};
 use super::{AxisValues, Sample, free_times};
 use crate::body::tree::LANES;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::math::simd::Vec3x8;
 use crate::rounding::{
-    CROSS_PRODUCT_F32, FREE_TIME_FACTOR_F32, LEAST_AXIS_F32, LEAST_GAP_F32,
+    CROSS_PRODUCT_ERROR_F32, FREE_TIME_FACTOR_F32, LEAST_AXIS_F32, LEAST_GAP_F32,
     LEAST_SECOND_DERIVATIVE_F32, SECOND_DERIVATIVE_FACTOR_F32, UNIT_ROUNDOFF_F32,
 };
 use crate::settings::Instructions;
@@ -24,7 +24,7 @@ use glam::{DVec3, Vec3};
 struct Search {
     name: [&'static str; 2],
     setting: fn(&mut RandomCase, &Shape) -> Setting,
-    share: fn(&Shares) -> f64,
+    share: fn(&ErrorShares) -> f64,
     looseness: f64,
 }
 
@@ -53,9 +53,9 @@ impl Search {
     ) -> f64 {
         let some = direction(tape).as_vec3() * 2f32.powi(tape.random_range(-40..40));
         let of = |found: &AxisValues, lane: usize| {
-            (self.share)(&sample.shares(found, &sample.clocks(found), lane))
+            (self.share)(&sample.error_shares(found, &sample.clocks(found), lane))
         };
-        let found = sample.found_on_all_levels(some);
+        let found = sample.axis_values_on_all_levels(some);
         let all = found
             .iter()
             .flat_map(|axis| (0..LANES).map(move |k| of(axis, k)));
@@ -164,7 +164,7 @@ fn across_f32() {
     let found = Worst::of("CROSS_PRODUCT_F32", 40_000).search(|tape| {
         let (axes, spin) = turned(tape)?;
         let lengths = across(axes.map(DVec3::as_vec3), spin.as_vec3());
-        let allowed = f64::from(CROSS_PRODUCT_F32) * spin.length();
+        let allowed = f64::from(CROSS_PRODUCT_ERROR_F32) * spin.length();
         let error = |k: usize| axes[k].cross(spin).length() - f64::from(lengths[k]);
         let errors = (0..LANES).map(|k| share(error(k), allowed));
         Some(errors.fold(f64::NEG_INFINITY, greater))
@@ -204,8 +204,8 @@ fn clock_f32() {
         let free = on_all_instruction_sets(|level| {
             free_times(level, &apart, &rate, &second_derivative, LEAST_GAP_F32)
         });
-        let shares =
-            (0..LANES).map(|k| share_of_clock([free[k], apart[k], rate[k], second_derivative[k]]));
+        let shares = (0..LANES)
+            .map(|k| free_time_error_share([free[k], apart[k], rate[k], second_derivative[k]]));
         Some(shares.fold(f64::NEG_INFINITY, greater))
     });
     found.is_within(16.0);

@@ -12,7 +12,7 @@ use crate::motion::Motion;
 use crate::motion::pose::{Frame, Pose};
 use crate::motion::track::{Angle, RotatingVector};
 use crate::problem::Problem;
-use crate::rounding::{RATE_F64, TURNED_SUPPORT};
+use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use crate::settings::Settings;
 use crate::tests::double::{Double, Double3};
 use crate::tests::scene::{body, rotation};
@@ -20,13 +20,13 @@ use crate::tests::worst::{RandomCase, Worst, share};
 use glam::DVec3;
 
 /// The exact rotation of a body from a given frame.
-struct Turning {
+struct ExactRotation {
     frame: Frame,
     spin: Double3,
     centre: Double3,
 }
 
-impl Turning {
+impl ExactRotation {
     /// Returns the vector from the centre to a point after a rotation by an angle.
     fn arm(&self, point: DVec3, angle: f64) -> Double3 {
         let local = Double3::from(point) - self.centre;
@@ -47,14 +47,14 @@ fn motion(tape: &mut RandomCase) -> Option<Motion> {
 }
 
 /// Returns the largest error of the rates of a triangle's corners, as a share of its allowance.
-fn share_of_rates(tape: &mut RandomCase) -> Option<f64> {
+fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
     let (motion, ball) = (motion(tape)?, Body::sphere(0.1).ok()?);
     let still = Motion::still(Pose::IDENTITY);
     let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (side, normal) = (&problem.a, unit(tape.vector(-40..=0).into())?);
     let [clock, tau] = [0; 2].map(|_| tape.fraction());
-    let turning = Turning {
+    let turning = ExactRotation {
         frame: side.path.frame(clock),
         spin: Double3::from(motion.spin()),
         centre: Double3::from(motion.centre()),
@@ -66,7 +66,7 @@ fn share_of_rates(tape: &mut RandomCase) -> Option<f64> {
         let velocity = Double3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = Double3::from(normal).dot(velocity);
         let off = (Double::from(found.rate) - exact).get().abs();
-        share(off, RATE_F64 * heights.speed())
+        share(off, RATE_ERROR_F64 * heights.speed())
     };
     let shares = piece
         .points
@@ -78,7 +78,7 @@ fn share_of_rates(tape: &mut RandomCase) -> Option<f64> {
 
 #[test]
 fn worst_rate() {
-    let found = Worst::of("RATE_F64, rates of points", 10_000).search(share_of_rates);
+    let found = Worst::of("RATE_F64, rates of points", 10_000).search(rate_error_share);
     found.is_within(10.0);
 }
 
@@ -90,7 +90,10 @@ fn worst_farthest() {
         let radius = tape.size(-20..=20);
         let exact = (Double3::from(middle) - Double3::from(from)).length() + Double::from(radius);
         let found = Double::from(distance(middle, from) + radius);
-        Some(share((exact / found - Double::from(1.0)).get(), RATE_F64))
+        Some(share(
+            (exact / found - Double::from(1.0)).get(),
+            RATE_ERROR_F64,
+        ))
     });
     found.is_within(16.0);
 }
@@ -137,7 +140,7 @@ fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let body = Body::polytope(polytope).ok()?;
     let problem = Problem::about((&body, motion), (&ball, still), 1.0, &Settings::DEFAULT).ok()?;
     let (piece, side) = (body.piece(0), &problem.a);
-    let turning = Turning {
+    let turning = ExactRotation {
         frame,
         spin: Double3::from(motion.spin()),
         centre: Double3::from(motion.centre()),
@@ -145,7 +148,7 @@ fn missed(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let heights = Heights::new(side, &piece, &frame, normal, clock);
     let (middle, radius) = piece.bounding_ball()?;
     let farthest = length(frame.rotation * (middle - path.centre)) + radius;
-    let allowed = TURNED_SUPPORT * (farthest + length(middle) + radius);
+    let allowed = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
     let n = Double3::from(normal);
     let arms: Vec<Double3> = piece
         .points

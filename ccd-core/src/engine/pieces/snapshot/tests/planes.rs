@@ -59,7 +59,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     );
     assert_eq!(
         meter.stats.point_evaluations,
-        ASSUMED_STEPS * snapshot.pieces.points()
+        ASSUMED_ORACLE_STEPS * snapshot.pieces.points()
     );
     let mut meter = Meter::new(&problem);
     let mut telling = CountingOracle { steps: 7 };
@@ -68,7 +68,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
             .query_oracle(&mut telling, &mut (), &mut meter)
             .is_some()
     );
-    assert_eq!(meter.stats.point_evaluations, ASSUMED_STEPS * 5);
+    assert_eq!(meter.stats.point_evaluations, ASSUMED_ORACLE_STEPS * 5);
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
     assert!(
         snapshot
@@ -88,7 +88,7 @@ fn the_plane_of_the_longest_time_counts() {
     let mut rng = rng(5);
     let (mut turning, mut passes, mut at_once) = (0, 0, [0; 2]);
     for number in 0..6_000 {
-        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
         let scene = scene(&mut rng, kind, 2).with_random_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
@@ -101,17 +101,19 @@ fn the_plane_of_the_longest_time_counts() {
         if checked.lower <= kept {
             continue;
         }
-        let direct = Plane {
+        let direct = SeparatingPlane {
             normal: snapshot.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
         };
         let passing = snapshot.plane_of_closest_approach(&checked, kept);
-        check_passing(&snapshot, &checked, kept, passing.as_ref());
-        let planes: Vec<&Plane> = iter::once(&direct).chain(&passing).collect();
-        let along = |plane: &&Plane| time(snapshot.fixed_axis_time(plane.normal, plane.slack));
+        check_closest_approach_plane(&snapshot, &checked, kept, passing.as_ref());
+        let planes: Vec<&SeparatingPlane> = iter::once(&direct).chain(&passing).collect();
+        let along =
+            |plane: &&SeparatingPlane| time(snapshot.fixed_axis_time(plane.normal, plane.slack));
         let members = snapshot.moving_pieces();
-        let attached =
-            |plane: &&Plane| time(snapshot.turning_plane_time(&members, plane, f64::INFINITY));
+        let attached = |plane: &&SeparatingPlane| {
+            time(snapshot.turning_plane_time(&members, plane, f64::INFINITY))
+        };
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
         // A plane that turns is tried only if a body's turning uses up the slack.
@@ -126,7 +128,7 @@ fn the_plane_of_the_longest_time_counts() {
             first if first >= SUFFICIENT_FIRST_FREE_TIME => first,
             _ => time(free),
         };
-        let first = time(snapshot.first_free_time(&checked, kept));
+        let first = time(snapshot.first_visit_free_time(&checked, kept));
         assert_eq!(first, expected, "{:?}", direct.normal);
         at_once[usize::from(first < time(free))] += 1;
     }
@@ -152,7 +154,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
             .unwrap();
         let kept = problem.gap();
         let plane = snapshot.plane_of_closest_approach(&checked, kept);
-        check_passing(&snapshot, &checked, kept, plane.as_ref());
+        check_closest_approach_plane(&snapshot, &checked, kept, plane.as_ref());
         planes += usize::from(plane.is_some());
     }
     assert!((100..500).contains(&planes), "{planes}");
@@ -179,7 +181,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let slack = 0.1 * rate;
         let free = snapshot.fixed_axis_time(-away, slack).unwrap();
         let speed = chased.length() + velocity.length();
-        let allowed = (slack / free - rate) / (RATE_F64 * speed);
+        let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
         let points = snapshot.pieces.points();
         assert_eq!(snapshot.evaluations(), 2 * points);
@@ -193,7 +195,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
     let mut counts = [0; 3];
     for number in 0..3_000 {
-        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let kind = [Kind::Any, Kind::NearRim, Kind::Sliding][number % 3];
         let mut scene = scene(&mut rng, kind, 2);
         if number % 2 == 0 {
             let (start, velocity) = (scene.motions[0].start(), scene.motions[0].velocity());
@@ -217,7 +219,9 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             snapshot.clock,
         );
         let passes = |slack: f64| snapshot.rotation_keeps_slack(&a, &b, slack);
-        let descents = a.descent_until(horizon).zip(b.descent_until(horizon));
+        let descents = a
+            .max_descent_until(horizon)
+            .zip(b.max_descent_until(horizon));
         let Some(descents) = descents.filter(|_| !(a.is_nonrotating() && b.is_nonrotating()))
         else {
             assert!(!passes(f64::MAX));
@@ -226,7 +230,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         };
         let displacement = (a.linear_rate() + b.linear_rate()) * horizon;
         let needed = descents.0 + descents.1 - lesser(0.0, displacement);
-        let allowance = RATE_F64 * (a.speed() + b.speed()) * horizon;
+        let allowance = RATE_ERROR_F64 * (a.speed() + b.speed()) * horizon;
         let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
         assert!(!passes(low) && passes(high));
         for _ in 0..200 {
@@ -270,11 +274,11 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
 }
 
 /// Checks the plane between the nearest points at their time of closest approach on straight paths.
-fn check_passing(
+fn check_closest_approach_plane(
     snapshot: &Snapshot<'_>,
     checked: &CheckedClaim,
     kept: f64,
-    plane: Option<&Plane>,
+    plane: Option<&SeparatingPlane>,
 ) {
     let Problem { a, b, .. } = snapshot.problem;
     let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));

@@ -42,7 +42,7 @@ impl Resting {
     }
 
     /// Creates a cube that stands on an edge along an axis, on this side of the plane.
-    fn on_edge(side: f64, along: DVec3) -> Self {
+    fn cube_on_edge(side: f64, along: DVec3) -> Self {
         let tilt = DQuat::from_axis_angle(along, std::f64::consts::FRAC_PI_4);
         let level = |p: DVec3| {
             let p = tilt * p + side * 0.5f64.sqrt() * DVec3::Z;
@@ -143,8 +143,8 @@ fn of_two_planes_the_one_of_the_longer_time_counts() {
 
 #[test]
 fn crossed_edges_rest_on_the_plane_between_them() {
-    let below = Resting::on_edge(-1.0, DVec3::X);
-    let above = Resting::on_edge(1.0, DVec3::Y);
+    let below = Resting::cube_on_edge(-1.0, DVec3::X);
+    let above = Resting::cube_on_edge(1.0, DVec3::Y);
     let mut rng = rng(14);
     for _ in 0..100 {
         let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
@@ -169,11 +169,11 @@ fn what_is_left_of_the_rounding_is_no_time() {
                     .iter()
                     .map(move |&v| time(pair, whole, v, 1.0 + left))
             };
-            assert!(ask(0.5 * RESTED_SLACK).all(|free| free == Some(0.0)));
-            let more: Vec<_> = ask(2.0 * RESTED_SLACK).collect();
+            assert!(ask(0.5 * MIN_RESTING_SLACK).all(|free| free == Some(0.0)));
+            let more: Vec<_> = ask(2.0 * MIN_RESTING_SLACK).collect();
             // The plane of two sheets lets them part in one of both directions.
             assert!(
-                more.iter().any(|free| *free > Some(RESTED_SLACK)),
+                more.iter().any(|free| *free > Some(MIN_RESTING_SLACK)),
                 "{more:?}"
             );
         }

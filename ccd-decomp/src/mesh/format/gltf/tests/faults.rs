@@ -1,6 +1,6 @@
 //! Tests the error message for every kind of invalid glTF.
 
-use super::{error, read, square};
+use super::{error, read, square_gltf};
 use crate::test_files::Gltf;
 use crate::{Format, MeshFault, TriangleMesh};
 use rstest::rstest;
@@ -58,7 +58,7 @@ fn triangle_with(path: &str, value: Value) -> Gltf {
 #[case::newer_meshopt("/extensionsRequired", json!(["KHR_meshopt_compression"]), "compressed by meshopt")]
 #[case::unknown("/extensionsRequired", json!(["ACME_fractal"]), "what the extension \"ACME_fractal\" says, which is not supported")]
 #[case::instances("/nodes/0/extensions", json!({"EXT_mesh_gpu_instancing": {}}), "node 0: holds instances in a buffer")]
-fn bad_input_is_named(#[case] path: &str, #[case] value: Value, #[case] expected: &str) {
+fn faults_name_the_bad_value(#[case] path: &str, #[case] value: Value, #[case] expected: &str) {
     let message = error(&triangle_with(path, value)).to_string();
     assert!(message.contains(expected), "{message}");
 }
@@ -104,7 +104,7 @@ fn names_of_nodes_and_meshes_are_in_messages() {
 
 #[test]
 fn corners_must_be_vertices() {
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 2, 0, 4, 2]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
     let expected =
@@ -125,7 +125,7 @@ fn corners_must_be_vertices() {
 
 #[test]
 fn triangles_have_three_corners() {
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     gltf.primitive(json!({"attributes": {"POSITION": 0}}));
     let message = error(&gltf).to_string();
     assert!(
@@ -133,7 +133,7 @@ fn triangles_have_three_corners() {
         "{message}"
     );
     for mode in [5, 6] {
-        let mut gltf = square();
+        let mut gltf = square_gltf();
         let few = gltf.indices(&[0, 1]);
         gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": few, "mode": mode}));
         assert!(matches!(
@@ -209,7 +209,7 @@ fn sparse_accessors_stay_within_their_list() {
 #[case::two(json!([{"children": [1]}, {"mesh": 0, "children": [0]}]))]
 #[case::two_parents(json!([{"children": [1, 2]}, {"children": [3]}, {"children": [3]}, {"mesh": 0}]))]
 #[case::twice(json!([{"children": [1, 1]}, {"mesh": 0}]))]
-fn nodes_form_a_tree(#[case] nodes: Value) {
+fn nodes_that_form_no_tree_are_errors(#[case] nodes: Value) {
     let mut gltf = Gltf::triangle().set("nodes", nodes);
     let message = error(&gltf).to_string();
     assert!(
@@ -266,12 +266,12 @@ fn zeros_are_limited() {
 /// Tests that small files that repeat a mesh many times take little memory, or are refused.
 #[test]
 fn instances_are_limited() {
-    const MANY: usize = 10_000;
+    const INSTANCE_COUNT: usize = 10_000;
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&vec![[1.0; 3]; 9999]);
     gltf.primitive(json!({"attributes": {"POSITION": 0}}));
-    let nodes = vec![json!({"mesh": 0}); MANY];
-    let tops: Vec<usize> = (0..MANY).collect();
+    let nodes = vec![json!({"mesh": 0}); INSTANCE_COUNT];
+    let tops: Vec<usize> = (0..INSTANCE_COUNT).collect();
     let gltf = gltf
         .set("nodes", json!(nodes))
         .set("scenes", json!([{"nodes": tops}]));
@@ -281,14 +281,14 @@ fn instances_are_limited() {
         "{error}"
     );
     // A single part can be read.
-    let file = super::file(&gltf);
+    let file = super::mesh_file(&gltf);
     assert_eq!(file.part("9999").unwrap().vertices().len(), 9999);
     let parts = file.into_parts().map_err(|error| error.fault);
     assert!(matches!(parts, Err(MeshFault::TooManyRepeats { .. })));
     // Meshes that read the same bytes repeatedly are refused, too.
     let mut gltf = Gltf::new();
     gltf.add_vec3_accessor(&vec![[1.0; 3]; 9999]);
-    let meshes = vec![json!({"primitives": [{"attributes": {"POSITION": 0}}]}); MANY];
+    let meshes = vec![json!({"primitives": [{"attributes": {"POSITION": 0}}]}); INSTANCE_COUNT];
     gltf.json.as_object_mut().unwrap().remove("nodes");
     gltf.json.as_object_mut().unwrap().remove("scenes");
     let gltf = gltf.set("meshes", json!(meshes));

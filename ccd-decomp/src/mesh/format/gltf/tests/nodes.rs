@@ -1,6 +1,6 @@
 //! Tests how nodes place meshes, and which scene is read.
 
-use super::{corner, file, read};
+use super::{corner, mesh_file, read};
 use crate::test_files::Gltf;
 use crate::{Format, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
     dvec3(-2.0, 0.0, 5.0)
 )]
 #[case::matrix(json!({"matrix": [0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1]}), dvec3(4.0, 7.0, 6.0))]
-fn nodes_are_placed(#[case] node: Value, #[case] expected: DVec3) {
+fn nodes_are_placed_by_their_transforms(#[case] node: Value, #[case] expected: DVec3) {
     let mut gltf = Gltf::triangle();
     gltf.json["nodes"][0] = node;
     gltf.json["nodes"][0]["mesh"] = json!(0);
@@ -107,7 +107,7 @@ fn a_mesh_may_be_used_twice() {
             "meshes",
             json!([{"name": "tile", "primitives": [{"attributes": {"POSITION": 0}}]}]),
         );
-    let file = file(&gltf);
+    let file = mesh_file(&gltf);
     let names: Vec<_> = file.part_names().collect();
     assert_eq!(names, [Some("left"), Some("tile"), Some("tile")]);
     assert_eq!(file.part("left").unwrap().vertices()[0], DVec3::ZERO);
@@ -124,7 +124,7 @@ fn the_scene_that_is_shown_is_read() {
         .set("scenes", json!([{}, {"nodes": [1]}, {"nodes": [0]}]))
         .set("nodes", json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "children": [2]}, {"mesh": 0, "name": "c"}]));
     let names = |gltf: &Gltf| -> Vec<String> {
-        let file = file(gltf);
+        let file = mesh_file(gltf);
         file.part_names()
             .map(|name| name.unwrap().to_owned())
             .collect()
@@ -148,8 +148,8 @@ fn what_is_scaled_to_nothing_is_hidden() {
         "nodes",
         json!([{"mesh": 0, "children": [1]}, {"scale": [0, 0, 0], "children": [2]}, {"mesh": 0}]),
     );
-    assert_eq!(file(&gltf).part_names().count(), 1);
+    assert_eq!(mesh_file(&gltf).part_names().count(), 1);
     // A node scaled to zero along one axis is read.
     gltf.json["nodes"][1]["scale"] = json!([1, 1, 0]);
-    assert_eq!(file(&gltf).part_names().count(), 2);
+    assert_eq!(mesh_file(&gltf).part_names().count(), 2);
 }

@@ -1,6 +1,6 @@
 //! Tests every mode of glTF primitives, and every kind of accessor.
 
-use super::{corner, error, file, read, square};
+use super::{corner, error, mesh_file, read, square_gltf};
 use crate::test_files::Gltf;
 use ccd_core::glam::{DVec3, dvec3};
 use rstest::rstest;
@@ -16,7 +16,7 @@ fn every_mode_of_triangles_is_read(
     #[case] corners: &[u16],
     #[case] faces: &[[u32; 3]],
 ) {
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     let indices = gltf.indices(corners);
     let mut primitive = json!({"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": indices});
     if !mode.is_null() {
@@ -33,7 +33,11 @@ fn corners_may_go_without_indices() {
         (5, vec![[0, 1, 2], [1, 3, 2]]),
         (6, vec![[1, 2, 0], [2, 3, 0]]),
     ] {
-        let mut gltf = if mode == 4 { Gltf::new() } else { square() };
+        let mut gltf = if mode == 4 {
+            Gltf::new()
+        } else {
+            square_gltf()
+        };
         if mode == 4 {
             gltf.add_vec3_accessor(&[[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
         }
@@ -44,7 +48,7 @@ fn corners_may_go_without_indices() {
 
 #[test]
 fn points_and_lines_are_passed_over() {
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     for mode in 0..4 {
         gltf.primitive(json!({"attributes": {"POSITION": 0}, "mode": mode}));
     }
@@ -62,7 +66,7 @@ fn points_and_lines_are_passed_over() {
 
 #[test]
 fn primitives_share_the_vertices_of_an_accessor() {
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     for corners in [[0, 1, 2], [0, 2, 3]] {
         let indices = gltf.indices(&corners);
         gltf.primitive(json!({"attributes": {"POSITION": 0}, "indices": indices}));
@@ -73,7 +77,7 @@ fn primitives_share_the_vertices_of_an_accessor() {
     assert_eq!(mesh.vertices().len(), 7);
     assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3], [4, 5, 6]]);
     assert_eq!(mesh.face_ids(), [0, 1, 2]);
-    assert_eq!(file(&gltf).part_names().count(), 1);
+    assert_eq!(mesh_file(&gltf).part_names().count(), 1);
 }
 
 #[test]
@@ -83,7 +87,7 @@ fn indices_are_of_any_size() {
         (5123, vec![0, 0, 1, 0, 2, 0]),
         (5125, vec![0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]),
     ] {
-        let mut gltf = square();
+        let mut gltf = square_gltf();
         let view = gltf.view(&bytes);
         let indices = gltf.push(
             "accessors",
@@ -168,7 +172,7 @@ fn sparse_accessors_replace_elements() {
 
 #[test]
 fn indices_may_be_sparse() {
-    let mut gltf = square();
+    let mut gltf = square_gltf();
     let indices = gltf.indices(&[0, 1, 1]);
     let places = gltf.view(&[2, 0, 0, 0]);
     let values = gltf.view(&[2, 0]);

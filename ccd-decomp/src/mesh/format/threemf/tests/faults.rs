@@ -2,7 +2,7 @@
 
 use super::{error, file, package_of_model, tetrahedron};
 use crate::MeshFault;
-use crate::test_files::{Entry, model, object, package, zip};
+use crate::test_files::{Entry, model, object, package, zip_archive};
 use rawzip::CompressionMethod;
 use rstest::rstest;
 
@@ -260,7 +260,7 @@ fn a_zip_is_whole() {
         method: CompressionMethod::STORE,
     };
     assert!(
-        error(&zip(&[other]))
+        error(&zip_archive(&[other]))
             .to_string()
             .contains("so that it is no 3MF")
     );
@@ -271,7 +271,7 @@ fn a_zip_is_whole() {
         content: text.as_bytes(),
         method: CompressionMethod::STORE,
     };
-    let mut bytes = zip(&[stored]);
+    let mut bytes = zip_archive(&[stored]);
     let digit = bytes.windows(4).position(|four| four == b"x=\"1").unwrap() + 3;
     bytes[digit] = b'2';
     let message = error(&bytes).to_string();
@@ -290,7 +290,7 @@ fn other_compressions_are_refused() {
             content: text.as_bytes(),
             method,
         };
-        let message = error(&zip(&[entry])).to_string();
+        let message = error(&zip_archive(&[entry])).to_string();
         assert!(message.contains(expected), "{message}");
     }
 }

@@ -1,5 +1,5 @@
 use crate::rational::Exact3;
-use crate::tolerance::{MIN_CORNER_SINE, NEAREST_SLACK};
+use crate::tolerance::{MIN_CORNER_SINE, NEAREST_DISTANCE_ERROR};
 use crate::worst::{Worst, share};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -23,7 +23,7 @@ fn worst_normal() {
         // The rounding here is far below the tested error.
         let exact = exact.0.map(|x| x.to_f64().value());
         let exact = unit(DVec3::from_array(exact))?;
-        Some(share(exact.distance(found), NEAREST_SLACK))
+        Some(share(exact.distance(found), NEAREST_DISTANCE_ERROR))
     });
     found.is_within(60.0);
 }
