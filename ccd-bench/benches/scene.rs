@@ -164,7 +164,7 @@ fn benchmark_scenes(criterion: &mut Criterion) {
             });
         };
         ask("first of all", |scene| {
-            drop(scene.first_contact(STEP_DURATION))
+            drop(scene.first_contact(STEP_DURATION));
         });
         ask("first of each", |scene| {
             drop(scene.first_contact_of_each(STEP_DURATION));

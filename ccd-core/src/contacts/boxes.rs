@@ -52,7 +52,7 @@ impl NearFacePairs {
             self.budget = self.budget.checked_sub(1)?;
             match (a.below, b.below) {
                 (FaceBoxContent::Face(face_a), FaceBoxContent::Face(face_b)) => {
-                    self.pairs.push([face_a, face_b])
+                    self.pairs.push([face_a, face_b]);
                 }
                 (FaceBoxContent::Inner(right), FaceBoxContent::Face(_)) => {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
@@ -63,7 +63,7 @@ impl NearFacePairs {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
                 (_, FaceBoxContent::Inner(right)) => {
-                    stack.extend([[at_a, right], [at_a, at_b + 1]])
+                    stack.extend([[at_a, right], [at_a, at_b + 1]]);
                 }
             }
         }

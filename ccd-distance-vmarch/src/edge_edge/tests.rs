@@ -21,7 +21,7 @@ fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     match (there, swapped) {
         // The same point in two frames.
         (MarchStep::CommonPoint(one, _), MarchStep::CommonPoint(other, _)) => {
-            assert_eq!(one, other)
+            assert_eq!(one, other);
         }
         _ => assert_eq!(there, swapped),
     }

@@ -37,7 +37,7 @@ impl Goal {
         match self {
             Goal::First(earliest) => earliest.record(time),
             Goal::FirstOfEachBody(earliest) => {
-                [a, b].iter().for_each(|&k| earliest[k].record(time))
+                [a, b].iter().for_each(|&k| earliest[k].record(time));
             }
             Goal::All => {}
         }

@@ -109,7 +109,7 @@ fn whole_numbers_may_have_a_fraction_of_zero() {
             }
             serde_json::Value::Array(list) => list.iter_mut().for_each(convert_numbers_to_floats),
             serde_json::Value::Object(fields) => {
-                fields.values_mut().for_each(convert_numbers_to_floats)
+                fields.values_mut().for_each(convert_numbers_to_floats);
             }
             _ => {}
         }
