@@ -43,7 +43,7 @@ use nearest::{Corners, Nearest, nearest, support_gap};
 ///     b_to_a: Frame::IDENTITY,
 /// };
 /// let claim = ClosedForm::default().separation(&pair, &mut ()).unwrap();
-/// assert_eq!(claim.a.of(&floor), Some(DVec3::new(1.0, 1.0, 0.0)));
+/// assert_eq!(claim.a.position(&floor), Some(DVec3::new(1.0, 1.0, 0.0)));
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ClosedForm {

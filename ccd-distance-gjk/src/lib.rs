@@ -23,7 +23,7 @@
 //! };
 //! let mut oracle = Direct::default();
 //! let claim = oracle.separation(&pair, &mut Default::default()).unwrap();
-//! assert_eq!(claim.a.of(&square), Some(DVec3::new(0.5, 0.5, 0.0)));
+//! assert_eq!(claim.a.position(&square), Some(DVec3::new(0.5, 0.5, 0.0)));
 //! assert_eq!(claim.axis.normalize(), DVec3::Z);
 //! // A square has four points: GJK has answered.
 //! assert_eq!(oracle.fallbacks(), 1);

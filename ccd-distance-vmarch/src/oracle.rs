@@ -45,7 +45,7 @@ use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUpReason, Piece, PiecePa
 ///     let b_to_a = Frame { translation: height * DVec3::Z, ..Frame::IDENTITY };
 ///     let pair = PiecePair { a: pieces.get(0), b: pieces.get(0), b_to_a };
 ///     let claim = oracle.separation(&pair, &mut cache).unwrap();
-///     assert_eq!(claim.a.of(pair.a.points), Some(DVec3::Z));
+///     assert_eq!(claim.a.position(pair.a.points), Some(DVec3::Z));
 ///     assert!(claim.axis.normalize().distance(DVec3::Z) < 1e-15);
 /// }
 /// // The second call found the nearest features where the first one left them.

@@ -103,7 +103,8 @@ pub(crate) struct Side {
 }
 
 impl Edge {
-    /// Returns whether a point is certainly in the edge's Voronoi region, given its components into both faces.
+    /// Returns whether a point or direction is certainly outside of both face planes of the edge, given its components
+    /// along `inward`.
     #[inline(always)]
     pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];

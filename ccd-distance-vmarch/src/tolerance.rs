@@ -28,9 +28,9 @@ pub(crate) const MAX_PARALLEL_SINE: f64 = 16.0 * UNIT_ROUNDOFF;
 /// the size, tilts a direction of that length at a cost of at most 64u of the size.
 pub(crate) const CERTAIN_DISTANCE: f64 = 1.0 / 4.0;
 
-/// The excess of the nearest points' distance over the gap along the axis up to which both count as certified, in units
-/// of the pair's size: [`PLACEMENT_ERROR`]. A larger value would accept a tie with a nearer pair around it; a smaller
-/// one would search around in vain.
+/// The largest difference between the distance of the nearest points and the gap along the axis with which both count
+/// as certified, in units of the pair's size. It equals [`PLACEMENT_ERROR`], the error of that distance. A larger value
+/// would accept a tie with a nearer pair around it; a smaller one would search around in vain.
 pub(crate) const CERTIFIED_EXCESS: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// The excess of the distance over the gap up to which both count as certified, in units of the distance. It is for

@@ -39,7 +39,7 @@ pub(crate) struct PyBody {
     size: f64,
     made: PickleData,
     #[pyo3(get)]
-    /// The message about the mesh that the body was made of.
+    /// A description of the body in words: its shape and lengths, or the pieces made of its mesh with remarks about it.
     report: String,
 }
 

@@ -218,8 +218,8 @@ impl PyChain {
         Ok(matrix_of(py, &pose.map_err(input_error)?))
     }
 
-    /// Returns a link while each joint goes from its position in start to that in end, at a constant rate: an edge of a
-    /// planner.
+    /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to that in
+    /// `end`, as along an edge of a motion planner's roadmap.
     ///
     /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
     ///

@@ -1,4 +1,5 @@
-//! Bounds the positions of both bodies around an instant: positions, velocities, and bounds on rounding.
+//! Encloses where both bodies are around an instant: their positions and velocities then, and a bound of what these and
+//! rounding leave out.
 //!
 //! All is relative to a frame that has B's position and orientation at the instant m, moves along
 //! with B's centre in a straight line and does not turn. There, for |s| ≤ h,

@@ -27,7 +27,7 @@ pub struct PointTree {
     points: Vec<(DVec3, u32)>,
     /// The nodes in depth-first order: every node comes before its left subtree, and that before its right subtree.
     nodes: Vec<Node>,
-    /// The largest absolute value of a stored coordinate.
+    /// An upper bound of the absolute value of any coordinate of the boxes, and so of the stored points.
     reach: f64,
 }
 

@@ -262,7 +262,8 @@ pub trait SmoothTrajectory: Sync {
 /// Upper bounds of the magnitudes of a trajectory's accelerations, per unit of time squared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AccelerationBounds {
-    /// A bound of the acceleration of the tangents' centre, in the scene's unit of length.
+    /// A bound of the acceleration of the body's centre, the point whose velocity `tangent_motion` gives, in the
+    /// scene's unit of length.
     pub linear: f64,
     /// A bound of the angular acceleration in radians, which is the derivative of the angular velocity.
     pub angular: f64,

@@ -56,7 +56,7 @@ pub struct Fast<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Creates a schedule that divides distances by the given bound of the approach.
+    /// Creates a schedule whose steps are distances divided by the given bound of the velocity.
     pub fn new(bound: VelocityBound) -> Self {
         Fast {
             bound,

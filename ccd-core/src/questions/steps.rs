@@ -236,8 +236,8 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         }
     }
 
-    /// Searches the current problem, or the current round of it if the motions repeat, up to a time. Returns the time
-    /// that is reached, or the outcome.
+    /// Searches the current problem up to a time; if the motions repeat, only the periods that are searched together at
+    /// present. Returns the time that is reached, or the outcome.
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.part {

@@ -38,7 +38,8 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
     }
 }
 
-/// A flat node at the pose of a clock, in the problem's coordinates.
+/// A node whose triangles lie in one plane up to rounding, or a single triangle, placed where its body is at clock `s`
+/// (time, from 0 to 1), in the problem's coordinates.
 struct FlatNode {
     node: PlacedNode,
     /// Half the thickness; `None` for a triangle, whose corners are known.

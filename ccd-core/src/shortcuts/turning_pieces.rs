@@ -51,7 +51,8 @@ impl<'p> MovingPiece<'p> {
         }
     }
 
-    /// Returns the upper bound `relative_speed` for one axis.
+    /// Returns an upper bound of the rate at which any point moves relative to the first one along one fixed axis; at
+    /// most `relative_speed`, which holds for every axis.
     pub(crate) fn relative_speed_along(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
         self.relative_speed * path.spin.cross(normal).length() / path.rate

@@ -5,7 +5,8 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// A brute-force hull. A triple of points spans a facet if no point is in front of its plane.
+/// The hull of a few points, found by testing every triple of points for a facet. A triple of points spans a facet if
+/// no point is in front of its plane.
 struct BruteForceHull {
     corners: Vec<DVec3>,
     /// The indices of the points on each facet, corners or not.

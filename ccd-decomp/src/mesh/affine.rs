@@ -15,7 +15,7 @@ use ccd_core::glam::{DAffine3, DVec3};
 /// let doubled = AffineMap::scaled(2.0, Pose::at([0.0, 0.0, 5.0])?);
 /// assert_eq!(doubled.apply(DVec3::ONE), dvec3(2.0, 2.0, 7.0));
 /// let mirror = AffineMap::from(DAffine3::from_scale(dvec3(-1.0, 1.0, 1.0)));
-/// assert!(mirror.mirrors() && !doubled.mirrors());
+/// assert!(mirror.reverses_orientation() && !doubled.reverses_orientation());
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -174,7 +174,7 @@ impl MeshFault {
         MeshFault::Syntax { line, problem }
     }
 
-    /// Creates the error of content that does not follow a format without lines.
+    /// Creates a syntax error without a line number, for binary formats and others that are not read by lines.
     pub(crate) fn malformed_content(problem: impl Into<String>) -> Self {
         MeshFault::syntax(None, problem.into())
     }

@@ -50,7 +50,7 @@ pub enum DecomposeError {
         /// The number of a face of the part.
         face: u32,
     },
-    /// The solid is not convex.
+    /// The mesh was to be one convex piece, but an edge of it is reflex.
     #[error("not convex at {edge}; use patches or triangles")]
     NotConvex {
         /// An edge at which the interior dihedral angle exceeds half a turn.

@@ -34,7 +34,7 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUpReason, PiecePair};
 ///     b_to_a: Frame::IDENTITY,
 /// };
 /// let claim = Gjk::default().separation(&pair, &mut Cache::default()).unwrap();
-/// let foot = claim.a.of(&tetrahedron).unwrap();
+/// let foot = claim.a.position(&tetrahedron).unwrap();
 /// assert!(foot.distance(DVec3::ONE / 3.0) < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]

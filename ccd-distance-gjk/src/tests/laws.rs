@@ -133,7 +133,8 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     }
 }
 
-/// Checks that any finite input gives points of the pieces, no nearer than the axis allows.
+/// Checks that on any finite input the claimed points lie in the pieces, and that their distance is at least the gap
+/// along the claimed axis, up to rounding.
 pub(super) fn accepts_finite_input<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &claim_with_empty_cache::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;

@@ -1,4 +1,4 @@
-//! Tests whether faces enclose a convex polytope exactly once.
+//! Tests whether faces cover the boundary of a convex polytope, each part of it once.
 
 use super::{NO_FACE, Polytope, Side, unit};
 use crate::tolerance::{CONVEXITY_TOLERANCE, COPLANARITY_TOLERANCE};

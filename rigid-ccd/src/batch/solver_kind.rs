@@ -35,7 +35,7 @@ pub enum ScheduleKind {
     Naive,
 }
 
-/// The bound on the bodies' motion over one step of all pairs.
+/// Which bound of the bodies' velocity `fast` and `naive` divide distances by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum BoundKind {
     /// The bound that holds for any rotation.

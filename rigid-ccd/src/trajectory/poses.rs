@@ -160,7 +160,8 @@ impl Poses {
         self.centre
     }
 
-    /// Returns the given angular velocity from pose `k` to the next; 0 for the shortest rotation.
+    /// Returns the angular velocity that was given from pose `k` to the next; zero means that the shortest rotation is
+    /// taken.
     fn spin(&self, k: usize) -> DVec3 {
         self.spins.get(k).copied().unwrap_or_default()
     }

@@ -53,7 +53,7 @@ struct DescentResult {
     distance: f64,
     /// The nearest triangles; `None` before any are found.
     nearest_triangles: Option<(TrianglePair, Pair)>,
-    /// The least time during which all pairs seen so far stay apart.
+    /// The least of the safe times of all pairs seen so far: none of them touches before it.
     step: f64,
 }
 

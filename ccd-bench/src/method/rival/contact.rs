@@ -117,7 +117,7 @@ impl Contact {
 }
 
 impl Solver for Contact {
-    /// Answers a query; steps are halvings of time.
+    /// Answers a query; the reply counts the halvings of time as steps.
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
         match to_screw_motions(query) {
             Ok(query) => self.first_contact(&query, tolerance),

@@ -60,7 +60,7 @@ const MAX_BRACKET_WIDTH: f64 = 1e-9;
 const ROUNDING: f64 = 1e-6;
 
 impl Judgement {
-    /// Returns a judgement without an error of the time.
+    /// Returns a judgement for claims whose time is not compared with the exact one.
     pub fn without_error(verdict: Verdict) -> Self {
         Judgement {
             verdict,

@@ -227,7 +227,8 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     assert_eq!(found(&above), None);
 }
 
-/// Tests a case that the fuzz target `query` found: no face meets the needle but at an edge, and its end is inside.
+/// Tests a case that the fuzz target `query` found: the needle enters the cube through the common edge of two faces,
+/// and ends inside.
 #[test]
 fn a_lone_needle_through_an_edge_is_inside() {
     let needle = [-4.0 * DVec3::Z, DVec3::ZERO, DVec3::ZERO];

@@ -124,7 +124,7 @@ impl Siblings {
         }
     }
 
-    /// Returns how many times the pair that waits alone was advanced: 0 for the pairs of a split.
+    /// Returns how many times the pair was advanced since it was removed from the pairs of its split; 0 before that.
     #[inline]
     pub(crate) fn times_advanced(&self) -> usize {
         usize::from(self.times_advanced)

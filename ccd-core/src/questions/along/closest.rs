@@ -33,7 +33,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         Ok(answer.widened_by_excess(query.excess()))
     }
 
-    /// Bounds the least distance of the bodies themselves, without their excess over the shapes.
+    /// Bounds the least distance of the bodies as given; the caller corrects it for their excess over the shapes.
     fn approach_of_bodies_along(
         &mut self,
         query: &Query<'_>,

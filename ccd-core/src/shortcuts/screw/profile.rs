@@ -16,8 +16,9 @@ use crate::tuning::MIN_PROFILE_RADIUS;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// The number of helical surfaces that are tried, evenly spread over all slopes. Eleven degrees between neighbouring
-/// surfaces cost at most a tenth of a node's width, for the flanks of a thread at any slope.
+/// The number of families of helical surfaces `a r + b ζ = const` along which nodes are compared; their slopes (a, b)
+/// are spread evenly over half a turn. Eleven degrees between neighbouring surfaces cost at most a tenth of a node's
+/// width, for the flanks of a thread at any slope.
 const SURFACE_COUNT: usize = 16;
 
 /// The axis of a screw, in its position at the start.

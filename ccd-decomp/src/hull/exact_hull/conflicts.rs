@@ -154,8 +154,8 @@ impl<'a> HullBuilder<'a> {
         }
     }
 
-    /// Removes the facets that the point `v` sees, which are connected over edges from `first`. Returns them with
-    /// their horizon edges.
+    /// Removes all facets that point `v` sees: starts at `first`, and crosses edges to neighbours that it sees, too.
+    /// Returns them with their horizon edges.
     fn remove_visible_facets(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<HorizonEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_on_hull = false;

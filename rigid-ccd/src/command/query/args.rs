@@ -86,7 +86,7 @@ pub(in crate::command) struct QueryArgs {
     /// output, and needs --out FILE
     #[arg(long, value_name = "CSV")]
     pub(super) contacts: Option<PathBuf>,
-    /// Write a page that shows some rows to this file, HTML: up to 4 of each status, or those of --html-ids
+    /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or those of --html-ids
     #[arg(long, value_name = "HTML")]
     pub(super) html: Option<PathBuf>,
     /// Show the rows with these ids on the page

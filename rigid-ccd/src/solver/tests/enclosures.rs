@@ -137,7 +137,7 @@ fn a_clearance_that_cylinders_keep_is_never_violated() {
     assert!(between > 200, "{between}");
 }
 
-/// Tests that a clearance smaller than the excess can be kept, but cannot be proven violated.
+/// Tests overlapping enclosures: a clearance up to their excess stays unverified, a larger one is proven violated.
 #[test]
 fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
     let pair = Pair::new(0);

@@ -149,7 +149,8 @@ struct SweptMesh {
 struct Segment {
     poses: [Pose; 2],
     sweep: Sweep,
-    /// The largest distance of the body's points from the straight line between start and end.
+    /// An upper bound of the distance of any of the body's points from the straight line between its own places at the
+    /// start and the end.
     path_deviation: Real,
 }
 

@@ -74,7 +74,7 @@ fn earlier_touch(first: FirstTouch, time: f64) -> FirstTouch {
     }
 }
 
-/// The roots of a contact function in an interval at which the features meet.
+/// The roots of a contact function in an interval of time; a root counts only if the features meet there.
 enum Root {
     None,
     At(f64),

@@ -1,7 +1,8 @@
 use super::*;
 use crate::method::rival::tests::samples::RandomSource;
 
-/// Returns true if an edge of one triangle passes through the other, which every crossing in general position has.
+/// Returns true if an edge of one triangle passes through the other. Two triangles in general position cross only in
+/// that way.
 fn is_pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let pierces = |edge: [DVec3; 2], t: &[DVec3; 3]| {
         let normal = (t[1] - t[0]).cross(t[2] - t[0]);

@@ -52,7 +52,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         })
     }
 
-    /// Records which side is much larger, if one is.
+    /// Sets `motion.larger` to the split or the other body if its nodes are much larger than the other's.
     fn with_larger_side(mut self) -> Self {
         let level = Instructions::Best.level();
         let radii = vectorize!(level, level => *self.group.radius(level));
