@@ -28,7 +28,8 @@ impl DoubleDouble {
         self.high + self.low
     }
 
-    /// Returns the sum of two numbers in normal form; the first must be the larger one.
+    /// Returns the exact sum of two numbers as a double-double; the magnitude of the first must be at least that of the
+    /// second.
     fn fast_two_sum(high: f64, low: f64) -> Self {
         let sum = high + low;
         DoubleDouble {

@@ -39,7 +39,7 @@ pub enum CastError {
     /// Both shapes are half-spaces, which have no nearest points in general.
     #[error("both shapes are half-spaces")]
     HalfSpaces,
-    /// The interval contains no time, so that no cast can be recorded.
+    /// The interval to be recorded ends before it starts.
     #[error("the interval holds no time: its end is before its start")]
     EmptyInterval,
     /// The engine refuses the scene, for example because it is too large.

@@ -65,7 +65,7 @@ impl Horizon {
     }
 }
 
-/// Returns a time after which the bodies can no longer meet; `None` if they do not pass each other.
+/// Returns a time after which the bodies can no longer meet; `None` if their velocities are equal.
 fn time_when_passed(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);

@@ -20,7 +20,7 @@ pub struct Plan {
     pub methods: Vec<Method>,
     /// The tolerances to measure at.
     pub tolerances: Vec<f64>,
-    /// The limits of each method on each scene; a peer may run a single row, and prepares nothing on first use.
+    /// The limits of each method on each scene. For a peer, `min_rows` is 1, and `preparation` does not apply.
     pub limits: MeasurementLimits,
     /// The programs that run the methods.
     pub programs: Programs,

@@ -143,7 +143,7 @@ impl<'a> ContactManifold<'a> {
     }
 }
 
-/// Returns the corner, edge or face of the skin that a part of a triangle is.
+/// Converts a part of a face's triangle to the corner, edge or face of the surface.
 fn surface_part(skin: &NearSurface<'_>, face: u32, part: TrianglePart) -> SurfacePart {
     let corners = skin.face(face).corners;
     match part {

@@ -245,7 +245,8 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// Tests shapes of random numbers and positions, so that no pair is just within or just out of reach.
+/// Compares the contacts of random triangle soups with a brute-force search. Positions are random, so no distance is
+/// close to the tolerance.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);

@@ -135,7 +135,8 @@ impl<'p> NearestSearch<'p> {
         Some(next)
     }
 
-    /// Measures the distance of two pieces.
+    /// Has the oracle measure two pieces, and updates the bounds of the search. Ends it if the pieces certainly
+    /// intersect, or if the oracle gives up.
     fn measure_pieces<O: DistanceOracle>(
         &mut self,
         ids: [u32; 2],

@@ -288,7 +288,7 @@ impl Acceleration {
 }
 
 impl AccelerationBounds {
-    /// Returns a bound of the deviation from a tangent after a time that the accelerations cause.
+    /// Bounds how far accelerations within these bounds move and turn a body away from its tangent motion in a time.
     fn deviation_after(self, time: f64) -> DeviationBound {
         // The time and the products are rounded. The square of a short time may be zero, so none is computed.
         let deviation = |acceleration: f64| {

@@ -36,7 +36,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         }
     }
 
-    /// Decides whether two bodies with constant velocities touch at all.
+    /// Decides whether the bodies of a problem touch at all within its duration.
     pub(crate) fn any_contact_of(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
         let answer =

@@ -56,7 +56,8 @@ fn triangle_parts(error: DecomposeError) -> (Parts, PieceReason) {
 }
 
 impl PlanarRegion {
-    /// Estimates the time of a query whose largest planar part rests on another body in some queries.
+    /// Estimates the mean time of a query, with triangles and with patches as pieces, if this region rests on another
+    /// body in a fixed share of the queries.
     fn estimate_query_times(self) -> QueryTimes {
         let cost = |of: PieceCost, count: usize| {
             of.typical_time + RESTING_QUERY_SHARE * of.resting_time * count as f64

@@ -76,7 +76,7 @@ impl<'m> Manifold<'m> {
         }
     }
 
-    /// Returns the mesh of the surface.
+    /// Returns the mesh from which the manifold was made.
     pub(crate) fn mesh(&self) -> &'m TriangleMesh {
         self.mesh
     }

@@ -8,7 +8,8 @@ use ccd_core::Instructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Replaces the nearest points by those of the parts of both pieces that a simplex spans, if these are nearer.
+/// Computes the nearest points of the two features that a simplex spans, by a closed form, and takes them if they are
+/// nearer than those found.
 ///
 /// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
 /// side has four points, the first three are used.

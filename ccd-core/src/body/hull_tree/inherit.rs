@@ -1,4 +1,4 @@
-//! Finds the origin of an inner hull's facets in those of its children.
+//! Derives what each facet of an inner node's hull is made of from the facets of its children's hulls.
 //!
 //! A child's hull meets the plane of a facet of its parent in at most one facet of the child. A facet of the parent
 //! is therefore a facet of a child, or is tiled by one facet of each child, or is a bridge.

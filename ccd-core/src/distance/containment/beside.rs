@@ -1,4 +1,4 @@
-//! Computes points of a thin piece on both sides of edges that lie on it.
+//! Computes points of a thin piece beside the edges of another piece that lie on it.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};

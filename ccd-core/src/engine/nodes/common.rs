@@ -23,8 +23,8 @@ pub(crate) struct NodeContext<'p> {
     angular_velocities: [Option<(Vec3, f32)>; 2],
     /// The gap that every clock proves, rounded up.
     pub(crate) gap: f32,
-    /// The gap, [`Problem::node_gap`], that two nodes keep until the clock of their pair, unless `gap` and the rounding
-    /// are larger; rounded up.
+    /// `Problem::node_gap`, rounded up. Until its clock, a pair of nodes keeps this gap or the sum of `gap` and the
+    /// rounding, whichever is larger.
     pub(crate) node_gap: f32,
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,

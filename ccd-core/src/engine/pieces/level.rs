@@ -40,8 +40,8 @@ impl TouchingPlane {
 }
 
 impl Snapshot<'_> {
-    /// Chooses the touching plane that keeps two pieces apart for longest from now on; `None` if none does. The heights
-    /// of pieces are measured from a point in A's frame.
+    /// Chooses the body with which the touching plane moves, so that it keeps two pieces apart for longest; `None` if
+    /// it does so with neither. The heights of pieces are measured from a point in A's frame.
     ///
     /// A piece that stays on its side of a plane does not pass into a piece on the other side, whatever edges are
     /// between the faces there.

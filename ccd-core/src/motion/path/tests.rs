@@ -76,7 +76,7 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
     assert_eq!(path.rate, 0.0);
 }
 
-/// Returns the exact position of a body's point on a path as it is stored.
+/// Returns the position of a body's point in double-double, from the path's stored coefficients.
 fn exact_position(path: &Path, s: Double, x: DVec3) -> Double3 {
     let arm = Double3::from(x) - Double3::from(path.centre);
     let rotated = |m: &DMat3| {

@@ -66,7 +66,7 @@ impl Outline {
         })
     }
 
-    /// Returns the interval of values of `n.x r + n.y ζ` over the triangle.
+    /// Returns an interval that contains all values of `n.x r + n.y ζ` over the triangle.
     pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
             (&self.outer, &self.inner)

@@ -81,7 +81,8 @@ fn whoever_meets_is_reported() {
     assert!(asked < all / 100, "{asked} of {all}");
 }
 
-/// Tests that faces glued to a plate, or on its boundary, are separated from it without a test of its triangles.
+/// Tests that faces that share an edge or a corner with a plate's boundary are separated from it without building the
+/// search tree over the plate's triangles.
 #[test]
 fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);
