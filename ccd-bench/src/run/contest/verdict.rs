@@ -23,6 +23,7 @@ pub enum Verdict {
     /// The claim is only a time before which there is no contact.
     Unresolved,
     /// The claim is a contact, but there is none, and the bodies are farther apart than the tolerance.
+    #[value(name = "false")]
     FalseContact,
     /// The claim is a contact after the exact first one.
     Late,
