@@ -28,7 +28,7 @@ mod screw;
 mod segments;
 mod spline;
 mod turns;
-mod worst_stray;
+mod worst_deviation;
 
 pub use ballistic::Ballistic;
 pub use ccd_core::{
@@ -43,7 +43,7 @@ pub use poses::Poses;
 pub use screw::screw;
 pub use spline::Spline;
 pub use turns::OrientationCurve;
-pub use worst_stray::{Worst, worst_deviation};
+pub use worst_deviation::{Worst, worst_deviation};
 
 /// The unit roundoff: the relative error of one operation.
 const U: f64 = f64::EPSILON / 2.0;

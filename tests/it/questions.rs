@@ -36,13 +36,7 @@ fn check_every_question(case: &Case) -> CheckResult {
         if law.is_ok() {
             law = (judge.check_any_contact(&answers.any, bodies))
                 .and_then(|()| judge.check_closest_approach(&answers.closest, bodies))
-                .and_then(|()| {
-                    judge.check_clearance(
-                        answers.clearance_check.0,
-                        &answers.clearance_check.1,
-                        bodies,
-                    )
-                })
+                .and_then(|()| judge.check_clearance(&answers.clearance_check, bodies))
                 .and_then(|()| check_agreement(&first.outcome, &answers.closest.outcome))
                 .map_err(|why| format!("{why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }
@@ -52,13 +46,7 @@ fn check_every_question(case: &Case) -> CheckResult {
             law = (judge.check(&answers.first, bodies))
                 .and_then(|()| judge.check_any_contact(&answers.any, bodies))
                 .and_then(|()| judge.check_closest_approach(&answers.closest, bodies))
-                .and_then(|()| {
-                    judge.check_clearance(
-                        answers.clearance_check.0,
-                        &answers.clearance_check.1,
-                        bodies,
-                    )
-                })
+                .and_then(|()| judge.check_clearance(&answers.clearance_check, bodies))
                 .and_then(|()| judge.check_contact_interval(&answers.interval, bodies))
                 .map_err(|why| format!("along: {why}\n{asked:?}\n{answers:?}\n{first:?}"));
         }

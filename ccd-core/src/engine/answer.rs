@@ -86,8 +86,7 @@ pub(crate) fn search_in_rounds(
     meter: &mut Meter,
     mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
 ) -> Outcome {
-    let is_periodic = problem.turns_at_least_twice();
-    match is_periodic.then(|| Rounds::for_problem(problem)).flatten() {
+    match Rounds::for_problem(problem) {
         Some(rounds) => rounds.run(meter, search),
         None => search(problem, meter),
     }

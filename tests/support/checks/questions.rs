@@ -75,7 +75,12 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// Describes how the answer is wrong.
-    pub fn check_clearance(&self, required: f64, answer: &Answer, bodies: &Bodies) -> CheckResult {
+    pub fn check_clearance(
+        &self,
+        (required, answer): &(f64, Answer),
+        bodies: &Bodies,
+    ) -> CheckResult {
+        let required = *required;
         let rounding = self.query.rounding();
         let outcome = &answer.outcome;
         let least = self.least_sampled_distance();
