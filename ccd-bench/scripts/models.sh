@@ -15,9 +15,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 
 # The name, the options of `ccd decompose`, the options of `ccd query`.
 models="triangles|--pieces triangles|
-patches|--pieces patches|
-vhacd 32|--pieces vhacd --hulls 32|
-vhacd 128|--pieces vhacd --hulls 128|"
+patches|--pieces patches|"
 
 echo "| scene | model | pieces | build, ms | memory, MB | query, median µs | error of the time, median | largest | rows: late, missed, false, unresolved |"
 echo "|---|---|---|---|---|---|---|---|---|"

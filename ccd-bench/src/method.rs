@@ -84,7 +84,6 @@ impl Method {
             ),
             (kind(best, OracleKind::Direct), PieceKind::Triangles),
             (kind(best, OracleKind::Direct), PieceKind::Patches),
-            (kind(best, OracleKind::Direct), PieceKind::ApproximateHulls),
         ];
         let ours = ours.map(|(kind, pieces)| Method::ThisProject(kind, pieces));
         let rivals = RivalKind::value_variants()
@@ -269,7 +268,6 @@ impl fmt::Display for Method {
                     (PieceKind::FewestPieces, _) | (PieceKind::Patches, true) => Ok(()),
                     (PieceKind::Triangles, _) => f.write_str(" over triangles"),
                     (PieceKind::Patches, false) => f.write_str(" over patches"),
-                    (PieceKind::ApproximateHulls, _) => f.write_str(" over hulls"),
                 }
             }
             Method::Rival(kind) => f.write_str(&name_of(kind)),

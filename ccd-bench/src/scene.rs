@@ -37,7 +37,7 @@ pub struct SceneBody {
     pub body: Arc<Body>,
     mesh: Arc<TriangleMesh>,
     /// The same body made of each other kind of pieces on first use; `None` if it cannot be made.
-    bodies_by_pieces: Arc<[OnceLock<Option<Body>>; PieceKind::ApproximateHulls as usize + 1]>,
+    bodies_by_pieces: Arc<[OnceLock<Option<Body>>; PieceKind::Patches as usize + 1]>,
 }
 
 /// The kind of convex pieces that a body is made of.
@@ -50,12 +50,7 @@ pub enum PieceKind {
     Triangles,
     /// Patches of the surface under a hull tree, as in the paper.
     Patches,
-    /// Convex hulls of parts of the mesh, which may extend beyond it.
-    ApproximateHulls,
 }
-
-/// The maximum number of approximate hulls of a body.
-const MAX_HULLS: u32 = 32;
 
 impl SceneBody {
     /// Returns the mesh from which the body is made.
@@ -84,14 +79,11 @@ impl PieceKind {
             PieceKind::FewestPieces => Detail::Auto,
             PieceKind::Triangles => Detail::Triangles,
             PieceKind::Patches => Detail::Patches(PatchOrder::Cresting),
-            PieceKind::ApproximateHulls => Detail::Vhacd { hulls: MAX_HULLS },
         };
         let model = prepare(mesh, detail)?;
         match self {
             PieceKind::Patches => model.with_hull_tree()?.body(),
-            PieceKind::FewestPieces | PieceKind::Triangles | PieceKind::ApproximateHulls => {
-                model.body()
-            }
+            PieceKind::FewestPieces | PieceKind::Triangles => model.body(),
         }
     }
 }

@@ -236,7 +236,7 @@ impl<'a> Query<'a> {
     /// slab therefore has four pairs, however the faces are cut into triangles.
     ///
     /// Features have the same names as in answers. A feature without a number has the name of its
-    /// face or piece: all features of approximate hulls, and corners where the mesh has no vertex.
+    /// face or piece: all features of outer hulls, and corners where the mesh has no vertex.
     /// Such a pair of names may be listed more than once, for different places. The same mesh has
     /// the same names in triangles, patches and hulls. Virtual facets make no pairs on pieces that
     /// have faces of the mesh. A piece of more than three points without known facets has vertices

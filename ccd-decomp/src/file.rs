@@ -149,7 +149,7 @@ impl Model {
             return Err("the report counts another number of pieces");
         }
         // Written so that NaN is refused.
-        if !(0.0..=MAX_COORDINATE).contains(&self.report.sticks_out) {
+        if !(0.0..=MAX_COORDINATE).contains(&self.report.excess) {
             return Err("what the pieces stick out by is no length");
         }
         Ok(())

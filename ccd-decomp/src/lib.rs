@@ -51,7 +51,7 @@
 //! | `file` | stored bodies, the OBJ writers, [`StoreError`] |
 //! | `prepare` | the model of a mesh: choice of pieces, report, [`PrepareError`] |
 //! | `tree` | hierarchies and hull trees over pieces, [`BuildError`] |
-//! | `pieces` | a mesh in convex pieces: one polytope, patches, approximate hulls ([`VhacdError`]) |
+//! | `pieces` | a mesh in convex pieces: the solid itself, patches of its surface, or its outer hull |
 //! | `solid` | whether a mesh bounds a solid: edges, shells, intersecting faces, [`DecomposeError`] |
 //! | `mesh` | triangle meshes: file formats, repairs, [`MeshError`] |
 //! | `search` | trees of oriented boxes over triangles |
@@ -103,7 +103,6 @@ pub use mesh::repair::Repairs;
 pub use mesh::unit::{Unit, UnknownUnit};
 pub use messages::FileError;
 pub use pieces::patches::{Decomposition, Patch, PatchOrder, decompose};
-pub use pieces::vhacd::VhacdError;
 pub use prepare::error::PrepareError;
 pub use prepare::model::{Model, PreparedBody};
 pub use prepare::report::{PieceReason, PiecesKind, QueryTimes, Report};

@@ -8,8 +8,8 @@ pub(crate) mod report;
 
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
+use crate::pieces::outer_hull::outer_hull;
 use crate::pieces::patches::{PatchOrder, decompose};
-use crate::pieces::vhacd::approximate;
 use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::tolerance::AUTO_WORK_BUDGET;
@@ -36,11 +36,9 @@ pub enum Detail {
     Patches(PatchOrder),
     /// Makes one piece of the whole solid, which is exact for convex solids.
     Hull,
-    /// Makes approximate hulls, which cover any mesh and exceed it by a certified bound.
-    Vhacd {
-        /// The maximum number of hulls.
-        hulls: u32,
-    },
+    /// Makes one piece, the convex hull of the mesh. It encloses any mesh, and exceeds it by a certified bound, which
+    /// [`Report::excess`](crate::Report::excess) states.
+    OuterHull,
 }
 
 /// Creates a body from a mesh: calls [`prepare`], then [`Model::into_prepared_body`].
@@ -74,8 +72,8 @@ pub enum Detail {
 /// The pieces cover the mesh, and the body is solid if the mesh bounds a solid: see [`prepare`].
 ///
 /// # Errors
-/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
-/// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
+/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Hull`] if its
+/// hull cannot be computed, [`PrepareError::Input`] if there are too many pieces.
 pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBody, PrepareError> {
     prepare(mesh, detail)?.into_prepared_body()
 }
@@ -83,16 +81,16 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBod
 /// Makes the pieces of a mesh and a hierarchy over them. The result is a model, which can be stored.
 ///
 /// # Guarantee
-/// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it bounds.
+/// The pieces cover the mesh. Except with [`Detail::OuterHull`], they touch nothing outside the solid that it bounds.
 /// Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
 /// alike, and it is [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside
 /// out are reversed, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
 /// # Errors
-/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Vhacd`] if it
-/// cannot be approximated, [`PrepareError::Input`] if there are too many pieces.
+/// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Hull`] if its
+/// hull cannot be computed, [`PrepareError::Input`] if there are too many pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
-    let may_need_triangles = !matches!(detail, Detail::Patches(_) | Detail::Vhacd { .. });
+    let may_need_triangles = !matches!(detail, Detail::Patches(_) | Detail::OuterHull);
     // Both take equally long, and the triangles are nearly always needed.
     let (choice, triangles) = rayon::join(
         || Choice::new(mesh, detail),
@@ -116,9 +114,9 @@ impl Choice {
                 let polytope = convex_polytope(&solid_surface(mesh)?)?;
                 (Parts::Hull(Box::new(polytope)), PieceReason::Requested)
             }
-            Detail::Vhacd { hulls } => {
-                let approximation = approximate(mesh, &topology, hulls)?;
-                (Parts::Vhacd(approximation), PieceReason::Requested)
+            Detail::OuterHull => {
+                let hull = outer_hull(mesh, &topology)?;
+                (Parts::OuterHull(Box::new(hull)), PieceReason::Requested)
             }
         };
         let volume = if topology.is_solid() && detail != Detail::Surface {

@@ -22,7 +22,7 @@ use crossings::crossings;
 use error::{Crossing, DecomposeError};
 use manifold::Manifold;
 use shells::check_orientation;
-use star_shaped::is_star_shaped;
+use star_shaped::star_centre;
 use topology::Topology;
 
 /// Returns the surface of the solid that a mesh bounds. Checks every edge, and every pair of nearby triangles.
@@ -43,7 +43,7 @@ pub(crate) fn solid_surface(mesh: &TriangleMesh) -> Result<Manifold<'_>, Decompo
 /// # Errors
 /// [`DecomposeError`]; [`WorkBudgetExceeded`](DecomposeError::WorkBudgetExceeded) if the work does not suffice.
 pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
-    if is_star_shaped(manifold) {
+    if star_centre(manifold).is_some() {
         return Ok(());
     }
     let mut pairs = Tally::default();

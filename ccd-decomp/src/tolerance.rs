@@ -55,52 +55,15 @@ pub(crate) const MIN_CHILD_SHARE: f64 = 1.0 / 8.0;
 /// Unit: rounds. A handful suffice; without convergence a node is split along x.
 pub(crate) const MAX_EIGEN_ITERATIONS: usize = 256;
 
-/// Returns the number of voxels along a mesh's longest side, for a number of hulls.
-///
-/// Finer ones place the cuts between the hulls better, at a cost of their cube. Measured on a knot, a
-/// ring and a bunny: 128 for 64 gains a tenth of the error and costs four times the time.
-pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
-    if hulls <= 32 { 64 } else { 96 }
-}
-
-/// The smallest useful number of voxels along the longest side.
-pub(crate) const MIN_VOXEL_RESOLUTION: u32 = 8;
-
-/// The maximum number of pairs of a triangle and a voxel to examine: a third of a second of work.
-pub(crate) const MAX_VOXEL_TESTS: usize = 1 << 21;
-
-/// The minimum size of a voxel, in units of the rounding of cuts.
-pub(crate) const MIN_VOXEL_SIZE: f64 = 1024.0;
-
-/// V-HACD's concavity: the fraction of excess volume above which a part is split. It is so small that nearly convex
-/// meshes also use all requested hulls.
-pub(crate) const VHACD_CONCAVITY: f64 = 1e-6;
-
-/// V-HACD's weight of balanced cuts. Measured on a bunny with 128 hulls, the excess is a quarter less than at the
-/// library's own 0.05; there is no difference for a knot and a ring.
-pub(crate) const VHACD_BALANCE_WEIGHT: f64 = 0.5;
-
-/// The number of parts to request from the library for each hull; the best pairs are then merged. Measured on a knot
-/// with 32 hulls, one part for each hull increases the excess by two thirds, and four hardly reduce it.
-pub(crate) const PARTS_PER_HULL: u32 = 2;
-
-/// The maximum number of parts to request from V-HACD. The time of merging grows with their cube.
-pub(crate) const MAX_VHACD_PARTS: u32 = 512;
-
-/// The number of points of a part from which the cost of merging is estimated.
-///
-/// Unit: points. More: hardly better choices, and more time.
-pub(crate) const COST_SAMPLE_POINTS: u32 = 96;
-
-/// The maximum accepted excess of hulls, in units of half the mesh's diagonal.
-pub(crate) const MAX_RELATIVE_EXCESS: f64 = 0.5;
-
-/// The work budget of the search for a bound on the excess of hulls.
+/// The work budget of the search for a bound on the excess of a hull.
 ///
 /// Unit: boxes and triangles examined in searches, of 10 to 50 ns: half a second's work.
 pub(crate) const EXCESS_WORK_BUDGET: u64 = 3 << 23;
 
-/// The maximum number of waiting boxes in the search for a bound on the excess of hulls.
+/// The number of plane tests that cost as much as a triangle test, one step of that work.
+pub(crate) const PLANES_PER_STEP: usize = 16;
+
+/// The maximum number of waiting boxes in the search for a bound on the excess of a hull.
 ///
 /// Unit: boxes, of about 130 bytes each. Most meshes spend the work on fewer. On a mesh of two triangles a box takes
 /// only a few steps: millions of them took hundreds of megabytes.

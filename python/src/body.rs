@@ -212,7 +212,7 @@ impl PyBody {
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
 
-    /// Makes a cylinder along z, as a polytope around it: `sticks_out` tells by how much it exceeds the cylinder.
+    /// Makes a cylinder along z, as a polytope around it: `excess` tells by how much it exceeds the cylinder.
     ///
     /// Args:
     ///     radius: its radius.
@@ -263,7 +263,7 @@ impl PyBody {
     /// How far the body may exceed what it was made of: contacts may be early by that, never late, and upper bounds of
     /// distances are larger by that. 0 for exact bodies.
     #[getter]
-    fn sticks_out(&self) -> f64 {
+    fn excess(&self) -> f64 {
         self.body.excess()
     }
 

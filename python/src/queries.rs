@@ -224,7 +224,7 @@ pub(crate) fn is_free(
 /// With a `clearance`, it ends as soon as that is proven to be kept, or seen to be violated: the answer says which, and
 /// its bounds are no closer than that takes.
 ///
-/// Bounds are those of the shapes: what the bodies exceed them by, their `sticks_out`, is in the upper one. A clearance is
+/// Bounds are those of the shapes: what the bodies exceed them by, their `excess`, is in the upper one. A clearance is
 /// violated only where the shapes certainly come nearer.
 ///
 /// >>> from rigid_ccd import Body, Motion, closest_approach

@@ -77,11 +77,11 @@ def test_names_are_checked() -> None:
 @pytest.mark.parametrize("make", [Body.cylinder, Body.cone])
 def test_round_bodies_tell_how_far_they_stick_out(make: Callable[..., Body], tmp_path: Path) -> None:
     usual, fine = make(2, 1), make(2, 1, excess=1e-5)
-    assert 0 < usual.sticks_out <= 2 / 4096
-    assert 0 < fine.sticks_out <= 1e-5
+    assert 0 < usual.excess <= 2 / 4096
+    assert 0 < fine.excess <= 1e-5
     assert usual.is_solid and "sticking out" in repr(usual)
     for again in (pickle.loads(pickle.dumps(fine)), saved(fine, tmp_path / "fine.ccd")):
-        assert again.sticks_out == fine.sticks_out
+        assert again.excess == fine.excess
     for radius, half_height, excess in ((-1, 1, None), (1, float("nan"), None), (1, 1, 1e-9), (1, 1, float("nan"))):
         with pytest.raises(InputError, match="radius|half height|excess"):
             make(radius, half_height, excess)

@@ -57,7 +57,7 @@ def test_bounds_hold_for_the_cylinders_that_bodies_exceed() -> None:
     turned = [math.cos(half), 0, 0, math.sin(half)]
     places = ([2.1, 0, 0], turned), ([0, 0, 0], turned)
     found = distance(wheel, wheel, *places)
-    assert found.lower < 0.09 and 0.1 <= found.upper <= found.lower + 2 * wheel.sticks_out + 1e-3
+    assert found.lower < 0.09 and 0.1 <= found.upper <= found.lower + 2 * wheel.excess + 1e-3
     a, b = (Motion.still(place) for place in places)
     stored = pickle.loads(pickle.dumps(wheel))
     assert distance(stored, stored, *places).upper == found.upper

@@ -52,7 +52,7 @@ const PREPARE_ADVICE: &str = "prepare it again from its mesh: ccd decompose MESH
 
 /// The version of the format that is written and read. Files of older versions are prepared again from their meshes,
 /// instead of a second reader.
-pub(super) const FORMAT_VERSION: u32 = 2;
+pub(super) const FORMAT_VERSION: u32 = 3;
 
 impl StoreFault {
     pub(super) fn invalid_content(problem: &dyn fmt::Display) -> Self {

@@ -38,7 +38,7 @@ static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
         patches.clone(),
         patches.with_hull_tree().unwrap(),
         model(TETRAHEDRON, Detail::Hull),
-        model(TETRAHEDRON, Detail::Vhacd { hulls: 2 }),
+        model(TETRAHEDRON, Detail::OuterHull),
     ];
     models.iter().map(stored_bytes).collect()
 });
@@ -46,7 +46,7 @@ static STORED_FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 #[rstest]
 #[case(DENTED_OBJ, Detail::Triangles)]
 #[case(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))]
-#[case(DENTED_OBJ, Detail::Vhacd { hulls: 4 })]
+#[case(DENTED_OBJ, Detail::OuterHull)]
 #[case(TETRAHEDRON, Detail::Hull)]
 fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
     let model = model(file, detail);
@@ -58,11 +58,11 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
     assert_eq!(again.hierarchy.nodes(), model.hierarchy.nodes());
     let bodies = (again.body().unwrap(), model.body().unwrap());
     assert_eq!(bodies.0.memory_usage(), bodies.1.memory_usage());
-    assert_eq!(bodies.0.excess(), model.report.sticks_out);
-    let is_exact = !matches!(detail, Detail::Vhacd { .. });
+    assert_eq!(bodies.0.excess(), model.report.excess);
+    let is_exact = detail != Detail::OuterHull;
     assert_eq!(bodies.0.excess() == 0.0, is_exact);
     let taken_over = Model::from_body(&bodies.0).unwrap();
-    assert_eq!(taken_over.report.sticks_out, bodies.0.excess());
+    assert_eq!(taken_over.report.excess, bodies.0.excess());
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn another_version_is_reported_before_damage() {
     ));
     let message = fault(&bytes).to_string();
     assert!(
-        message.contains("version 255") && message.contains("version 2 is what is read"),
+        message.contains("version 255") && message.contains("version 3 is what is read"),
         "{message}"
     );
 }

@@ -1,6 +1,6 @@
 //! Errors of preparing a mesh.
 
-use crate::pieces::vhacd::VhacdError;
+use crate::hull::HullError;
 use crate::solid::error::DecomposeError;
 use crate::tree::hull_tree::BuildError;
 use ccd_core::{HullTreeError, InputError};
@@ -12,9 +12,9 @@ pub enum PrepareError {
     /// The mesh cannot be decomposed exactly into the requested pieces.
     #[error(transparent)]
     Decompose(#[from] DecomposeError),
-    /// The mesh cannot be approximated by hulls.
+    /// The convex hull of the mesh cannot be computed: a vertex is out of range.
     #[error(transparent)]
-    Vhacd(#[from] VhacdError),
+    Hull(#[from] HullError),
     /// The hull tree over the pieces cannot be built.
     #[error(transparent)]
     BuildHullTree(#[from] BuildError),

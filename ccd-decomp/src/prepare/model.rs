@@ -38,7 +38,7 @@ pub struct PreparedBody {
 impl Model {
     /// Builds the body for queries. O(n log n) in the number of pieces.
     ///
-    /// Its [excess](Body::excess) is [`Report::sticks_out`].
+    /// Its [excess](Body::excess) is [`Report::excess`].
     ///
     /// # Errors
     /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
@@ -48,7 +48,7 @@ impl Model {
             let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
             body = body.with_surface(surface)?;
         }
-        let body = body.with_excess(self.report.sticks_out)?;
+        let body = body.with_excess(self.report.excess)?;
         Ok(match &self.hull_tree {
             Some(tree) => body.with_hull_tree(tree.clone())?,
             None => body,
@@ -67,7 +67,7 @@ impl Model {
         let hierarchy = build_hierarchy(&pieces)?;
         let report = Report {
             pieces: pieces.len(),
-            sticks_out: body.excess(),
+            excess: body.excess(),
             ..Report::new(PiecesKind::Primitive, PieceReason::Requested, body.volume())
         };
         Ok(Model {
@@ -120,7 +120,7 @@ impl PreparedBody {
     ) -> Result<Self, InputError> {
         let enclosure = round.enclose(excess.unwrap_or(round.usual_excess()))?;
         let mut prepared = PreparedBody::from_primitive(enclosure.body()?);
-        prepared.report.sticks_out = enclosure.excess();
+        prepared.report.excess = enclosure.excess();
         Ok(prepared)
     }
 }

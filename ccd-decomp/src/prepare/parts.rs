@@ -4,8 +4,8 @@ use super::error::PrepareError;
 use super::model::Model;
 use super::report::{PieceReason, PiecesKind, Report};
 use crate::mesh::TriangleMesh;
+use crate::pieces::outer_hull::OuterHull;
 use crate::pieces::patches::{Decomposition, Patch};
-use crate::pieces::vhacd::Approximation;
 use crate::solid::topology::Topology;
 use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
@@ -15,7 +15,7 @@ pub(super) enum Parts {
     Triangles,
     Patches(Decomposition),
     Hull(Box<Polytope>),
-    Vhacd(Approximation),
+    OuterHull(Box<OuterHull>),
 }
 
 /// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
@@ -57,13 +57,11 @@ impl Choice {
                 report.kind = PiecesKind::Hull;
                 (polytope_tree(&[*polytope])?, Some(triangles()?))
             }
-            Parts::Vhacd(approximation) => {
-                report.kind = PiecesKind::Vhacd;
-                report.inflated_by = approximation.uncovered_bound;
-                report.sticks_out = approximation.excess_bound;
-                let polytopes = &approximation.polytopes;
-                report.virtual_facets = polytopes.iter().map(|p| p.facets.len()).sum();
-                (polytope_tree(polytopes)?, None)
+            Parts::OuterHull(hull) => {
+                report.kind = PiecesKind::OuterHull;
+                report.excess = hull.excess_bound;
+                report.virtual_facets = hull.polytope.facets.len();
+                (polytope_tree(&[hull.polytope])?, None)
             }
         };
         report.triangles = mesh.faces().len();

@@ -22,13 +22,9 @@ pub struct Report {
     pub virtual_facets: usize,
     /// The number of nodes of the hierarchy over the pieces.
     pub tree_nodes: usize,
-    /// The radius added to the pieces so that they certainly cover the mesh, in its unit of length; 0 for exact kinds.
-    pub inflated_by: f64,
     /// A bound on how far the pieces extend beyond the solid or the open surface, in the mesh's unit of length. It is
     /// the [excess](ccd_core::Body::excess) of the body. Contacts may be early by it. 0 for exact kinds.
-    pub sticks_out: f64,
-    /// An unused number, kept because the format of stored bodies has a field here.
-    pub(super) reserved: usize,
+    pub excess: f64,
     /// Whether the body is solid. A closed mesh is solid unless it was made hollow.
     pub volume: Volume,
     /// The topology of the mesh, which shows why it is solid or not; `None` for a body without a mesh.
@@ -48,8 +44,8 @@ pub enum PiecesKind {
     Patches,
     /// The only piece is the convex solid itself, which is exact.
     Hull,
-    /// The pieces are hulls that cover the solid, which is approximate.
-    Vhacd,
+    /// The only piece is the convex hull of the mesh, which may extend beyond it.
+    OuterHull,
 }
 
 /// The reason for the kind of a body's pieces.
@@ -91,9 +87,7 @@ impl Report {
             pieces: 1,
             virtual_facets: 0,
             tree_nodes: 1,
-            inflated_by: 0.0,
-            sticks_out: 0.0,
-            reserved: 0,
+            excess: 0.0,
             volume,
             topology: None,
             repairs: Repairs::default(),
@@ -104,9 +98,8 @@ impl Report {
     pub fn is_exact(&self) -> bool {
         match self.kind {
             // A polytope around a cylinder or cone exceeds it.
-            PiecesKind::Primitive => self.sticks_out == 0.0,
+            PiecesKind::Primitive | PiecesKind::OuterHull => self.excess == 0.0,
             PiecesKind::Triangles | PiecesKind::Patches | PiecesKind::Hull => true,
-            PiecesKind::Vhacd => false,
         }
     }
 
@@ -133,7 +126,7 @@ impl fmt::Display for Report {
             Volume::Surface => write!(f, "surface only")?,
         }
         if !self.is_exact() {
-            let by = self.sticks_out;
+            let by = self.excess;
             write!(
                 f,
                 ", sticking out by up to {by:.3e}: contacts may be early by that"
@@ -154,7 +147,7 @@ impl PiecesKind {
             PiecesKind::Triangles => ["triangles", "triangle", "triangles"],
             PiecesKind::Patches => ["patches", "convex patch", "convex patches"],
             PiecesKind::Hull => ["hull", "convex hull", "convex hulls"],
-            PiecesKind::Vhacd => ["vhacd", "approximate hull", "approximate hulls"],
+            PiecesKind::OuterHull => ["outer-hull", "outer hull", "outer hulls"],
         }
     }
 }

@@ -6,17 +6,17 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_NONZERO_COORDINATE;
 use std::cmp::Ordering;
 
-/// Returns whether the whole surface is visible from one of a few candidate points. A point sees the surface if it is
-/// behind every face, and no face hides another.
+/// Returns one of a few candidate points from which the whole surface is visible, if there is one. A point sees the
+/// surface if it is behind every face, and no face hides another.
 ///
 /// # Guarantee
-/// Exact if true: faces then share only vertices and edges, and the solid is behind them. From a point behind all
+/// Exact: faces then share only vertices and edges, and the solid is behind them. From a point behind all
 /// faces, every direction meets equally many faces: one, if a single direction does `[MEHLHORN96]`.
 ///
 /// # Complexity
 /// O(n).
-pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
-    candidate_centres(manifold).iter().any(|&middle| {
+pub(crate) fn star_centre(manifold: &Manifold<'_>) -> Option<DVec3> {
+    candidate_centres(manifold).into_iter().find(|&middle| {
         let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
         let has_behind = |triangle| side(triangle, middle) == Ordering::Less;
         triangles().all(has_behind) && ray_meets_one_triangle(triangles(), middle)

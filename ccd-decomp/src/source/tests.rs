@@ -227,7 +227,7 @@ fn primitives_are_single_solid_pieces() {
 #[case("cone:2,1,1e-5", 1e-5)]
 fn round_shapes_report_their_excess(#[case] text: &str, #[case] most: f64) {
     let PreparedBody { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
-    assert!((0.5 * most..=most).contains(&report.sticks_out), "{report}");
+    assert!((0.5 * most..=most).contains(&report.excess), "{report}");
     assert!(!report.is_exact() && report.to_string().contains("sticking out by up to"));
     assert_eq!((body.pieces().len(), body.volume()), (1, Volume::Solid));
     let error = parse_body(&format!("{text},-1"), Detail::Auto);

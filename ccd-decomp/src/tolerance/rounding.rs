@@ -8,24 +8,6 @@ use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 /// face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
-/// Returns a bound on how far clipping a polygon to a voxel moves its points. Coordinates are up to `farthest`, in
-/// the same unit. A grid of 128 layers is halved at most 21 times.
-///
-/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an edge has a
-/// relative error of `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
-/// each, the sum by `√3 u m`: less than 20u, 420u for 21 of them. Points that are removed because they are between two
-/// others on an edge are off by twice [`edge_tolerance`] more for each of three edges: 804u. 1024u are used. Voxels are
-/// widened by this margin, so that neighbours overlap.
-pub(crate) fn clip_rounding(farthest: f64) -> f64 {
-    1024.0 * UNIT_ROUNDOFF_F64 * farthest
-}
-
-/// Returns the distance from an edge within which a clipped point counts as on the edge. Coordinates are up to
-/// `farthest`, in the same unit. One cut moves a point by less than a third of it.
-pub(crate) fn edge_tolerance(farthest: f64) -> f64 {
-    64.0 * UNIT_ROUNDOFF_F64 * farthest
-}
-
 /// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
 /// axis. `direction` is the axis, of length about 1. It covers the difference of the point and the box's centre, and the
 /// sum of the box's half length and its slack, for coordinates up to `reach`, in the same unit.
@@ -51,8 +33,20 @@ pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
 }
 
 /// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. The rounding error is 1e-15
-/// for well-shaped triangles, and less than a tenth of this for triangles that are just no [needles](NEEDLE).
+/// for well-shaped triangles, and less than a tenth of this for triangles that are just no
+/// [needles](MAX_NEEDLE_RATIO).
 pub(crate) const NEAREST_DISTANCE_ERROR: f64 = 1e-9;
+
+/// Returns a bound on the rounding errors of lengths in the search for a hull's excess: [`NEAREST_DISTANCE_ERROR`], and
+/// six cuts of a triangle at the sides of a box. Coordinates are up to `farthest`, in the same unit.
+///
+/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut the share of the edge has a
+/// relative error of `3u`, which moves the point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
+/// each, the sum by `√3 u m`: less than 20u, 120u for six of them. The two dot products of a height above a plane are
+/// off by `6√3 u m` each, the centre of a box by `√3 u m`. 256u are used.
+pub(crate) fn excess_rounding(half_diagonal: f64, farthest: f64) -> f64 {
+    NEAREST_DISTANCE_ERROR * half_diagonal + 256.0 * UNIT_ROUNDOFF_F64 * farthest
+}
 
 /// The ratio of a triangle's height to its longest side below which it counts as a needle. The library's error grows
 /// with the inverse: it exceeds [`NEAREST_DISTANCE_ERROR`] at 1e-6.

@@ -8,8 +8,7 @@ const U: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 #[test]
 fn allowances_are_those_of_their_derivations() {
-    assert_eq!(clip_rounding(3.0), 3_072.0 * U);
-    assert_eq!(edge_tolerance(3.0), 192.0 * U);
+    assert_eq!(excess_rounding(0.0, 3.0), 768.0 * U);
     let direction = DVec3::new(1.0, -2.0, 3.0);
     assert_eq!(box_rounding(direction, 5.0), 3_840.0 * U);
     assert_eq!(box_rounding(direction, 0.0), f64::MIN_POSITIVE);
@@ -17,11 +16,6 @@ fn allowances_are_those_of_their_derivations() {
     // So many terms that their squares count.
     let terms = 67_108_864.0;
     assert_eq!(volume_rounding(7.0, terms), 7.0 * (32.0 + 2.0) * U);
-}
-
-#[test]
-fn more_hulls_take_finer_voxels() {
-    assert_eq!([1, 32, 33, 1_000].map(voxel_resolution), [64, 64, 96, 96]);
 }
 
 /// Tests that the depth of a hull tree follows from the least fraction of each child.

@@ -36,7 +36,7 @@ class Distance:
     """Bounds of the least distance of two bodies, to within the tolerance, or as narrow as a clearance requires.
 
 
-    Bodies may exceed their shapes by their `sticks_out`. Then the bounds are those of the shapes: what both bodies stick out
+    Bodies may exceed their shapes by their `excess`. Then the bounds are those of the shapes: what both bodies stick out
     by is in `upper`, and no clearance is "violated" by the bodies alone.
 
     Attributes:

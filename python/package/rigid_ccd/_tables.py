@@ -99,7 +99,7 @@ def closest_approaches(a: Body, b: Body, motions: Motions, **settings: Unpack[Di
     """Brackets the least distance in each row, to within the tolerance: columns `distance_lower` and `distance_upper`.
 
     Arguments and exceptions are those of `first_contacts`, without a margin. With a `clearance`, the status says whether
-    the distance is at least that: kept, violated, or unverified. What bodies exceed their shapes by, their `sticks_out`, is
+    the distance is at least that: kept, violated, or unverified. What bodies exceed their shapes by, their `excess`, is
     in `distance_upper`.
     """
     return answer("closest-approach", a, b, motions, **settings)

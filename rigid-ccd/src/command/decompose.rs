@@ -61,7 +61,7 @@ const AFTER_LONG_HELP: &str = "\
 Statistics, as aligned lines or, with --format json, as one object:
   mesh           the file
   unit           unit of the coordinates, if the file states one or --unit gives it
-  pieces_kind    triangles, patches, hull or vhacd
+  pieces_kind    triangles, patches, hull or outer-hull
   why            reason for this kind of pieces
   triangles      number of triangles of the mesh, after repairs
   pieces         number of convex pieces
@@ -71,9 +71,8 @@ Statistics, as aligned lines or, with --format json, as one object:
   build_ms       preparation time in milliseconds, without reading and writing
   bytes          approximate size of the prepared body in memory
   exact          whether the pieces represent the mesh exactly
-  sticks_out     upper bound on how far the pieces extend beyond the mesh, in the mesh's unit of
+  excess         upper bound on how far the pieces extend beyond the mesh, in the mesh's unit of
                  length; contacts may be reported early by as much
-  inflated_by    distance by which the pieces were enlarged to be certain to cover the mesh
   volume         solid, or surface: a body inside a surface is not in contact with it
   remarks        defects of the mesh and their repairs, if any
 
@@ -84,7 +83,7 @@ Exit codes:
 
 Examples:
   ccd decompose part.stl
-  ccd decompose part.stl --pieces vhacd --hulls 64 --format json
+  ccd decompose part.stl --pieces outer-hull --format json
   ccd decompose knot.obj --pieces patches --order depth-first --out patches.obj
   ccd decompose knot.obj --hull-tree --out knot.ccd
   ccd query --a knot.ccd --b knot.ccd --motions motions.csv --schedule fast";
@@ -155,7 +154,7 @@ fn check_mesh(mesh: &Path) -> Result<()> {
 
 impl DecomposeArgs {
     fn detail(&self) -> Result<Detail> {
-        match (self.meshes.pieces.detail()?, self.order) {
+        match (self.meshes.pieces.detail(), self.order) {
             (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order)),
             (_, Some(_)) => bail!("--order needs --pieces patches"),
             (detail, None) => Ok(detail),

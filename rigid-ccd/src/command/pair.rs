@@ -77,7 +77,7 @@ impl BodiesArgs {
         method: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
-        let detail = self.meshes.pieces.detail()?;
+        let detail = self.meshes.pieces.detail();
         let progress = Progress::of(&format!("preparing {text}"), quiet);
         let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
         let PreparedBody {

@@ -143,7 +143,7 @@ impl SceneTable {
             return Ok(());
         }
         let source: BodySource = text.parse()?;
-        let detail = how.meshes.pieces.detail()?;
+        let detail = how.meshes.pieces.detail();
         let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
         self.reports.push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);

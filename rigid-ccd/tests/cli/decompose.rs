@@ -51,7 +51,7 @@ fn a_knot_is_exact_in_every_kind_of_piece(#[case] kind: &str, #[case] most: u64)
     assert!((1..=most).contains(&pieces), "{pieces}");
     assert_eq!(statistics["tree_nodes"], 2 * pieces - 1);
     assert_eq!(statistics["exact"], true);
-    assert_eq!(statistics["sticks_out"], 0.0);
+    assert_eq!(statistics["excess"], 0.0);
     assert_eq!(statistics["volume"], "solid");
     assert!(statistics["build_ms"].as_f64().unwrap() > 0.0);
     // A point has 24 bytes.
@@ -110,14 +110,15 @@ fn every_order_covers_the_mesh(#[case] order: &str) {
 }
 
 #[test]
-fn approximate_pieces_report_their_error() {
-    let scene = Scene::new("decompose-vhacd");
+fn an_outer_hull_reports_its_excess() {
+    let scene = Scene::new("decompose-outer-hull");
     let mesh = knot(&scene);
-    let statistics = statistics(&mesh, &["--pieces", "vhacd", "--hulls", "16"]);
-    assert_eq!(statistics["pieces_kind"], "vhacd");
+    let statistics = statistics(&mesh, &["--pieces", "outer-hull"]);
+    assert_eq!(statistics["pieces_kind"], "outer-hull");
+    assert_eq!(statistics["pieces"], 1);
     assert_eq!(statistics["exact"], false);
-    assert!(statistics["sticks_out"].as_f64().unwrap() > 0.0);
-    let text = decompose(&mesh, &["--pieces", "vhacd"]);
+    assert!(statistics["excess"].as_f64().unwrap() > 0.0);
+    let text = decompose(&mesh, &["--pieces", "outer-hull"]);
     let text = String::from_utf8(text.stdout).unwrap();
     assert_contains(&text, "stick out by at most");
 }
@@ -150,7 +151,7 @@ fn answers(body: &Path, options: &[&str]) -> Vec<Row> {
 #[rstest]
 #[case("triangles")]
 #[case("patches")]
-#[case("vhacd")]
+#[case("outer-hull")]
 fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
     let scene = Scene::new(&format!("stored-{kind}"));
     let mesh = knot(&scene);
@@ -196,13 +197,13 @@ fn hull_trees_are_stored_and_used() {
 
 #[test]
 fn early_contacts_of_approximate_bodies_are_reported() {
-    let scene = Scene::new("vhacd-warning");
+    let scene = Scene::new("outer-hull-warning");
     let mesh = knot(&scene);
     let run = |options: &[&str]| {
         let run = Run::query(&["--a", name(&mesh), "--b", name(&mesh)]).args(options);
         run.stdin(MOTIONS_TABLE).output()
     };
-    let output = run(&["--pieces", "vhacd"]);
+    let output = run(&["--pieces", "outer-hull"]);
     assert!(output.status.success());
     assert_contains(&stderr(&output), "early");
     let output = run(&["--pieces", "patches"]);
@@ -234,8 +235,6 @@ fn meshes_without_pieces_are_reported() {
 
 #[rstest]
 #[case(&["--out", "knot.txt"], ".ccd")]
-#[case(&["--pieces", "patches", "--hulls", "9"], "vhacd")]
-#[case(&["--pieces", "vhacd", "--hulls", "0"], "--hulls")]
 #[case(&["--pieces", "triangles", "--order", "cresting"], "--order")]
 #[case(&["--pieces", "pieces"], "patches")]
 fn options_that_do_not_go_together_are_refused(#[case] options: &[&str], #[case] expected: &str) {
@@ -296,7 +295,7 @@ fn unreadable_stored_bodies_are_reported() {
 
 #[test]
 fn help_lists_the_statistics() {
-    for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "sticks_out")] {
+    for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "excess")] {
         let output = Run::with_args(&["decompose", option]).ends(0);
         let text = String::from_utf8(output.stdout).unwrap();
         assert_contains(&text, expected);

@@ -44,9 +44,9 @@ fn write() -> Result<(), Box<dyn Error>> {
         ),
         ("dented-patches", DENTED_TETRAHEDRON_OBJ, patches),
         (
-            "dented-hulls",
+            "dented-outer-hull",
             DENTED_TETRAHEDRON_OBJ,
-            Detail::Vhacd { hulls: 2 },
+            Detail::OuterHull,
         ),
     ];
     for (name, file, detail) in all {

@@ -22,8 +22,7 @@ pub(super) struct Statistics {
     build_ms: f64,
     bytes: usize,
     exact: bool,
-    sticks_out: f64,
-    inflated_by: f64,
+    excess: f64,
     volume: &'static str,
     remarks: String,
 }
@@ -53,8 +52,7 @@ impl Statistics {
             build_ms: (build_ms * 1e3).round() / 1e3,
             bytes: body.memory_usage(),
             exact: report.is_exact(),
-            sticks_out: report.sticks_out,
-            inflated_by: report.inflated_by,
+            excess: report.excess,
             volume: match report.volume {
                 Volume::Solid => "solid",
                 Volume::Surface => "surface",
@@ -106,7 +104,7 @@ impl Statistics {
         if self.exact {
             "none: the pieces are exact".to_owned()
         } else {
-            format!("the pieces stick out by at most {:.3e}", self.sticks_out)
+            format!("the pieces stick out by at most {:.3e}", self.excess)
         }
     }
 }

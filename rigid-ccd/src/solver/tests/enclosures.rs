@@ -198,9 +198,9 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
         block += &format!("f {k} {} {} {next}\n", k + 8, next + 8);
     }
     let mesh = TriangleMesh::from_reader(Format::Obj, block.as_bytes()).unwrap();
-    let prepared = body_from_mesh(&mesh, Detail::Vhacd { hulls: 1 }).unwrap();
+    let prepared = body_from_mesh(&mesh, Detail::OuterHull).unwrap();
     let body = &prepared.body;
-    assert!(body.excess() == prepared.report.sticks_out && body.excess() >= 1.0);
+    assert!(body.excess() == prepared.report.excess && body.excess() >= 1.0);
     let again = Model::from_body(body).unwrap().body().unwrap();
     assert_eq!(again.excess(), body.excess());
     let radius = 0.3;

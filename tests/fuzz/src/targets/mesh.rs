@@ -14,15 +14,15 @@ const MEMORY: usize = 1 << 20;
 const MEMORY_PER_BYTE: usize = 1 << 10;
 /// The memory limit in bytes of a reader of scenes, in which a few bytes may use the same mesh many times.
 const MEMORY_OF_SCENES: usize = 1 << 28;
-/// The memory limit of making bodies, in bytes. Approximate hulls use up to two million voxels.
+/// The memory limit of making bodies, in bytes. The bound of an outer hull's excess uses up to half a million boxes.
 const MEMORY_OF_BODIES: usize = 1 << 28;
 
 /// The maximum number of triangles for patches and hulls. `Auto` has a budget of its own.
 const MAX_TRIANGLES: usize = 48;
 /// The maximum number of triangles for bodies of any kind. Scenes of few bytes may have many.
 const MAX_SCENE_TRIANGLES: usize = 1 << 11;
-/// Approximate hulls are made of one file in this many, because they take a hundred times as long as the rest.
-const FILES_PER_APPROXIMATION: usize = 56;
+/// The outer hull is made of one file in this many, because they take a hundred times as long as the rest.
+const FILES_PER_OUTER_HULL: usize = 56;
 
 pub(super) fn run(format: Format, bytes: &[u8]) {
     read(format, bytes, MEMORY);
@@ -53,10 +53,10 @@ fn read(format: Format, bytes: &[u8], memory: usize) {
         Ok(mesh) => memory::with_memory_limit(MEMORY_OF_BODIES, || {
             check(&mesh);
             let mut details = affordable_details(mesh.faces().len());
-            if bytes.len().is_multiple_of(FILES_PER_APPROXIMATION)
+            if bytes.len().is_multiple_of(FILES_PER_OUTER_HULL)
                 && mesh.faces().len() <= MAX_TRIANGLES
             {
-                details.push(Detail::Vhacd { hulls: 2 });
+                details.push(Detail::OuterHull);
             }
             details
                 .into_iter()

@@ -1,0 +1,170 @@
+//! Computes an upper bound on how far a hull extends beyond a solid, by branch and bound.
+
+use super::facet_planes::FacetPlanes;
+use super::target::{Location, Target};
+use super::under;
+use crate::tolerance::{
+    EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK_BUDGET, MAX_EXCESS_BOXES, PLANES_PER_STEP,
+};
+use crate::work::Work;
+use ccd_core::Hull;
+use ccd_core::glam::{BVec3, DVec3};
+use ccd_core::order::{greater, lesser};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// Returns an upper bound of the distance from the solid to any point of the hull.
+///
+/// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
+/// [`under`] gives a better bound. Boxes around the hull are split, largest bound first, until that bound is near a
+/// distance that was found, the work is spent, or too many boxes wait.
+pub(super) fn excess_bound(target: &Target<'_>, hull: &Hull) -> f64 {
+    let floor = EXCESS_FLOOR * target.half_diagonal();
+    let mut search = Search {
+        target,
+        hull: FacetPlanes::new(hull, target),
+        steps_spent: 0,
+        largest_distance: 0.0,
+        waiting: BTreeMap::new(),
+        examined_count: 0,
+    };
+    search.examine_bounding_box();
+    while search.split_worst_boxes(floor) {}
+    let open = search.waiting.last_key_value();
+    let open = open.map_or(0.0, |(_, cell)| cell.bound);
+    greater(open, search.largest_distance)
+}
+
+/// The number of boxes that are split in parallel.
+const BOXES_PER_BATCH: usize = 16;
+
+struct Search<'a> {
+    target: &'a Target<'a>,
+    hull: FacetPlanes,
+    /// The number of steps of work spent.
+    steps_spent: u64,
+    /// The largest distance from the solid to a point of the hull that was found.
+    largest_distance: f64,
+    /// The boxes that wait, by bound and by the order in which they were examined. Bounds are positive: their bits are
+    /// in the order of their values.
+    waiting: BTreeMap<(u64, u64), BoundedBox>,
+    examined_count: u64,
+}
+
+/// A box with an upper bound on the distance from the solid to the hull within the box.
+#[derive(Clone, Debug)]
+struct BoundedBox {
+    bound: f64,
+    bounds: [DVec3; 2],
+    /// The facet planes of the hull that do not have the whole box behind them.
+    planes: Vec<u32>,
+}
+
+/// The result of the examination of a box.
+#[derive(Default)]
+struct BoxExamination {
+    /// The distance from the solid to the box's centre, if the centre is in the hull.
+    distance: f64,
+    /// The examined box; `None` if no point of the hull in it exceeds the largest known distance.
+    cell: Option<BoundedBox>,
+    steps_spent: u64,
+}
+
+impl Search<'_> {
+    fn examine_bounding_box(&mut self) {
+        let whole = BoundedBox {
+            bound: f64::INFINITY,
+            bounds: self.target.bounds(),
+            planes: (0..self.hull.planes.len() as u32).collect(),
+        };
+        let examined = self.examine(&whole, whole.bounds);
+        self.record(examined);
+    }
+
+    /// Splits the boxes with the largest bounds in eight. Returns false if these bounds are near the largest distance
+    /// found, the work is spent, or too many boxes wait.
+    fn split_worst_boxes(&mut self, floor: f64) -> bool {
+        let target = greater(
+            EXCESS_RATIO * self.largest_distance,
+            self.largest_distance + floor,
+        );
+        let worst: Vec<BoundedBox> = (0..BOXES_PER_BATCH)
+            .map_while(|_| {
+                let worst = self.waiting.last_entry()?;
+                (worst.get().bound > target).then(|| worst.remove())
+            })
+            .collect();
+        let octants: Vec<_> = worst
+            .iter()
+            .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
+            .collect();
+        let examined: Vec<BoxExamination> = octants
+            .par_iter()
+            .map(|(cell, bounds)| self.examine(cell, *bounds))
+            .collect();
+        examined
+            .into_iter()
+            .for_each(|examined| self.record(examined));
+        !worst.is_empty()
+            && self.steps_spent < EXCESS_WORK_BUDGET
+            && self.waiting.len() < MAX_EXCESS_BOXES
+    }
+
+    fn record(&mut self, examined: BoxExamination) {
+        self.steps_spent += examined.steps_spent;
+        self.largest_distance = greater(self.largest_distance, examined.distance);
+        self.examined_count += 1;
+        let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_count);
+        self.waiting
+            .extend(examined.cell.map(|cell| (key(&cell), cell)));
+    }
+
+    /// Computes the bound of the box `bounds`, which lies within the examined box `within`.
+    fn examine(&self, within: &BoundedBox, bounds: [DVec3; 2]) -> BoxExamination {
+        let planes = &within.planes;
+        let (target, hull, work) = (self.target, &self.hull, &Work::unbounded());
+        let [lo, hi] = bounds;
+        let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
+        let reach = half.length() + target.slack();
+        work.spend(1 + planes.len() / PLANES_PER_STEP);
+        let mut examined = BoxExamination::default();
+        if let Some(meeting) = hull.overlap(centre, half, planes) {
+            let near = match target.locate(centre, work) {
+                Location::Inside { depth } => reach - depth,
+                Location::Outside { distance } => {
+                    if meeting.has_centre {
+                        examined.distance = distance;
+                    }
+                    distance + reach
+                }
+            };
+            let planes = meeting.planes;
+            let above = planes.iter().map(|&k| hull.planes[k as usize]);
+            let under = || under::excess_above_surface(target, above, [centre, half], work);
+            let is_known = |bound: f64| bound <= self.largest_distance;
+            let mut bound = lesser(near, within.bound);
+            if !is_known(bound) {
+                bound = under().map_or(bound, |under| lesser(under, bound));
+            }
+            examined.cell = (!is_known(bound)).then_some(BoundedBox {
+                bound,
+                bounds,
+                planes,
+            });
+        }
+        examined.steps_spent = work.steps_spent();
+        examined
+    }
+}
+
+/// Splits a box into eight at its centre.
+fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
+    let middle = (lo + hi) / 2.0;
+    std::array::from_fn(|k| {
+        let upper = BVec3::new(k & 1 != 0, k & 2 != 0, k & 4 != 0);
+        [
+            DVec3::select(upper, middle, lo),
+            DVec3::select(upper, hi, middle),
+        ]
+    })
+}

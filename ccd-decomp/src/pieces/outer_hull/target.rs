@@ -1,0 +1,199 @@
+//! The solid or surface that the hull encloses, with distance queries.
+
+use crate::bounds::Bounds;
+use crate::exact::predicates::{line_side_along, side};
+use crate::mesh::TriangleMesh;
+use crate::search::box_tree::BoxTree;
+use crate::search::region::Region;
+use crate::solid::topology::{Orientation, Topology};
+use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding};
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::shape::Triangle;
+use std::cmp::Ordering;
+
+/// The solid that the hull encloses, or the surface if the mesh is open; with data for distance queries.
+pub(super) struct Target<'a> {
+    mesh: &'a TriangleMesh,
+    search: BoxTree,
+    closed: bool,
+    inside_out: bool,
+    bounds: [DVec3; 2],
+}
+
+/// The location of a point relative to the solid or surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Location {
+    /// The point is in the solid, at least `depth` below the surface.
+    Inside { depth: f64 },
+    /// The point is not in the solid, or the surface is open; the target is at most `distance` away.
+    Outside { distance: f64 },
+}
+
+impl<'a> Target<'a> {
+    pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
+        Target {
+            mesh,
+            search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
+            closed: topology.is_solid(),
+            inside_out: topology.orientation() == Orientation::Inward,
+            bounds: mesh.bounding_box(),
+        }
+    }
+
+    pub(super) fn triangles(&self) -> impl ExactSizeIterator<Item = [DVec3; 3]> {
+        (0..self.mesh.faces().len() as u32).map(|face| self.mesh.triangle(face))
+    }
+
+    /// Returns 1 if the mesh's normals point out of the solid, −1 if they point into it.
+    pub(super) fn orientation(&self) -> f64 {
+        if self.inside_out { -1.0 } else { 1.0 }
+    }
+
+    /// Returns the triangles whose bounding boxes meet a box; `None` if there are more than `most`.
+    pub(super) fn triangles_in_box(
+        &self,
+        [lo, hi]: [DVec3; 2],
+        most: usize,
+        work: &Work,
+    ) -> Option<Vec<[DVec3; 3]>> {
+        let mut found = Vec::new();
+        let all = self
+            .search
+            .all_triangles_meeting_box(&Bounds { lo, hi }, work, |face| {
+                found.push(self.mesh.triangle(face));
+                found.len() <= most
+            });
+        all.then_some(found)
+    }
+
+    /// Returns the lower and the upper corner of the mesh's bounding box.
+    pub(super) fn bounds(&self) -> [DVec3; 2] {
+        self.bounds
+    }
+
+    /// Returns half the diagonal of the mesh's bounding box.
+    pub(super) fn half_diagonal(&self) -> f64 {
+        (self.bounds[1] - self.bounds[0]).length() / 2.0
+    }
+
+    /// Returns a bound on the rounding error of distances to the mesh.
+    pub(super) fn slack(&self) -> f64 {
+        let [lo, hi] = self.bounds;
+        let farthest = lo.abs().max(hi.abs()).max_element();
+        excess_rounding(self.half_diagonal(), farthest)
+    }
+
+    /// Computes the location of a point relative to the target.
+    pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
+        let (found, reached) = self.distance_bounds(point, work);
+        if self.winds_about(point, work) {
+            Location::Inside {
+                depth: greater(0.0, lesser(found, reached) - self.slack()),
+            }
+        } else {
+            Location::Outside {
+                distance: reached + self.slack(),
+            }
+        }
+    }
+
+    /// Returns bounds of the distance from a point to the surface. The first is a lower bound up to the slack. The
+    /// second is the distance to a point that is certainly on a triangle: the library's projection with clamped
+    /// weights, which may be wrong for needles.
+    fn distance_bounds(&self, point: DVec3, work: &Work) -> (f64, f64) {
+        let query = to_parry(point);
+        let project = |corners: [DVec3; 3]| {
+            let [a, b, c] = corners.map(to_parry);
+            Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
+        };
+        let distance = |corners: [DVec3; 3]| {
+            needle_distance(corners, point).unwrap_or_else(|| {
+                let (found, _) = project(corners);
+                DVec3::from_array(found.point.to_array()).distance(point)
+            })
+        };
+        let Some((face, found)) = self.search.nearest(point, work, distance) else {
+            return (0.0, f64::INFINITY);
+        };
+        let corners = self.mesh.triangle(face);
+        let (_, location) = project(corners);
+        let weights = location
+            .barycentric_coordinates()
+            .unwrap_or([1.0, 0.0, 0.0]);
+        let weights = weights.map(|w| w.clamp(0.0, 1.0));
+        let sum: f64 = weights.iter().sum();
+        let on = corners.iter().zip(weights);
+        let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
+        let known = |length: f64, otherwise: f64| if length.is_nan() { otherwise } else { length };
+        (known(found, 0.0), known(on.length(), f64::INFINITY))
+    }
+
+    /// Returns whether the winding number of the mesh about a point is not 0, by exact predicates. A point on the
+    /// surface counts as a point next to it. An open mesh winds about no point.
+    pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
+        if !self.closed {
+            return false;
+        }
+        let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));
+        let above = Region::segment([point, top]);
+        let mut winding = 0;
+        self.search.all_meeting(&above, work, |face| {
+            winding += ray_crossing(self.mesh.triangle(face), point);
+            true
+        });
+        winding != 0
+    }
+}
+
+/// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.
+/// Returns `None` for other triangles.
+fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
+    let square = |[from, to, _]: &[DVec3; 3]| from.distance_squared(*to);
+    let turned = [[a, b, c], [b, c, a], [c, a, b]].into_iter();
+    let [from, to, apex] = turned.max_by(|s, t| square(s).total_cmp(&square(t)))?;
+    let side = to - from;
+    let (square, area) = (side.length_squared(), side.cross(apex - from).length());
+    // Written so that NaN is no needle.
+    (area < MAX_NEEDLE_RATIO * square).then(|| {
+        let offset = from - point;
+        let share = (-offset.dot(side) / square).clamp(0.0, 1.0);
+        greater(0.0, (offset + side * share).length() - area / square.sqrt())
+    })
+}
+
+/// Returns how the ray from a point along z crosses a triangle. It is 1 from back to front, −1 from front to back, 0
+/// if it misses.
+///
+/// Degenerate cases are decided by symbolic perturbation of the point along x, and less along y, consistently for all
+/// triangles at an edge.
+fn ray_crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
+    let [a, b, c] = triangle;
+    let around: i32 = [(a, b), (b, c), (c, a)]
+        .into_iter()
+        .map(|(v, w)| {
+            let turn = || line_side_along(2, [v, w], point);
+            match (v.y <= point.y, w.y <= point.y) {
+                (true, false) => i32::from(turn().is_gt()),
+                (false, true) => -i32::from(turn().is_lt()),
+                _ => 0,
+            }
+        })
+        .sum();
+    let below = match around.signum() {
+        0 => return 0,
+        1 => Ordering::Less,
+        _ => Ordering::Greater,
+    };
+    around * i32::from(side(triangle, point) == below)
+}
+
+fn to_parry(p: DVec3) -> Vector {
+    Vector::new(p.x, p.y, p.z)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,66 @@
+//! Compares cuts of an edge with exact fractions, in the worst cases that a search finds.
+
+use super::clip_to_half_space;
+use crate::rational::{Exact3, exact};
+use crate::tolerance::excess_rounding;
+use crate::worst::{RandomCase, Worst, share};
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+
+/// Draws an edge, which may be far from the origin.
+fn edge(tape: &mut RandomCase) -> [DVec3; 2] {
+    let scale = tape.size(-200..=39);
+    let middle = DVec3::from(tape.vector(-8..=0));
+    let small = tape.size(-50..=0);
+    [(); 2].map(|()| (middle + DVec3::from(tape.vector(-8..=0)) * small) * scale)
+}
+
+/// Returns the distance from a point to the line through an edge. The square is an exact fraction; the root is
+/// rounded once.
+fn distance_from_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
+    let [x, p, q] = [point, p, q].map(Exact3::of);
+    let along = q.minus(&p);
+    let across = x.minus(&p).cross(&along);
+    let square = across.dot(&across) / along.dot(&along);
+    // Scaled, because squares of small lengths underflow.
+    let scale = exact(2f64.powi(500));
+    let root = (square * &scale).to_f64().value().sqrt();
+    root * 2f64.powi(-250)
+}
+
+/// Cuts an edge by a plane between its ends, and leaves the part from the cut to one end.
+fn cut(tape: &mut RandomCase, polygon: &mut Vec<DVec3>) -> Option<()> {
+    let (axis, keep) = (tape.pick(3), tape.pick(2) == 0);
+    let (p, q) = (polygon[0][axis], polygon[1][axis]);
+    let plane = p + (q - p) * tape.fraction();
+    let mut part = Vec::new();
+    clip_to_half_space(polygon, axis, |x| (x >= plane) == keep, plane, &mut part);
+    part.dedup();
+    part.truncate(2);
+    let more = part.len() == 2 && part[0] != part[1];
+    *polygon = part;
+    more.then_some(())
+}
+
+fn largest_coordinate(of: [DVec3; 2]) -> f64 {
+    greater(of[0].abs().max_element(), of[1].abs().max_element())
+}
+
+/// Tests that six successive cuts, as many as a box has sides, move a point by less than the bound.
+#[test]
+fn worst_cuts() {
+    let found = Worst::of("excess_rounding, 6 cuts", 20_000).search(|tape| {
+        let edge = edge(tape);
+        let mut polygon = edge.to_vec();
+        for _ in 0..6 {
+            let before = polygon.clone();
+            if cut(tape, &mut polygon).is_none() {
+                polygon = before;
+            }
+        }
+        let off = polygon.iter().map(|&x| distance_from_line(x, edge));
+        let bound = excess_rounding(0.0, largest_coordinate(edge));
+        Some(share(off.fold(0.0, greater), bound))
+    });
+    found.is_within(4_000.0);
+}
