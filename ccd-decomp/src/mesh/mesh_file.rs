@@ -93,8 +93,8 @@ impl MeshFile {
         }
     }
 
-    /// Returns the unit of the coordinates. It is that of [`MeshFile::in_unit`], else that of [`MeshFile::stated_in`], else
-    /// that of the format: glTF is in metres, and the others have no unit.
+    /// Returns the unit of the coordinates: that of the last call of [`MeshFile::in_unit`] or [`MeshFile::stated_in`], else
+    /// that of the format. A glTF is in metres; the other formats have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
