@@ -2,7 +2,7 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | read OBJ, STL, PLY, OFF, glTF or 3MF | [`TriangleMesh::read`], [`Format`] |
+//! | read OBJ, STL, PLY, OFF or glTF | [`TriangleMesh::read`], [`Format`] |
 //! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
 //! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
 //! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`Topology`], [`MeshFault`] |
@@ -40,7 +40,6 @@
 //!
 //! # Features
 //! - `gltf`: glTF 2.0, `.gltf` and `.glb`. Five crates.
-//! - `3mf`: 3MF. Seven small crates.
 //!
 //! # Layers
 //! Each module uses only those below it, and has its own errors.

@@ -1,9 +1,7 @@
-//! Builds glTF and 3MF files in memory for tests.
+//! Builds glTF files in memory, and folders of temporary files, for tests.
 
 #[cfg(feature = "gltf")]
 pub(crate) use gltf::Gltf;
-#[cfg(feature = "3mf")]
-pub(crate) use threemf::{Entry, model, object, package, zip_archive};
 
 /// A folder of temporary files for one test, removed at the test's end.
 pub(crate) struct Folder(pub(crate) std::path::PathBuf);
@@ -142,91 +140,5 @@ mod gltf {
             let data = STANDARD.encode(&self.binary);
             self.text_with_buffer_uri(&format!("data:application/octet-stream;base64,{data}"))
         }
-    }
-}
-
-#[cfg(feature = "3mf")]
-mod threemf {
-    use rawzip::{CompressionMethod, ZipArchiveWriter};
-    use std::io::Write;
-
-    /// An uncompressed file in a zip archive, by its path and content.
-    pub(crate) struct Entry<'a> {
-        pub(crate) path: &'a str,
-        pub(crate) content: &'a [u8],
-        pub(crate) method: CompressionMethod,
-    }
-
-    pub(crate) fn zip_archive(entries: &[Entry<'_>]) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let mut archive = ZipArchiveWriter::new(&mut bytes);
-        for entry in entries {
-            let file = archive.new_file(entry.path);
-            let (mut writer, config) = file
-                .compression_method(entry.method)
-                .start()
-                .expect("memory takes all bytes");
-            let fill = |to: &mut dyn Write| to.write_all(entry.content);
-            let descriptor = if entry.method == CompressionMethod::DEFLATE {
-                let level = flate2::Compression::default();
-                let encoder = flate2::write::DeflateEncoder::new(&mut writer, level);
-                let mut packed = config.wrap(encoder);
-                fill(&mut packed).expect("memory takes all bytes");
-                let (encoder, descriptor) = packed.finish().expect("memory takes all bytes");
-                encoder.finish().expect("memory takes all bytes");
-                descriptor
-            } else {
-                let mut plain = config.wrap(&mut writer);
-                fill(&mut plain).expect("memory takes all bytes");
-                plain.finish().expect("memory takes all bytes").1
-            };
-            writer.finish(descriptor).expect("memory takes all bytes");
-        }
-        archive.finish().expect("memory takes all bytes");
-        bytes
-    }
-
-    /// Returns a 3MF package of some models. The first one is the root model.
-    pub(crate) fn package(models: &[(&str, &str)]) -> Vec<u8> {
-        let relationships = format!(
-            r#"<?xml version="1.0" encoding="UTF-8"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/Metadata/thumbnail.png" Id="rel0" Type="http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"/><Relationship Target="/{}" Id="rel1" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>"#,
-            models[0].0
-        );
-        let mut entries = vec![Entry {
-            path: "_rels/.rels",
-            content: relationships.as_bytes(),
-            method: CompressionMethod::STORE,
-        }];
-        entries.extend(models.iter().map(|(path, content)| Entry {
-            path,
-            content: content.as_bytes(),
-            method: CompressionMethod::DEFLATE,
-        }));
-        zip_archive(&entries)
-    }
-
-    /// Returns a 3MF model of some objects and build items, with XML attributes.
-    pub(crate) fn model(attributes: &str, objects: &str, items: &str) -> String {
-        format!(
-            r#"<?xml version="1.0" encoding="UTF-8"?>
-<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06" xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02" {attributes}>
-<metadata name="Title">A &amp; B</metadata>
-<resources>{objects}</resources>
-<build>{items}</build>
-</model>"#
-        )
-    }
-
-    /// Returns a 3MF object that is a mesh, with XML attributes.
-    pub(crate) fn object(attributes: &str, points: &[[f64; 3]], faces: &[[u32; 3]]) -> String {
-        let vertex = |[x, y, z]: &[f64; 3]| format!(r#"<vertex x="{x}" y="{y}" z="{z}"/>"#);
-        let triangle =
-            |[a, b, c]: &[u32; 3]| format!(r#"<triangle v1="{a}" v2="{b}" v3="{c}" pid="1"/>"#);
-        let vertices: String = points.iter().map(vertex).collect();
-        let triangles: String = faces.iter().map(triangle).collect();
-        format!(
-            "<object {attributes}><mesh><vertices>{vertices}</vertices>\
-             <triangles>{triangles}</triangles></mesh></object>"
-        )
     }
 }

@@ -155,7 +155,7 @@ pub(crate) const VERTEX_COST: u64 = 4;
 
 /// The constant part of the limit on what a file may expand to by repeated references, in face corners.
 ///
-/// Unit: the cost of a corner, and of an object. More: a hostile file of a kilobyte takes more memory. Fewer: small
+/// Unit: the cost of a corner, and of a part. More: a hostile file of a kilobyte takes more memory. Fewer: small
 /// files with many instances are refused.
 pub(crate) const EXPANSION_BASE: u64 = 1 << 20;
 
@@ -166,17 +166,6 @@ pub(crate) const EXPANSION_PER_BYTE: u64 = 1 << 8;
 /// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
 /// prepare.
 pub(crate) const MAX_EXPANSION: u64 = 1 << 25;
-
-/// The constant part of the limit on the unpacked size of a compressed file, in bytes.
-///
-/// Unit: bytes. More: a hostile file of a kilobyte takes more memory.
-#[cfg(feature = "3mf")]
-pub(crate) const UNPACKED_SIZE_BASE: u64 = 1 << 24;
-
-/// The part of the limit on the unpacked size that is proportional to the file's size. Models of slicers and CAD
-/// programs unpack to five to thirty times the size.
-#[cfg(feature = "3mf")]
-pub(crate) const UNPACKED_SIZE_PER_BYTE: u64 = 128;
 
 #[cfg(test)]
 mod tests;

@@ -93,13 +93,12 @@ impl PyBody {
         })
     }
 
-    /// Reads a mesh file (.gltf, .glb, .3mf, .obj, .stl, .ply, .off), or a prepared body (.ccd).
+    /// Reads a mesh file (.gltf, .glb, .obj, .stl, .ply, .off), or a prepared body (.ccd).
     ///
     /// Args:
     ///     path: the file.
     ///     part: the name or the number of a part of a scene; None for all of it.
-    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files whose unit is known to it: of glTF and 3MF, or by
-    ///         `file_unit`.
+    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files whose unit is known to it: of glTF, or by `file_unit`.
     ///     pieces: as of `Body`.
     ///     file_unit: the unit of the file's numbers, whatever the file says.
     ///     scale: a factor on all coordinates.

@@ -57,7 +57,7 @@
 //!
 //! # Features
 //! - `meshes` (default): [`load`], and [`mesh`] for everything that `ccd-decomp` does with meshes.
-//! - `gltf`, `3mf`: meshes from files of these formats, too; `command` has both.
+//! - `gltf`: meshes from files of this format, too; `command` has it.
 //! - `tables`, `pages`: what the command and the Python package share; no stable interface, and not in this
 //!   documentation.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.

@@ -6,8 +6,7 @@ use ccd_decomp::{
 };
 use std::path::Path;
 
-/// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF and 3MF with the features `gltf` and `3mf`) or a prepared
-/// body (`.ccd`).
+/// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF with the feature `gltf`) or a prepared body (`.ccd`).
 ///
 /// Coordinates keep the unit of the file. All parts of a file make one body: [`load_parts`] makes one of each.
 /// A mesh becomes the fewest convex pieces that are exact: one hull, convex patches or triangles
@@ -27,9 +26,8 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
     Ok(source.load(Detail::Auto)?.body)
 }
 
-/// Loads a body as [`load`] does, with coordinates converted to a unit. A glTF, which is in metres, and a 3MF, which
-/// states its unit, are [converted](MeshFile::in_unit); the coordinates of other files are taken to be in the unit
-/// already.
+/// Loads a body as [`load`] does, with coordinates converted to a unit. A glTF, which is in metres, is
+/// [converted](MeshFile::in_unit); the coordinates of other files are taken to be in the unit already.
 ///
 /// # Errors
 /// Those of [`load`].
@@ -64,7 +62,7 @@ pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Resul
 }
 
 /// Loads each part of a mesh file as a body, with its name or, without one, its number from 0. Parts are the nodes with
-/// meshes of a glTF, the items of a 3MF's build, the objects or groups of an OBJ. Any other mesh is one part.
+/// meshes of a glTF, the objects or groups of an OBJ. Any other mesh is one part.
 ///
 /// Vertices and faces are numbered from 0 in each part. To convert units, or to load one part, use
 /// [`mesh::MeshFile`](MeshFile).

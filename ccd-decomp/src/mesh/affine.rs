@@ -56,6 +56,7 @@ impl AffineMap {
 
     /// Returns the composition of two maps: `first` is applied before this one. Rounded, unless either is the
     /// identity.
+    #[cfg(feature = "gltf")]
     pub(crate) fn compose_after(&self, first: &AffineMap) -> AffineMap {
         match (self.is_identity(), first.is_identity()) {
             (true, _) => *first,

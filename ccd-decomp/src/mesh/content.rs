@@ -15,7 +15,7 @@ use std::ops::Range;
 /// The content of a mesh file as its reader returns it, not yet checked.
 #[derive(Debug)]
 pub(crate) struct Content {
-    /// The unit of the coordinates, if the file states one or its format has one.
+    /// The unit of the coordinates, if its format has one or the caller states one.
     pub(crate) unit: Option<Unit>,
     pub(crate) layout: Layout,
     /// Remarks about content that was skipped or changed.

@@ -16,7 +16,7 @@ pub enum MeshFault {
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
     /// The path leads to a folder, not to a file.
-    #[error("is a folder; name a mesh in it, such as a .glb, .3mf, .obj, .stl, .ply or .off")]
+    #[error("is a folder; name a mesh in it, such as a .glb, .obj, .stl, .ply or .off")]
     Folder,
     /// The file's extension names no known format.
     #[error("{}", extension_advice(.extension))]
@@ -54,7 +54,7 @@ pub enum MeshFault {
     /// One element of a scene has a fault.
     #[error("{place}: {fault}")]
     At {
-        /// The element, such as a node, a mesh or an object.
+        /// The element, such as a node or a mesh.
         place: String,
         /// The fault of the element.
         fault: Box<MeshFault>,
@@ -81,14 +81,6 @@ pub enum MeshFault {
     )]
     TooManyRepeats {
         /// The limit for a file of this size, in corners of faces.
-        limit: u64,
-    },
-    /// A compressed file unpacks to more than the limit.
-    #[error(
-        "unpacks to more than {limit} bytes, which no mesh of this size does; unpack and pack it again"
-    )]
-    UnpackedTooLarge {
-        /// The limit for a file of this size, in bytes.
         limit: u64,
     },
     /// The file is a pointer of Git LFS, not the mesh itself.
@@ -214,14 +206,14 @@ fn extension_advice(extension: &str) -> String {
         other => format!("{other:?} is not the extension of a mesh"),
     };
     let advice = conversion_advice(extension);
-    let advice = advice.unwrap_or("use .gltf, .glb, .3mf, .obj, .stl, .ply or .off".into());
+    let advice = advice.unwrap_or("use .gltf, .glb, .obj, .stl, .ply or .off".into());
     format!("{problem}; {advice}")
 }
 
 /// Returns advice on converting CAD surfaces to a mesh.
 fn cad_advice(extension: &str) -> String {
     format!(
-        "it holds surfaces of a CAD system: export it there as .stl or .3mf, or run \
+        "it holds surfaces of a CAD system: export it there as .stl, or run \
          `gmsh part.{extension} -2 -o part.stl`"
     )
 }
@@ -231,7 +223,7 @@ fn conversion_advice(extension: &str) -> Option<String> {
     let advice = match extension {
         "step" | "stp" | "iges" | "igs" | "brep" => return Some(cad_advice(extension)),
         "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {
-            "it is a file of a CAD system: export it there as .stl or .3mf"
+            "it is a file of a CAD system: export it there as .stl"
         }
         "dae" | "fbx" | "3ds" | "x3d" | "wrl" => {
             "it holds a scene: run `assimp export scene.dae scene.glb`, or export it as .glb"
@@ -290,7 +282,7 @@ impl fmt::Debug for Quote<'_> {
 }
 
 /// Returns the name of an element for messages, such as `node 2 "lid"`.
-pub(crate) fn element_name(kind: &str, number: impl fmt::Display, name: Option<&str>) -> String {
+pub(crate) fn element_name(kind: &str, number: usize, name: Option<&str>) -> String {
     match name {
         Some(name) => format!("{kind} {number} {:?}", Quote(name)),
         None => format!("{kind} {number}"),

@@ -7,8 +7,6 @@ mod off;
 mod ply;
 mod stl;
 mod text;
-#[cfg(feature = "3mf")]
-mod threemf;
 
 use super::content::Content;
 use super::error::MeshFault;
@@ -47,13 +45,6 @@ pub enum Format {
     /// axes is hidden with its descendants, as specified. Instances make about ten million triangles at most.
     /// Compression by Draco or meshopt, and required extensions that change the shape, are errors.
     Gltf,
-    /// 3MF, in the unit that it states; with the feature `3mf`. Numbers and maps are as in a glTF.
-    ///
-    /// Its parts are the items of its build, each with the name of its object or its part number. Components in
-    /// other model files of the package (the production extension) are read. Materials, supports' types,
-    /// metadata and slices are passed over. Objects that are no meshes of triangles, such as beam lattices, booleans or
-    /// implicit volumes, and any extension that the file requires and that changes the shape, are errors.
-    ThreeMf,
 }
 
 /// The contents of the files that a mesh refers to, by file name.
@@ -82,7 +73,6 @@ impl Format {
             "ply" => Ok(Format::Ply),
             "off" => Ok(Format::Off),
             "gltf" | "glb" => Ok(Format::Gltf),
-            "3mf" => Ok(Format::ThreeMf),
             _ => Err(MeshFault::UnknownExtension { extension }),
         }
     }
@@ -123,11 +113,7 @@ impl Format {
             #[cfg(feature = "gltf")]
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]
-            Format::Gltf => Err(not_built(linked, "glTF", "gltf")),
-            #[cfg(feature = "3mf")]
-            Format::ThreeMf => threemf::parse(bytes),
-            #[cfg(not(feature = "3mf"))]
-            Format::ThreeMf => Err(not_built(linked, "3MF", "3mf")),
+            Format::Gltf => Err(not_built(linked)),
         }
     }
 }
@@ -137,9 +123,12 @@ fn is_step_file(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"ISO-10303-21")
 }
 
-#[cfg(not(all(feature = "gltf", feature = "3mf")))]
-fn not_built(_: &LinkedFiles, format: &'static str, feature: &'static str) -> MeshFault {
-    MeshFault::MissingFeature { format, feature }
+#[cfg(not(feature = "gltf"))]
+fn not_built(_: &LinkedFiles) -> MeshFault {
+    MeshFault::MissingFeature {
+        format: "glTF",
+        feature: "gltf",
+    }
 }
 
 #[cfg(test)]

@@ -12,9 +12,8 @@ use std::path::{Component, Path, PathBuf};
 
 /// The content of a mesh file: a unit, and parts that are found by name or number.
 ///
-/// The parts of a glTF are its nodes with meshes, those of a 3MF the items of its build, those of an OBJ its objects or
-/// groups: [`Format`] says more. Any other file is one part. Parts are numbered from 0; parts without faces are
-/// omitted.
+/// The parts of a glTF are its nodes with meshes, those of an OBJ its objects or groups: [`Format`] says more. Any other
+/// file is one part. Parts are numbered from 0; parts without faces are omitted.
 ///
 /// ```
 /// use ccd_decomp::{Format, MeshFile};
@@ -94,13 +93,13 @@ impl MeshFile {
         }
     }
 
-    /// Returns the unit of the coordinates. It is that of [`MeshFile::in_unit`], else that of the file. OBJ, STL, PLY
-    /// and OFF have no unit.
+    /// Returns the unit of the coordinates: that of the last call of [`MeshFile::in_unit`] or [`MeshFile::stated_in`], else
+    /// that of the format. A glTF is in metres; the other formats have no unit.
     pub fn unit(&self) -> Option<Unit> {
         self.unit
     }
 
-    /// Sets the unit of the file's coordinates. It takes precedence over a unit that the file states.
+    /// Sets the unit of the file's coordinates. It takes precedence over that of the format.
     ///
     /// ```
     /// use ccd_decomp::{Format, MeshFile, Unit};

@@ -13,7 +13,7 @@ use std::str::FromStr;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
-    /// Micrometre, `um`: a millionth of a metre. 3MF calls it a micron.
+    /// Micrometre, `um`: a millionth of a metre.
     Micrometre,
     /// Millimetre, `mm`: a thousandth of a metre.
     Millimetre,
@@ -51,21 +51,15 @@ impl Unit {
         self.definition().0
     }
 
-    /// Returns the name of the unit in a 3MF.
-    #[cfg(feature = "3mf")]
-    pub(crate) fn name_in_3mf(self) -> &'static str {
-        self.definition().1
-    }
-
-    /// Returns the symbol of the unit, its name in a 3MF, and its length in micrometres, a whole number for all units.
-    fn definition(self) -> (&'static str, &'static str, u32) {
+    /// Returns the symbol of the unit, and its length in micrometres, a whole number for all units.
+    fn definition(self) -> (&'static str, u32) {
         match self {
-            Unit::Micrometre => ("um", "micron", 1),
-            Unit::Millimetre => ("mm", "millimeter", 1_000),
-            Unit::Centimetre => ("cm", "centimeter", 10_000),
-            Unit::Metre => ("m", "meter", 1_000_000),
-            Unit::Inch => ("in", "inch", 25_400),
-            Unit::Foot => ("ft", "foot", 304_800),
+            Unit::Micrometre => ("um", 1),
+            Unit::Millimetre => ("mm", 1_000),
+            Unit::Centimetre => ("cm", 10_000),
+            Unit::Metre => ("m", 1_000_000),
+            Unit::Inch => ("in", 25_400),
+            Unit::Foot => ("ft", 304_800),
         }
     }
 }
@@ -103,7 +97,7 @@ impl Conversion {
     };
 
     pub(crate) fn new(from: Unit, to: Unit) -> Self {
-        let [from, to] = [from, to].map(|unit| unit.definition().2);
+        let [from, to] = [from, to].map(|unit| unit.definition().1);
         let common = greatest_common_divisor(from, to);
         Conversion {
             numerator: f64::from(from / common),

@@ -20,9 +20,9 @@ use std::str::FromStr;
 ///
 /// ```
 /// use ccd_decomp::MeshSource;
-/// let lid: MeshSource = "plate.3mf#lid.stl@mirror=x".parse()?;
-/// assert_eq!((lid.file.to_str(), lid.part.as_deref()), (Some("plate.3mf"), Some("lid.stl")));
-/// assert_eq!(lid.to_string(), "plate.3mf#lid.stl@mirror=x");
+/// let lid: MeshSource = "plate.glb#lid.stl@mirror=x".parse()?;
+/// assert_eq!((lid.file.to_str(), lid.part.as_deref()), (Some("plate.glb"), Some("lid.stl")));
+/// assert_eq!(lid.to_string(), "plate.glb#lid.stl@mirror=x");
 /// assert_eq!("part#2.stl".parse::<MeshSource>()?.part, None);
 /// # Ok::<(), ccd_decomp::UnknownAdjustment>(())
 /// ```

@@ -8,8 +8,8 @@ use clap::Args;
 /// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
-    /// Unit of all lengths: files in another one (glTF: metres; 3MF; part.stl@mm) are converted to it, all other numbers
-    /// are taken to be in it [default: the numbers of the files]
+    /// Unit of all lengths: files in another one (glTF: metres; part.stl@mm) are converted to it, all other numbers are
+    /// taken to be in it [default: the numbers of the files]
     #[arg(long, value_name = "UNIT", value_parser = named_value_parser(UNITS), hide_possible_values = false)]
     unit: Option<Unit>,
     /// Multiply the coordinates of all mesh files by this; of one of them: part.stl@scale=0.001

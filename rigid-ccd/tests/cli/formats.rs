@@ -1,4 +1,4 @@
-//! Tests files of several parts: glTF and 3MF, parts by name, and units.
+//! Tests files of several parts: scenes in glTF, parts by name, and units.
 
 use crate::command::{Run, Scene, assert_contains, stderr};
 use serde_json::{Value, json};
@@ -54,51 +54,13 @@ fn glb() -> Vec<u8> {
     bytes
 }
 
-/// Returns a 3MF file with a cube of 20 millimetres about the origin.
-fn threemf() -> Vec<u8> {
-    let vertices: String = corners()
-        .map(|[x, y, z]| {
-            format!(
-                r#"<vertex x="{}" y="{}" z="{}"/>"#,
-                10.0 * x,
-                10.0 * y,
-                10.0 * z
-            )
-        })
-        .collect();
-    let triangles: String = FACES
+/// Returns an OBJ with a cube of length 20 about the origin.
+fn die() -> String {
+    let vertices = corners().map(|[x, y, z]| format!("v {} {} {}\n", 10.0 * x, 10.0 * y, 10.0 * z));
+    let faces = FACES
         .chunks(3)
-        .map(|f| format!(r#"<triangle v1="{}" v2="{}" v3="{}"/>"#, f[0], f[1], f[2]))
-        .collect();
-    let model = format!(
-        r#"<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" name="die"><mesh><vertices>{vertices}</vertices><triangles>{triangles}</triangles></mesh></object></resources><build><item objectid="1"/></build></model>"#
-    );
-    zip("3D/3dmodel.model", model.as_bytes())
-}
-
-/// Returns an uncompressed zip archive with one file.
-fn zip(path: &str, content: &[u8]) -> Vec<u8> {
-    let (sum, size) = (crc32fast::hash(content), content.len() as u32);
-    let mut about = [0; 8].to_vec();
-    for number in [sum, size, size, path.len() as u32] {
-        about.extend(number.to_le_bytes());
-    }
-    let mut bytes = b"PK\x03\x04\x14\0".to_vec();
-    bytes.extend(&about);
-    bytes.extend(path.as_bytes());
-    bytes.extend(content);
-    let start = bytes.len() as u32;
-    bytes.extend(b"PK\x01\x02\x14\0\x14\0");
-    bytes.extend(about);
-    bytes.extend([0; 14]);
-    bytes.extend(path.as_bytes());
-    let length = bytes.len() as u32 - start;
-    bytes.extend(b"PK\x05\x06\0\0\0\0\x01\0\x01\0");
-    for number in [length, start] {
-        bytes.extend(number.to_le_bytes());
-    }
-    bytes.extend([0; 2]);
-    bytes
+        .map(|f| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1));
+    vertices.chain(faces).collect()
 }
 
 fn name(path: &Path) -> &str {
@@ -282,8 +244,8 @@ fn cylinders_and_cones_are_bodies() {
 fn units_are_converted() {
     let scene = Scene::new("units");
     let cube = scene.bytes("cube.glb", &glb());
-    let die = scene.bytes("die.3mf", &threemf());
-    let (cube, die) = (part(&cube, "base"), name(&die).to_owned());
+    let die = scene.file("die.obj", &die());
+    let (cube, die) = (part(&cube, "base"), format!("{}@mm", name(&die)));
     // The die, of 20 mm, stands on the cube, of 1000 mm, with a gap of 30 mm.
     let above = |unit: f64| {
         let (height, speed) = (0.54 / unit, -0.03 / unit);
@@ -311,13 +273,13 @@ fn units_are_converted() {
 fn without_a_unit_the_numbers_are_kept_and_a_difference_is_reported() {
     let scene = Scene::new("units-kept");
     let cube = part(&scene.bytes("cube.glb", &glb()), "base");
-    let die = scene.bytes("die.3mf", &threemf());
+    let die = scene.file("die.obj", &die());
     let query = |a: &str, b: &str| {
         Run::query(&["--a", a, "--b", b])
             .stdin("b_pz\n50\n")
             .output()
     };
-    let message = stderr(&query(&cube, name(&die)));
+    let message = stderr(&query(&cube, &format!("{}@mm", name(&die))));
     assert_contains(&message, "size 1 × 1 × 1 m\n");
     assert_contains(&message, "size 20 × 20 × 20 mm\n");
     let expected =

@@ -51,11 +51,6 @@ fn gltf() {
 }
 
 #[test]
-fn threemf() {
-    replay_target(targets::THREEMF);
-}
-
-#[test]
 fn motions() {
     replay_target(targets::MOTIONS);
 }

@@ -18,18 +18,7 @@ pub struct Target {
 }
 
 /// All fuzz targets.
-pub const ALL: [Target; 10] = [
-    QUERY,
-    STORED_BODY,
-    OBJ,
-    STL,
-    PLY,
-    OFF,
-    GLTF,
-    THREEMF,
-    MOTIONS,
-    PATHS,
-];
+pub const ALL: [Target; 9] = [QUERY, STORED_BODY, OBJ, STL, PLY, OFF, GLTF, MOTIONS, PATHS];
 
 /// Decodes a query, answers it by several methods, and judges the answers by the referee.
 pub const QUERY: Target = Target {
@@ -71,12 +60,6 @@ pub const OFF: Target = Target {
 pub const GLTF: Target = Target {
     name: "gltf",
     run: |bytes| mesh::run_scene(Format::Gltf, bytes),
-};
-
-/// Reads a mesh as 3MF, packed or the model alone, and makes bodies of it.
-pub const THREEMF: Target = Target {
-    name: "threemf",
-    run: mesh::run_3mf,
 };
 
 /// Reads a table of motions.

@@ -43,17 +43,13 @@ pub(super) fn parse(bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshF
         allowance,
     };
     let Scene {
-        objects,
+        shapes,
         parts,
         remarks,
     } = nodes::scene(&root, accessors)?;
-    // A mesh has no members.
-    let assembly = Assembly::new(objects, parts, allowance).map_err(|circle| {
-        MeshFault::malformed_content(format!("mesh {} holds itself", circle.object))
-    })?;
     Ok(Content {
         unit: Some(Unit::Metre),
-        layout: Layout::Assembly(assembly),
+        layout: Layout::Assembly(Assembly::new(shapes, parts, allowance)),
         remarks,
     })
 }

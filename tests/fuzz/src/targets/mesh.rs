@@ -3,8 +3,6 @@
 use super::bodies;
 use crate::memory;
 use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_obj};
-use rawzip::ZipArchiveWriter;
-use std::io::Write;
 
 /// The maximum size of a file, in bytes. Faults of readers need few bytes, and short files are read fast.
 const MAX_BYTES: usize = 1 << 14;
@@ -34,12 +32,6 @@ pub(super) fn run_scene(format: Format, bytes: &[u8]) {
     if bytes.len() <= MAX_BYTES {
         memory::with_memory_limit(MEMORY_OF_SCENES, || check_parts(format, bytes));
     }
-}
-
-/// Reads a 3MF: the bytes are a package, or else the model of a generated package.
-pub(super) fn run_3mf(bytes: &[u8]) {
-    run_scene(Format::ThreeMf, bytes);
-    run_scene(Format::ThreeMf, &package(bytes));
 }
 
 fn read(format: Format, bytes: &[u8], memory: usize) {
@@ -86,22 +78,6 @@ fn check_parts(format: Format, bytes: &[u8]) {
     if let Some(Ok(one)) = parts.first().map(|_| third.part("0")) {
         check(&one);
     }
-}
-
-/// Returns an uncompressed 3MF package of one model.
-fn package(model: &[u8]) -> Vec<u8> {
-    let pack = || {
-        let mut bytes = Vec::new();
-        let mut zip = ZipArchiveWriter::new(&mut bytes);
-        let (mut entry, config) = zip.new_file("3D/3dmodel.model").start()?;
-        let mut writer = config.wrap(&mut entry);
-        writer.write_all(model)?;
-        let (_, descriptor) = writer.finish()?;
-        entry.finish(descriptor)?;
-        zip.finish()?;
-        Ok::<_, rawzip::Error>(bytes)
-    };
-    pack().expect("memory takes all bytes")
 }
 
 fn check_prepared_body(mesh: &TriangleMesh, detail: Detail) {

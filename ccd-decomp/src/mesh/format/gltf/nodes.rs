@@ -4,15 +4,16 @@ use super::accessor::AccessorReader;
 use super::schema::Root;
 use super::{element, primitive, transform};
 use crate::mesh::affine::AffineMap;
-use crate::mesh::content::assembly::{Object, Part, PlacedObject};
+use crate::mesh::content::assembly::Part;
 use crate::mesh::error::{MeshFault, element_name};
+use crate::mesh::polygons::Polygons;
 use crate::mesh::remark::Remarks;
 use std::collections::HashMap;
 
 /// The meshes of a glTF scene, and the parts that place them.
 #[derive(Default)]
 pub(super) struct Scene {
-    pub(super) objects: Vec<Object>,
+    pub(super) shapes: Vec<Polygons>,
     pub(super) parts: Vec<Part>,
     pub(super) remarks: Remarks,
 }
@@ -23,7 +24,7 @@ pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene,
     let mut walk = SceneTraversal {
         root,
         accessors,
-        object_of_mesh: HashMap::new(),
+        shape_of_mesh: HashMap::new(),
         visited_nodes: vec![false; root.nodes.len()],
         scene: Scene::default(),
     };
@@ -44,8 +45,8 @@ pub(super) fn scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Scene,
 struct SceneTraversal<'a> {
     root: &'a Root,
     accessors: AccessorReader<'a>,
-    /// The object number of each mesh that has been read, by mesh index.
-    object_of_mesh: HashMap<usize, usize>,
+    /// The number of the shape of each mesh that has been read, by mesh index.
+    shape_of_mesh: HashMap<usize, usize>,
     visited_nodes: Vec<bool>,
     scene: Scene,
 }
@@ -114,7 +115,7 @@ impl SceneTraversal<'_> {
         let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
         let skinned = shown.iter().filter(|(node, _)| node.skin.is_some());
         let used = self
-            .object_of_mesh
+            .shape_of_mesh
             .keys()
             .flat_map(|&mesh| &root.meshes[mesh].primitives);
         let thin = used
@@ -144,25 +145,23 @@ impl SceneTraversal<'_> {
         map: AffineMap,
     ) -> Result<(), MeshFault> {
         let about = element(&self.root.meshes, "mesh", mesh)?;
-        let object = match self.object_of_mesh.get(&mesh) {
-            Some(&object) => object,
+        let shape = match self.shape_of_mesh.get(&mesh) {
+            Some(&shape) => shape,
             None => {
                 let place = || element_name("mesh", mesh, about.name.as_deref());
                 let shape = primitive::shape(about, &mut self.accessors)
                     .map_err(|fault| fault.at(place()))?;
-                let members = Vec::new();
-                self.scene.objects.push(Object { shape, members });
+                self.scene.shapes.push(shape);
                 *self
-                    .object_of_mesh
+                    .shape_of_mesh
                     .entry(mesh)
-                    .or_insert(self.scene.objects.len() - 1)
+                    .or_insert(self.scene.shapes.len() - 1)
             }
         };
         // An empty name counts as no name.
         let given = |name: &String| !name.is_empty();
         let name = label.filter(given).or(about.name.clone().filter(given));
-        let placed = PlacedObject { object, map };
-        self.scene.parts.push(Part { name, placed });
+        self.scene.parts.push(Part { name, shape, map });
         Ok(())
     }
 }

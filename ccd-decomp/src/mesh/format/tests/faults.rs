@@ -269,8 +269,12 @@ fn files_of_other_programs_are_told_how_to_convert() {
         ("arm.urdf", "the mesh of one link"),
         ("arm.xml", "the mesh of one link"),
         ("part.msh", "meshio"),
-        ("part.txt", "use .gltf, .glb, .3mf, .obj"),
-        ("part", "use .gltf, .glb, .3mf, .obj"),
+        (
+            "part.3mf",
+            "\"3mf\" is not the extension of a mesh; use .gltf, .glb, .obj, .stl, .ply or .off",
+        ),
+        ("part.txt", "use .gltf, .glb, .obj"),
+        ("part", "use .gltf, .glb, .obj"),
     ] {
         let message = TriangleMesh::read(name).unwrap_err().to_string();
         assert!(message.contains(way), "{message}");
@@ -287,7 +291,6 @@ fn a_renamed_step_file_is_told_how_to_convert() {
         Format::Ply,
         Format::Off,
         Format::Gltf,
-        Format::ThreeMf,
     ] {
         for text in [step.to_owned(), format!("\u{feff}\r\n{step}")] {
             let fault = format

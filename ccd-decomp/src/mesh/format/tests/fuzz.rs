@@ -38,13 +38,12 @@ fn check(format: Format, bytes: &[u8]) {
     }
 }
 
-const FORMATS: [Format; 6] = [
+const FORMATS: [Format; 5] = [
     Format::Obj,
     Format::Stl,
     Format::Ply,
     Format::Off,
     Format::Gltf,
-    Format::ThreeMf,
 ];
 
 proptest! {

@@ -1,3 +1,0 @@
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(init: ccd_fuzz::ignore_caught_panics(), |bytes: &[u8]| (ccd_fuzz::targets::THREEMF.run)(bytes));
