@@ -1,15 +1,16 @@
 //! The answer to a query.
 
 mod contact;
-mod stats;
+mod hit;
 mod unresolved;
 
 use crate::body::excess::Excess;
+use crate::distance::oracle::Effort;
 use crate::math::order::greater;
-use glam::DVec3;
+use crate::tuning::EVALUATIONS_PER_VISIT;
 
 pub use contact::{Contact, Overlap, Separation};
-pub use stats::Stats;
+pub use hit::{Hit, HitKind};
 pub use unresolved::{Limit, Unresolved};
 
 /// The outcome of a query, with the accuracy of its numbers and the cost of computing them.
@@ -105,26 +106,24 @@ pub enum Outcome {
     Unresolved(Unresolved),
 }
 
-/// A time at which the bodies are in contact, with the kind of the contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// The time of the contact, in the motions' unit. Nothing touches before a first contact, except for contacts at
-    /// the start that [`StartPolicy::Leave`](crate::StartPolicy::Leave) ignores.
-    pub time: f64,
-    /// Whether the bodies come near, touch at the start, or overlap.
-    pub kind: HitKind,
-}
-
-/// The kind of a contact, with the pieces in contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum HitKind {
-    /// The bodies come within margin + tolerance of each other.
-    Contact(Contact),
-    /// The bodies are within margin + tolerance at the start, without overlapping.
-    Touching(Contact),
-    /// The bodies overlap at the start, or in a last contact at the end. A body inside a convex piece, such as a box,
-    /// counts as [`Overlap::Pieces`].
-    Overlapping(Overlap),
+/// Counters for the work that a query took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
+    pub iterations: u64,
+    /// The approximate number of evaluations of piece points, in the oracle's searches and in bounds of future gaps.
+    pub point_evaluations: u64,
+    /// The number of calls of the oracle.
+    pub oracle_calls: u64,
+    /// The number of oracle calls that returned no result.
+    pub give_ups: u64,
+    /// The largest number of pairs that waited in the queue at one time.
+    pub peak_front: u64,
+    /// The number of steps in which all pairs advanced together, the first distance included. These are the steps of
+    /// conservative advancement. It is 0 for schedules with a clock for every pair.
+    pub advancements: u64,
+    /// The work of the oracle, in its own steps.
+    pub effort: Effort,
 }
 
 /// Whether two bodies keep a required distance over the whole duration.
@@ -345,36 +344,22 @@ impl Outcome {
     }
 }
 
-impl Hit {
-    /// Returns the pieces in contact, with the normal, the distance and the features; `None` if one body is inside the
-    /// other without two pieces that intersect.
-    pub fn contact(&self) -> Option<Contact> {
-        match self.kind {
-            HitKind::Contact(contact) | HitKind::Touching(contact) => Some(contact),
-            HitKind::Overlapping(overlap) => overlap.contact(),
-        }
+impl Stats {
+    /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for every
+    /// [`EVALUATIONS_PER_VISIT`] evaluations of points.
+    #[inline]
+    pub fn work(&self) -> u64 {
+        self.iterations + self.point_evaluations / EVALUATIONS_PER_VISIT
     }
 
-    /// Returns the point of A that is nearest to B at the time of the contact, in world coordinates.
-    pub fn witness_a(&self) -> DVec3 {
-        self.witnesses()[0]
-    }
-
-    /// Returns the point of B that is nearest to A at the time of the contact, in world coordinates.
-    pub fn witness_b(&self) -> DVec3 {
-        self.witnesses()[1]
-    }
-
-    /// Returns the nearest points of A and B. If one body is inside the other, both are the same point.
-    fn witnesses(&self) -> [DVec3; 2] {
-        match self.kind {
-            HitKind::Contact(contact)
-            | HitKind::Touching(contact)
-            | HitKind::Overlapping(Overlap::Pieces(contact)) => {
-                let separation = contact.separation;
-                [separation.witness_a, separation.witness_b]
-            }
-            HitKind::Overlapping(Overlap::AInsideB(point) | Overlap::BInsideA(point)) => [point; 2],
-        }
+    /// Adds the counters of another answer.
+    pub(crate) fn add(&mut self, other: &Stats) {
+        self.iterations += other.iterations;
+        self.point_evaluations += other.point_evaluations;
+        self.oracle_calls += other.oracle_calls;
+        self.give_ups += other.give_ups;
+        self.peak_front = self.peak_front.max(other.peak_front);
+        self.advancements += other.advancements;
+        self.effort = self.effort + other.effort;
     }
 }

@@ -8,7 +8,6 @@ mod errors;
 mod interruptible;
 mod motion;
 mod movement;
-mod pages;
 mod path;
 mod pickle;
 mod queries;
@@ -34,6 +33,5 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;
     module.add_function(wrap_pyfunction!(queries::distance, module)?)?;
     module.add_function(wrap_pyfunction!(table_queries::answer_table, module)?)?;
-    module.add_function(wrap_pyfunction!(pages::write_pages, module)?)?;
     Ok(())
 }

@@ -24,7 +24,6 @@ from rigid_ccd import (
     Motion,
     Table,
     Unresolved,
-    audit,
     closest_approach,
     distance,
     first_contact,
@@ -66,7 +65,6 @@ GOOD: list[Callable[[], Any]] = [
     lambda: any_table(BALL, WALL, {"a_px": ODD, "id": ["x"] * 6})["id"],
     lambda: any_table(BALL, WALL, {"a_px": [math.nan, math.inf, -3]}, threads=2).take([2, 0])["reason"],
     lambda: Table(Table({"a_px": np.arange(9.0)})).keys(),
-    lambda: audit(BALL, WALL, {"a_px": [-3.0, 0]}).missed["time"],
     lambda: Chain([Joint.revolute(ORIGIN, [0, 0, 1])]).link(1, [0], [1]).pose(0.5),
 ]
 

@@ -3,7 +3,6 @@
 //! Public only because the command of `ccd-bench` shares it; no stable interface.
 
 mod answering;
-mod audit;
 mod bad_rows;
 mod causes;
 mod completions;
@@ -34,7 +33,6 @@ pub use table::Table;
 
 use crate::Remark;
 use crate::text::PrintableText;
-use audit::AuditArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
@@ -58,7 +56,7 @@ struct Cli {
 const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
-  ccd audit --a gripper.stl --b shelf.stl --motions edges.csv --out missed.csv --pages missed
+  ccd query --a gripper.stl --b shelf.stl --motions edges.csv --check
   ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
   ccd scene scene.csv --duration 0.5 --out contacts.csv
   ccd decompose knot.obj --pieces patches --out knot.ccd
@@ -71,7 +69,6 @@ enum Command {
     /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
     Query(Box<QueryArgs>),
     /// Certify motions that another checker has called free, and list those that are not
-    Audit(AuditArgs),
     /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
     View(Box<ViewArgs>),
     /// List which bodies of a scene touch: when, where, with which features
@@ -91,7 +88,7 @@ pub enum Exit {
     AllAnswered,
     /// Some rows are bad; the others have an answer.
     SomeRowsBad,
-    /// Every row has an answer, and an audit or a check found rows that are not free or kept.
+    /// Every row has an answer, and a check found rows that are not free or kept.
     SomeRowsNotFree,
 }
 
@@ -102,7 +99,6 @@ pub fn main() -> ExitCode {
     let of_command = given.subcommand().map_or(&given, |(_, options)| options);
     exit_code(match cli.command {
         Command::Query(args) => query::run(&args, of_command),
-        Command::Audit(args) => audit::run(&args),
         Command::View(args) => view::run(&args),
         Command::Scene(args) => scene::run(&args),
         Command::Decompose(args) => decompose::run(&args),
@@ -112,7 +108,7 @@ pub fn main() -> ExitCode {
 }
 
 /// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for bad input, 3
-/// for an audit or a check that finds something.
+/// for a check that finds something.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,

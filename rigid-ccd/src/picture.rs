@@ -5,7 +5,6 @@
 mod course;
 mod drawn;
 mod gap;
-mod pages;
 #[cfg(feature = "scenes")]
 mod scene;
 #[cfg(test)]
@@ -16,7 +15,6 @@ pub use ccd_view::{Group, Page, PageError};
 pub use course::course;
 pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, gap};
-pub use pages::{Pages, PagesError};
 #[cfg(feature = "scenes")]
 pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
 pub use verdict::{Asked, Claim};

@@ -21,7 +21,6 @@ tables of the command ``ccd``.
 """
 
 from ._answers import Contact, Distance
-from ._audit import Audit, audit
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
@@ -48,7 +47,6 @@ from ._tables import (
 )
 
 __all__ = [
-    "Audit",
     "Body",
     "Chain",
     "Contact",
@@ -63,7 +61,6 @@ __all__ = [
     "TableQuery",
     "Unresolved",
     "are_free",
-    "audit",
     "closest_approach",
     "closest_approaches",
     "contact_intervals",

@@ -1,6 +1,5 @@
 from collections.abc import Callable, Iterable, Iterator
 from os import PathLike
-from pathlib import Path as _FilePath
 from typing import Any, Literal, Protocol, TypeAlias, Unpack, final
 
 from numpy import float64
@@ -220,11 +219,3 @@ def answer_table(
     micros: bool = True,
     **settings: Unpack[_OfContacts],
 ) -> Table: ...
-def write_pages(
-    a: Body,
-    b: Body,
-    motions: Any,
-    rows: set[int],
-    folder: str | PathLike[str],
-    **settings: Unpack[_OfContacts],
-) -> list[_FilePath]: ...

@@ -12,7 +12,6 @@ use rigid_ccd::table::courses::{CourseRow, Movements};
 use rigid_ccd::table::motions::{RowProblem, TableError};
 use rigid_ccd::table::results::ResultRow;
 use rigid_ccd::{InputError, Remark, Settings, Solver};
-use std::collections::HashSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
@@ -106,39 +105,6 @@ fn rows(
         .zip(&answered)
         .map(|(row, answer)| result(asked, row, answer))
         .collect()
-}
-
-/// Answers the rows with the given indices, one after another, until the flag is set.
-pub(crate) fn answer_rows(
-    asked: TableQuestion<'_>,
-    reader: Reader,
-    wanted: &HashSet<usize>,
-    stop: &Arc<AtomicBool>,
-    mut take: impl FnMut(&Movements, &ResultRow),
-) -> Result<(), TableError> {
-    let columns = check(&reader)?;
-    let (size, source) = (ChunkSize::new(1), (reader, &columns));
-    let mut pieces = Pieces::new(source, asked.question, IdReading::Read, &size, stop)?;
-    let settings = settings_with_stop(asked, stop);
-    let asked = TableQuestion {
-        settings: &settings,
-        ..asked
-    };
-    let mut solver = Solver::new();
-    let mut number = 0;
-    for piece in pieces.by_ref() {
-        for row in piece.courses(&columns) {
-            let is_wanted = wanted.contains(&number) && !stop.load(Ordering::Relaxed);
-            if let Ok((_, course)) = &row
-                && is_wanted
-                && let Some(answer) = answer_row(asked, &row, &mut solver)
-            {
-                take(course, &result(asked, &row, &answer));
-            }
-            number += 1;
-        }
-    }
-    pieces.fault.map_or(Ok(()), Err)
 }
 
 /// Returns the settings of the question with `stop` as the flag that stops queries.

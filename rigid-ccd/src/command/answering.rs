@@ -1,4 +1,4 @@
-//! Answers the rows of a table batch by batch, on all cores: for `ccd query` and `ccd audit`.
+//! Answers the rows of a table batch by batch, on all cores.
 
 use super::bad_rows::BadRows;
 use super::files::{Rows, input_name};

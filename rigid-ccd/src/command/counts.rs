@@ -13,11 +13,6 @@ impl StatusCounts {
         self.0[status as usize] += 1;
     }
 
-    /// Returns the number of rows with the given status.
-    pub(super) fn of(&self, status: Status) -> usize {
-        self.0[status as usize]
-    }
-
     /// Returns the total number of rows.
     pub(super) fn rows(&self) -> usize {
         self.0.iter().sum()

@@ -1,6 +1,5 @@
 //! Tests the command `ccd` as a process.
 
-mod audit;
 mod command;
 mod contacts;
 mod decompose;

@@ -39,7 +39,7 @@ fn write_inputs(scene: &Scene) {
 }
 
 /// All commands that write a file: the file, and the arguments of the command.
-const WRITING_COMMANDS: [(&str, &str); 8] = [
+const WRITING_COMMANDS: [(&str, &str); 7] = [
     (
         "r.csv",
         "query --a box:.5,.5,.5 --b box:9,9,1 --motions many.csv --out r.csv",
@@ -51,10 +51,6 @@ const WRITING_COMMANDS: [(&str, &str); 8] = [
     (
         "q.html",
         "query --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --out y.csv --html q.html",
-    ),
-    (
-        "a.csv",
-        "audit --a box:.5,.5,.5 --b box:9,9,1 --motions many.csv --out a.csv",
     ),
     (
         "v.html",
@@ -115,18 +111,6 @@ fn one_run_at_a_time_writes_a_file() {
     assert_eq!(run(&scene, scenes).status.code(), Some(2));
     drop(claim);
     assert!(run(&scene, scenes).status.success());
-    // Pages go to a folder.
-    let claim = Claim::new(scene.directory.join(".pages")).unwrap();
-    let audit = format!("{} --pages .", WRITING_COMMANDS[3].1);
-    assert_eq!(run(&scene, &audit).status.code(), Some(2));
-    drop(claim);
-    assert_eq!(
-        run(&scene, &format!("{audit} --most-pages 1"))
-            .status
-            .code(),
-        Some(3)
-    );
-    assert!(path(&scene, "row0.html").exists() && !path(&scene, ".pages.partial").exists());
 }
 
 fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
@@ -283,10 +267,10 @@ fn rows_of_an_interrupted_query_are_kept() {
     let rows = read_bytes(&scene, "results.csv.partial");
     scene.file("one.csv", "a_px\n9\n");
     let boxes = "--a box:1,1,1 --b box:1,1,1 --motions one.csv --out";
-    let audit = format!("audit {boxes} results.csv");
     let query = format!("query {boxes} x.csv --contacts results.csv");
-    for command in [audit, query] {
-        let output = run(&scene, &command);
+    scene.file("scene.csv", "body,pz,vz\nsphere:1,0,0\nsphere:1,5,-5\n");
+    for command in ["scene scene.csv --out results.csv", &query] {
+        let output = run(&scene, command);
         let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert_contains(&message, "has rows of an interrupted query");
@@ -343,9 +327,8 @@ mod full {
         let scene = empty_folder("full-pages");
         write_inputs(&scene);
         scene.file("hit.html", "good");
-        let audit =
-            "audit --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --out a.csv --pages .";
-        assert_eq!(run_with_full_disk(&scene, audit).status.code(), Some(1));
+        let view = "view --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --out hit.html";
+        assert_eq!(run_with_full_disk(&scene, view).status.code(), Some(1));
         assert_eq!(read(&path(&scene, "hit.html")), "good");
         scene.file("ccd-query.1", "good");
         assert_eq!(run_with_full_disk(&scene, "man .").status.code(), Some(1));

@@ -6,7 +6,7 @@ Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd query --a 'robot.glb#gripper' --b part.stl --unit mm --motions motions.csv
   ccd query --a gripper.stl --b shelf.stl --motions paths.csv --ask closest-approach --clearance .01 --check
-  ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv --html knots.html
+  ccd query --a gripper.stl --b shelf.stl --motions called-free.csv --check --tolerance 1e-6 --html missed.html
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -
 
 See `ccd query --help` for the columns of all tables and the exit codes.";
