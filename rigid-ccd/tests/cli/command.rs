@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
 
 /// A call of the command with its arguments and input.
 pub(crate) struct Run {
@@ -119,20 +120,20 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-/// A directory for one test's files.
+/// A directory for one test's files. It is removed at the end of the test.
 pub(crate) struct Scene {
     pub(crate) directory: PathBuf,
+    _removes: TempDir,
 }
 
 impl Scene {
     pub(crate) fn new(name: &str) -> Self {
-        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        // Files of an earlier run may be those of another version.
-        if directory.exists() {
-            std::fs::remove_dir_all(&directory).unwrap();
+        // Cases of one test run at the same time, and each has a directory of its own.
+        let held = tempfile::Builder::new().prefix(name).tempdir().unwrap();
+        Scene {
+            directory: held.path().to_owned(),
+            _removes: held,
         }
-        std::fs::create_dir_all(&directory).unwrap();
-        Scene { directory }
     }
 
     pub(crate) fn file(&self, name: &str, text: &str) -> PathBuf {

@@ -159,9 +159,9 @@ fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
     statistics(&mesh, &["--pieces", kind, "--out", name(&out)]);
     let all =
         |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::cells_without_micros).collect() };
-    let empty_folder = all(answers(&mesh, &["--pieces", kind]));
-    assert!(empty_folder.iter().any(|row| row[1] == "contact"));
-    assert_eq!(all(answers(&out, &[])), empty_folder);
+    let from_mesh = all(answers(&mesh, &["--pieces", kind]));
+    assert!(from_mesh.iter().any(|row| row[1] == "contact"));
+    assert_eq!(all(answers(&out, &[])), from_mesh);
 }
 
 #[test]

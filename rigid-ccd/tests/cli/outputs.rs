@@ -1,7 +1,7 @@
 //! Tests that outputs are written completely, by one run at a time; a full disk destroys no older file.
 
 use crate::command::{Run, Scene, assert_contains, stderr};
-use crate::resume::{empty_folder, motions, path, query, read, run_and_kill, run_to_end};
+use crate::resume::{motions, path, query, read, run_and_kill, run_to_end};
 use ccd_file::Claim;
 use std::fs;
 use std::path::Path;
@@ -77,7 +77,7 @@ fn names(scene: &Scene) -> Vec<String> {
 
 #[test]
 fn one_run_at_a_time_writes_a_file() {
-    let scene = empty_folder("one-at-a-time");
+    let scene = Scene::new("one-at-a-time");
     write_inputs(&scene);
     let before = names(&scene);
     for (name, command) in WRITING_COMMANDS {
@@ -122,9 +122,9 @@ fn read_bytes(scene: &Scene, name: &str) -> Vec<u8> {
 #[test]
 fn a_run_that_is_alive_is_left_alone() {
     let table = motions();
-    let whole = empty_folder("alone");
+    let whole = Scene::new("alone");
     run_to_end(query(&whole, &[]), &table);
-    let scene = empty_folder("alive");
+    let scene = Scene::new("alive");
     let mut first = query(&scene, &[]).spawn().unwrap();
     let mut input = first.stdin.take().unwrap();
     let half = table.len() / 2;
@@ -178,9 +178,9 @@ fn a_run_that_is_alive_is_left_alone() {
 #[test]
 fn runs_side_by_side_keep_all_rows() {
     let table = motions();
-    let whole = empty_folder("side-alone");
+    let whole = Scene::new("side-alone");
     run_to_end(query(&whole, &[]), &table);
-    let scene = empty_folder("side-by-side");
+    let scene = Scene::new("side-by-side");
     scene.file("motions.csv", &table);
     let mut done = 0;
     for more in [&[][..], &["--resume"]] {
@@ -211,7 +211,7 @@ fn runs_side_by_side_keep_all_rows() {
 #[test]
 fn an_edited_byte_is_not_resumed_from() {
     let table = motions();
-    let scene = empty_folder("edited");
+    let scene = Scene::new("edited");
     let part = &table[..table.len() / 2];
     run_and_kill(&scene, &[], part);
     let kept = [
@@ -262,7 +262,7 @@ fn an_edited_byte_is_not_resumed_from() {
 /// Tests that another command, or the other table of a query, does not overwrite the answers of an interrupted query.
 #[test]
 fn rows_of_an_interrupted_query_are_kept() {
-    let scene = empty_folder("kept-rows");
+    let scene = Scene::new("kept-rows");
     run_and_kill(&scene, &[], &motions());
     let rows = read_bytes(&scene, "results.csv.partial");
     scene.file("one.csv", "a_px\n9\n");
@@ -295,7 +295,7 @@ mod full {
 
     #[test]
     fn a_full_disk_loses_no_older_file() {
-        let scene = empty_folder("full-disk");
+        let scene = Scene::new("full-disk");
         write_inputs(&scene);
         for (name, command) in WRITING_COMMANDS {
             fs::write(path(&scene, name), "good").unwrap();
@@ -324,7 +324,7 @@ mod full {
 
     #[test]
     fn a_full_disk_loses_no_pages() {
-        let scene = empty_folder("full-pages");
+        let scene = Scene::new("full-pages");
         write_inputs(&scene);
         scene.file("hit.html", "good");
         let view = "view --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --out hit.html";
@@ -339,7 +339,7 @@ mod full {
     /// Tests that output appended by a shell leaves the file's earlier content in place.
     #[test]
     fn open_files_are_written_on() {
-        let scene = empty_folder("open-files");
+        let scene = Scene::new("open-files");
         write_inputs(&scene);
         let query = "query --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --quiet --out";
         for out in ["-", "/dev/stdout", "/dev/fd/3"] {

@@ -25,13 +25,6 @@ pub(crate) fn motions() -> String {
     table
 }
 
-/// Creates an empty folder.
-pub(crate) fn empty_folder(name: &str) -> Scene {
-    let scene = Scene::new(name);
-    fs::remove_dir_all(&scene.directory).unwrap();
-    Scene::new(name)
-}
-
 pub(crate) fn query(scene: &Scene, options: &[&str]) -> Command {
     let usual = DEFAULT_OPTIONS
         .iter()
@@ -86,11 +79,11 @@ const TABLE_FILE_NAMES: [&str; 2] = ["results.csv", "contacts.csv"];
 #[test]
 fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     let table = motions();
-    let whole = empty_folder("undisturbed");
+    let whole = Scene::new("undisturbed");
     let output = run_to_end(query(&whole, &[]), &table);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
 
-    let scene = empty_folder("killed");
+    let scene = Scene::new("killed");
     for name in TABLE_FILE_NAMES {
         fs::write(path(&scene, name), "of old").unwrap();
     }
@@ -139,7 +132,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
 #[test]
 fn rows_without_their_record_are_kept() {
     let table = motions();
-    let scene = empty_folder("no-record");
+    let scene = Scene::new("no-record");
     let part = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
     run_and_kill(&scene, &[], &table[..part]);
     let [rows, record] =
@@ -172,7 +165,7 @@ fn rows_without_their_record_are_kept() {
 #[test]
 fn a_run_continues_only_with_the_same_options_and_rows() {
     let table = motions();
-    let scene = empty_folder("other-question");
+    let scene = Scene::new("other-question");
     let part = &table[..table.len() / 2];
     run_and_kill(&scene, &[], part);
     let kept = read(&path(&scene, "results.csv.partial"));
@@ -209,7 +202,7 @@ fn a_run_continues_only_with_the_same_options_and_rows() {
 
 #[test]
 fn resuming_without_an_interrupted_run_starts_a_new_one() {
-    let scene = empty_folder("nothing-to-resume");
+    let scene = Scene::new("nothing-to-resume");
     let one = "a_pz\n4\n";
     let output = run_to_end(query(&scene, &["--resume"]), one);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -235,7 +228,7 @@ fn a_finished_run_is_left_unchanged() {
         ("finished-bad", "id,a_pz,a_vz\nx,4,-4\ny,9,z\n", 2),
         ("finished-empty", "id,a_pz,a_vz\n", 0),
     ] {
-        let scene = empty_folder(name);
+        let scene = Scene::new(name);
         let output = run_to_end(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         let before = tables(&scene);
@@ -263,7 +256,7 @@ fn a_finished_run_is_left_unchanged() {
 #[test]
 fn a_finished_run_with_other_options_is_refused() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
-    let scene = empty_folder("finished-other");
+    let scene = Scene::new("finished-other");
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
@@ -309,7 +302,7 @@ fn a_finished_run_with_other_options_is_refused() {
 #[test]
 fn complete_tables_are_renamed() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
-    let scene = empty_folder("nameless");
+    let scene = Scene::new("nameless");
     let output = run_to_end(query(&scene, &[]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     let before = tables(&scene);
@@ -326,7 +319,7 @@ fn complete_tables_are_renamed() {
 
 #[test]
 fn a_changed_mesh_is_reported_with_its_option() {
-    let scene = empty_folder("changed-mesh");
+    let scene = Scene::new("changed-mesh");
     let mesh = path(&scene, "part.obj");
     let options = ["--a", "part.obj"];
     fs::write(&mesh, crate::TETRAHEDRON).unwrap();
@@ -343,7 +336,7 @@ fn a_changed_mesh_is_reported_with_its_option() {
 
 #[test]
 fn folders_and_inputs_are_never_overwritten() {
-    let scene = empty_folder("no-files");
+    let scene = Scene::new("no-files");
     let one = "a_pz\n4\n";
     fs::create_dir(path(&scene, "folder")).unwrap();
     for out in ["folder", "no/such/file"] {
@@ -364,7 +357,7 @@ fn folders_and_inputs_are_never_overwritten() {
 #[test]
 fn devices_are_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
-    let scene = empty_folder("devices");
+    let scene = Scene::new("devices");
     let output = run_to_end(query(&scene, &["--out", "/dev/null"]), "a_pz\n4\n");
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(
