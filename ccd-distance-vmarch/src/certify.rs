@@ -2,13 +2,14 @@
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
-use crate::feature::{Certainty, Pair, WhichPolytope};
-use crate::march::march;
+use crate::feature::{Certainty, MarchStep, Pair, WhichPolytope};
+use crate::march::{march, step};
+use crate::neighbourhood;
 use crate::penetration;
 use crate::placed::PlacedPair;
 use crate::start::extremal;
 use crate::termination::End;
-use crate::tolerance::{CERTAIN_DISTANCE, MAX_RESTARTS};
+use crate::tolerance::{CERTAIN_DISTANCE, MAX_CYCLE_PAIRS, MAX_RESTARTS, MAX_TIE_MOVES};
 use crate::touching;
 use crate::witness::Witness;
 use ccd_core::glam::DVec3;
@@ -17,12 +18,14 @@ use ccd_core::{Claim, GiveUpReason};
 /// A claim, after the pair of features from which the next call starts.
 type Certified = (Pair, Claim);
 
-/// Certifies the result of a march that ended in a tie, a cycle or a common point. If that is in vain, the march
+/// Certifies the result of a march that ended in a tie, a cycle or a common point.
+///
+/// If a neighbouring pair of features is nearer, the march resumes there. If the end cannot be certified, the march
 /// restarts at the corners that are extremal along the best axis.
 ///
 /// # Errors
-/// If no restart succeeds: [`GiveUpReason::Cycle`] or [`GiveUpReason::StepCap`] if the last march ended so, else
-/// [`GiveUpReason::Uncertified`].
+/// If no restart succeeds: [`GiveUpReason::Cycle`] or [`GiveUpReason::StepCap`] after the last march that ended so, or
+/// [`GiveUpReason::Uncertified`] if none did.
 #[cold]
 #[inline(never)]
 pub(crate) fn certify_march_end(
@@ -30,73 +33,113 @@ pub(crate) fn certify_march_end(
     first: End,
     counters: &mut Counters,
 ) -> Result<Certified, GiveUpReason> {
-    let mut end = first;
-    for restarts in 0..=MAX_RESTARTS {
-        let axis = match check(placed, end, counters) {
-            Ok(answer) => return Ok(answer),
-            Err(UncertifiedEnd(axis)) => axis,
+    let (mut end, mut restarts) = (first, 0);
+    let mut why = GiveUpReason::Uncertified;
+    for _ in 0..MAX_TIE_MOVES {
+        why = match end {
+            End::Cycle(_) => GiveUpReason::Cycle,
+            End::StepLimit(_) => GiveUpReason::StepCap,
+            End::Nearest(..) | End::CommonPoint(..) | End::Unclear(_) => why,
         };
-        if restarts < MAX_RESTARTS {
-            counters.restarts += 1;
-            end = march(placed, extremal(placed, axis), counters);
-        }
+        let from = match check(placed, end, counters) {
+            CheckResult::Certified(answer) => return Ok(answer),
+            CheckResult::NearerPair(pair) => pair,
+            CheckResult::Uncertified(_) if restarts == MAX_RESTARTS => break,
+            CheckResult::Uncertified(axis) => {
+                counters.restarts += 1;
+                restarts += 1;
+                extremal(placed, axis)
+            }
+        };
+        end = march(placed, from, counters);
     }
     let found = search_common_point(placed, extremal(placed, placed.b.origin()), counters);
-    found.ok_or(match end {
-        End::Cycle(_) => GiveUpReason::Cycle,
-        End::StepLimit(_) => GiveUpReason::StepCap,
-        End::Nearest(..) | End::CommonPoint(..) | End::Unclear(_) => GiveUpReason::Uncertified,
-    })
+    found.ok_or(why)
 }
 
-/// The end of a march is not certified; with the best axis found.
-struct UncertifiedEnd(DVec3);
+/// The result of a check of a march's end.
+enum CheckResult {
+    Certified(Certified),
+    /// The end is not certified: a neighbouring pair of features is nearer.
+    NearerPair(Pair),
+    /// The end is not certified, and no neighbouring pair is nearer. The vector is the best axis found.
+    Uncertified(DVec3),
+}
 
-fn check(
-    placed: &PlacedPair<'_>,
-    end: End,
-    counters: &mut Counters,
-) -> Result<Certified, UncertifiedEnd> {
+fn check(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> CheckResult {
     match end {
         End::Nearest(pair, certainty) => check_stop(placed, pair, certainty),
         End::CommonPoint(pair, which, crossing) => {
             counters.penetrations += 1;
-            Ok((pair, touching::common(placed, which, &crossing)))
+            CheckResult::Certified((pair, touching::common(placed, which, &crossing)))
         }
         End::Unclear(pair) => match search_common_point(placed, pair, counters) {
-            Some(answer) => Ok(answer),
-            None => certify_tie(placed, pair),
+            Some(answer) => CheckResult::Certified(answer),
+            None => check_cycle(placed, pair),
         },
-        End::Cycle(pair) | End::StepLimit(pair) => certify_tie(placed, pair),
+        End::Cycle(pair) | End::StepLimit(pair) => check_cycle(placed, pair),
     }
 }
 
 /// Certifies a pair at which a march stopped, if that is not certain already.
-fn check_stop(
-    placed: &PlacedPair<'_>,
-    pair: Pair,
-    certainty: Certainty,
-) -> Result<Certified, UncertifiedEnd> {
+fn check_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> CheckResult {
     let witness = Witness::new(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= CERTAIN_DISTANCE * placed.scale.size {
-        return Ok((pair, witness.claim));
+        return CheckResult::Certified((pair, witness.claim));
     }
     certify_tie(placed, pair)
 }
 
-/// Certifies a pair by the best axis of the features around.
-fn certify_tie(placed: &PlacedPair<'_>, pair: Pair) -> Result<Certified, UncertifiedEnd> {
-    let witness = Witness::new(placed, pair);
-    let distance = witness.distance();
-    let axis = best_axis(placed, pair, &witness);
-    if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
-        let claim = Claim {
-            axis: axis.direction,
-            ..witness.claim
-        };
-        return Ok((pair, claim));
+/// Certifies the nearest pair of a cycle.
+fn check_cycle(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
+    let (mut pair, mut nearest) = (start, start);
+    let mut least = Witness::new(placed, start).distance();
+    for _ in 0..MAX_CYCLE_PAIRS {
+        match step(placed, pair) {
+            MarchStep::Continue(a, b) => pair = Pair { a, b },
+            _ => break,
+        }
+        let distance = Witness::new(placed, pair).distance();
+        if distance < least {
+            (nearest, least) = (pair, distance);
+        }
+        if pair == start {
+            break;
+        }
     }
-    Err(UncertifiedEnd(axis.direction))
+    certify_tie(placed, nearest)
+}
+
+/// Certifies a pair by the best axis of the features around, or else a nearer neighbouring pair. A new march might end
+/// at the same tie.
+fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CheckResult {
+    let mut pair = start;
+    for _ in 0..MAX_TIE_MOVES {
+        let witness = Witness::new(placed, pair);
+        let distance = witness.distance();
+        let axis = best_axis(placed, pair, &witness);
+        if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
+            return certified_along_axis(pair, &witness, axis.direction);
+        }
+        match neighbourhood::nearer_pair(placed, pair, distance) {
+            Some(nearer) => pair = nearer,
+            // No pair is nearer: only the axis is uncertain.
+            None if axis.gap >= 0.5 * distance => {
+                return certified_along_axis(pair, &witness, axis.direction);
+            }
+            None => return CheckResult::Uncertified(axis.direction),
+        }
+    }
+    CheckResult::NearerPair(pair)
+}
+
+/// Returns the claim of a witness along another axis.
+fn certified_along_axis(pair: Pair, witness: &Witness, axis: DVec3) -> CheckResult {
+    let claim = Claim {
+        axis,
+        ..witness.claim
+    };
+    CheckResult::Certified((pair, claim))
 }
 
 /// Searches all edges and faces for a common point of the polytopes.

@@ -9,6 +9,8 @@ pub struct Counters {
     pub steps: u64,
     /// The number of detected cycles.
     pub cycles: u64,
+    /// The number of local minima: a feature was found behind a face, and all faces were examined.
+    pub local_minima: u64,
     /// The number of marches that were restarted from other features.
     pub restarts: u64,
     /// The number of common points that were found, each proven by exact signs.

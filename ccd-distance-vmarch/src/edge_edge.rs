@@ -1,9 +1,8 @@
 //! The transition of the march from an edge against an edge `[VCLIP98 §3.2]`.
 
 use crate::clip;
-use crate::escape::escape_local_minimum;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, MarchStep};
+use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::placed::{Line, Placed, Scale, clamp};
 use crate::polytope::Edge;
 use crate::tolerance::{MAX_PARALLEL_SINE, PRODUCT_ERROR};
@@ -37,12 +36,12 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let facing = NearestVector::new(&near, offset, scale);
     let slope_x = x.inward(edge_x, facing.axis);
     if let Some(side) = facing.face_side(x, edge_x, slope_x) {
-        return side.next_pair(x, y, f, points[1], scale);
+        return side.next_pair(Feature::Edge(f), points[1]);
     }
     let facing = facing.reversed();
     let slope_y = y.inward(edge_y, facing.axis);
     if let Some(side) = facing.face_side(y, edge_y, slope_y) {
-        return side.next_pair(y, x, e, points[0], scale).swapped();
+        return side.next_pair(Feature::Edge(e), points[0]).swapped();
     }
     let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
     MarchStep::Stop(if clear { Sure } else { Tied })
@@ -169,21 +168,18 @@ enum Side {
 }
 
 impl Side {
-    /// Continues with the face of X, and the edge of Y that contains the point.
-    #[inline(always)]
-    fn next_pair<X: Placed, Y: Placed>(
-        &self,
-        x: &X,
-        y: &Y,
-        f: u32,
-        point: DVec3,
-        scale: Scale,
-    ) -> MarchStep {
+    /// Returns the next pair: the face of X, and the feature of Y that contains the point.
+    fn next_pair(&self, feature: Feature, point: DVec3) -> MarchStep {
         match *self {
-            Side::InFront(face) => MarchStep::Continue(Feature::Face(face), Feature::Edge(f)),
-            Side::Behind(face) => {
-                escape_local_minimum(y, Feature::Edge(f), point, x, face, scale).swapped()
-            }
+            Side::InFront(face) => MarchStep::Continue(Feature::Face(face), feature),
+            Side::Behind(face) => MarchStep::LocalMinimum(
+                WhichPolytope::Y,
+                LocalMinimum {
+                    feature,
+                    point,
+                    face,
+                },
+            ),
         }
     }
 }

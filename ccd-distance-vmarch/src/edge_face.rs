@@ -2,8 +2,7 @@
 
 use crate::clip;
 use crate::edge_edge;
-use crate::escape::escape_local_minimum;
-use crate::feature::{Feature, MarchStep, WhichPolytope};
+use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
@@ -32,7 +31,14 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let (low, high) = if falls { (to, from) } else { (from, to) };
     let height = |parameter: f64| base + slope * parameter;
     if height(high.parameter) < -rounding {
-        return escape_local_minimum(x, Feature::Edge(e), line.at(high.parameter), y, f, scale);
+        return MarchStep::LocalMinimum(
+            WhichPolytope::X,
+            LocalMinimum {
+                feature: Feature::Edge(e),
+                point: line.at(high.parameter),
+                face: f,
+            },
+        );
     }
     if height(low.parameter) < rounding {
         if let Some(crossing) = penetration::edge_face_crossing(x, e, y, f) {

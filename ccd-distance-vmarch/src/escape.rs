@@ -1,29 +1,35 @@
 //! Escapes from local minima: features behind one face, but not behind all `[VCLIP98 §3.3]`.
 
-use crate::feature::{Feature, MarchStep, WhichPolytope};
+use crate::feature::{Crossing, Feature, LocalMinimum};
 use crate::penetration;
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// Continues from a feature of X that is behind a face of Y: to the face that `point`, its point least deep behind that
-/// face, is farthest in front of. Without one, the feature is inside of Y.
-#[cold]
-#[inline(never)]
+/// How the march continues from a local minimum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Escape {
+    /// The feature is in front of this face, and farther in front of it than of any other face.
+    Face(u32),
+    /// The feature is behind all faces, and contains a point of the other polytope.
+    CommonPoint(Crossing),
+    /// The feature is behind all faces up to rounding, and exact signs prove no common point.
+    Unclear,
+}
+
+/// Finds the face of Y that a feature of X is farthest in front of.
 pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
     x: &X,
-    feature: Feature,
-    point: DVec3,
+    minimum: LocalMinimum,
     y: &Y,
-    behind: u32,
     scale: Scale,
-) -> MarchStep {
-    if let Some((face, height)) = farthest(point, y)
+) -> Escape {
+    if let Some((face, height)) = farthest(minimum.point, y)
         && height > scale.rounding()
-        && face != behind
+        && face != minimum.face
     {
-        return MarchStep::Continue(feature, Feature::Face(face));
+        return Escape::Face(face);
     }
-    let inside = match feature {
+    let inside = match minimum.feature {
         Feature::Vertex(v) => penetration::inner_corner_crossing(x, v, y),
         Feature::Edge(e) => {
             let mut faces = 0..y.shape().faces.len() as u32;
@@ -33,9 +39,7 @@ pub(crate) fn escape_local_minimum<X: Placed, Y: Placed>(
         }
         Feature::Face(_) => None,
     };
-    inside.map_or(MarchStep::Unclear, |crossing| {
-        MarchStep::CommonPoint(WhichPolytope::X, crossing)
-    })
+    inside.map_or(Escape::Unclear, Escape::CommonPoint)
 }
 
 /// Returns the face with the largest height of a point above it, and that height.

@@ -1,5 +1,7 @@
 //! Vertices, edges and faces of polytopes, by number, and pairs of them.
 
+use ccd_core::glam::DVec3;
+
 /// A vertex, edge or face of a polytope, by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Feature {
@@ -22,10 +24,11 @@ pub(crate) enum MarchStep {
     Continue(Feature, Feature),
     /// The march stops: each feature's nearest point is in the Voronoi region of the other, so that no pair is nearer.
     Stop(Certainty),
-    /// A feature of one polytope has a common point with the other.
+    /// A feature of one polytope is behind a face of the other. The march is in a local minimum, and needs an
+    /// [escape](crate::escape).
+    LocalMinimum(WhichPolytope, LocalMinimum),
+    /// An edge of one polytope goes through a face of the other.
     CommonPoint(WhichPolytope, Crossing),
-    /// A feature is behind all faces of the other polytope up to rounding, and exact signs prove no common point.
-    Unclear,
 }
 
 /// One of the two polytopes X and Y.
@@ -41,10 +44,13 @@ impl MarchStep {
     pub(crate) fn swapped(self) -> MarchStep {
         match self {
             MarchStep::Continue(x, y) => MarchStep::Continue(y, x),
+            MarchStep::LocalMinimum(which, minimum) => {
+                MarchStep::LocalMinimum(which.other(), minimum)
+            }
             MarchStep::CommonPoint(which, crossing) => {
                 MarchStep::CommonPoint(which.other(), crossing)
             }
-            MarchStep::Stop(_) | MarchStep::Unclear => self,
+            MarchStep::Stop(_) => self,
         }
     }
 }
@@ -67,6 +73,17 @@ pub(crate) enum Certainty {
     /// The point is on some Voronoi plane up to rounding, or the features touch: the stop needs a
     /// certificate.
     Tied,
+}
+
+/// A corner or edge behind a face of the other polytope, in the part within that face's prism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LocalMinimum {
+    /// The corner or edge that is behind the face.
+    pub(crate) feature: Feature,
+    /// The point of the feature that is least deep behind the face.
+    pub(crate) point: DVec3,
+    /// The index of the face.
+    pub(crate) face: u32,
 }
 
 /// A common point of two polytopes, on an edge or a corner of one of them, proven by exact signs.

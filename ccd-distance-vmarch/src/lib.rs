@@ -73,6 +73,7 @@
 //! | the backend; its counters | `oracle.rs`; `counters.rs` |
 //! | corners, edges, merged faces and their planes, checked | `polytope.rs`; `polytope/`: `build.rs`, `facets.rs`, `merge.rs`, `assemble.rs`, `convex.rs` |
 //! | normals of slivers | `double_double.rs` |
+//! | extremal corners: a table of directions, hill climbing | `polytope/support.rs` |
 //! | both polytopes in one frame | `placed.rs` |
 //! | features, pairs of them, and what a test of a pair says | `feature.rs` |
 //! | where a march begins, and what the next call starts from | `start.rs` |
@@ -82,7 +83,7 @@
 //! | out of local minima | `escape.rs` |
 //! | common points, by exact signs; the axis of pieces that only touch | `penetration.rs`; `touching.rs` |
 //! | the nearest points, clamped into their features | `witness.rs` |
-//! | ties, cycles, the cap of steps | `certify.rs`, with `certificate.rs` |
+//! | ties, cycles, the cap of steps | `certify.rs`, with `certificate.rs` and `neighbourhood.rs` |
 //! | every tolerance | `tolerance.rs` |
 //!
 //! # The effect of rounding
@@ -91,8 +92,10 @@
 //!   point. Only edges against edges differ. There a point within rounding of a plane stays; rounding is measured by
 //!   the possible gain of a step along both edges.
 //! - A stop within rounding of a plane is certified by a support gap, with the best axis of the
-//!   features around. If that fails, the march restarts at the corners that are extremal along it.
-//! - A cycle is noticed, and the pair where it is noticed is certified likewise.
+//!   features around. If that fails, all features around are compared by their distance. It is
+//!   accurate up to rounding; the direction in which it decreases is not.
+//! - A cycle is noticed, and its nearest pair is certified likewise. If that fails, the march restarts
+//!   at the corners that are extremal along the best axis.
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
@@ -109,6 +112,7 @@ mod edge_face;
 mod escape;
 mod feature;
 mod march;
+mod neighbourhood;
 mod oracle;
 mod penetration;
 mod placed;

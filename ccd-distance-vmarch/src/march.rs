@@ -1,7 +1,8 @@
 //! The march from pair to nearer pair of features, until none is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
-use crate::feature::{Feature, MarchStep, Pair};
+use crate::escape::{Escape, escape_local_minimum};
+use crate::feature::{Feature, LocalMinimum, MarchStep, Pair, WhichPolytope};
 use crate::placed::{Placed, PlacedPair};
 use crate::termination::{BrentCycleDetector, End};
 use crate::tolerance::MAX_STEPS_PER_FEATURE;
@@ -23,7 +24,16 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
             MarchStep::CommonPoint(which, crossing) => {
                 return End::CommonPoint(pair, which, crossing);
             }
-            MarchStep::Unclear => return End::Unclear(pair),
+            MarchStep::LocalMinimum(which, minimum) => {
+                counters.local_minima += 1;
+                match escape(placed, which, minimum) {
+                    Escape::Face(face) => ordered_pair(which, minimum.feature, Feature::Face(face)),
+                    Escape::CommonPoint(crossing) => {
+                        return End::CommonPoint(pair, which, crossing);
+                    }
+                    Escape::Unclear => return End::Unclear(pair),
+                }
+            }
         };
         if brent.is_repeated(pair) {
             counters.cycles += 1;
@@ -31,6 +41,16 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
         }
     }
     End::StepLimit(pair)
+}
+
+/// Finds the way out of a local minimum at a feature of one of the polytopes A and B.
+#[cold]
+fn escape(placed: &PlacedPair<'_>, which: WhichPolytope, minimum: LocalMinimum) -> Escape {
+    let PlacedPair { a, b, scale } = placed;
+    match which {
+        WhichPolytope::X => escape_local_minimum(a, minimum, b, *scale),
+        WhichPolytope::Y => escape_local_minimum(b, minimum, a, *scale),
+    }
 }
 
 /// Tests one pair of features of A and B, and returns the next one. Two faces are never tested: an edge of one replaces
@@ -51,6 +71,20 @@ pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> MarchStep {
             let edge = a.shape().sides_of(f).first().map_or(0, |side| side.edge);
             MarchStep::Continue(Feature::Edge(edge), pair.b)
         }
+    }
+}
+
+/// Returns a pair of features in the order A, B.
+fn ordered_pair(which: WhichPolytope, feature: Feature, other: Feature) -> Pair {
+    match which {
+        WhichPolytope::X => Pair {
+            a: feature,
+            b: other,
+        },
+        WhichPolytope::Y => Pair {
+            a: other,
+            b: feature,
+        },
     }
 }
 

@@ -19,10 +19,11 @@ use ccd_core::{Body, Claim, DistanceOracle, Effort, GiveUpReason, Piece, PiecePa
 /// facets.
 ///
 /// # Guarantee
-/// The guarantee of the crate. It gives up with [`GiveUpReason::BadFacets`] on pieces whose facets are missing, or are not
-/// those of a convex polytope. In rare cases, rounding leads it in circles from several starts ([`GiveUpReason::Cycle`],
-/// [`GiveUpReason::StepCap`]), or prevents certification ([`GiveUpReason::Uncertified`]): in a few of a million pairs of this crate's
-/// own tests, and in 4 of 38,334 others. Combine it with [another oracle](DistanceOracle::or_else).
+/// The guarantee of the crate. It gives up with [`GiveUpReason::BadFacets`] on pieces whose facets are missing, or are
+/// not those of a convex polytope. In rare cases, rounding leads it in circles from several starts
+/// ([`GiveUpReason::Cycle`], [`GiveUpReason::StepCap`]), or prevents certification ([`GiveUpReason::Uncertified`]):
+/// never in a million pairs of this crate's own tests, but in 4 of 38,334 others. Combine it with
+/// [another oracle](DistanceOracle::or_else).
 ///
 /// # Complexity
 /// From a warm [`Cache`] a step or two, each linear in the edges that meet in a corner, or around a

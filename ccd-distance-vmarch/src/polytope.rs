@@ -5,13 +5,14 @@ mod build;
 mod convex;
 mod facets;
 mod merge;
+mod support;
 #[cfg(test)]
 mod tests;
 
 use crate::feature::Feature;
 pub(crate) use facets::unit;
+use support::DirectionTable;
 
-use ccd_core::SupportTree;
 use ccd_core::glam::DVec3;
 
 /// A convex piece with the planes that bound the Voronoi regions of its features.
@@ -38,8 +39,8 @@ pub(crate) struct Polytope {
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
-    /// The search for extremal corners, for polytopes of many corners.
-    support: Option<Box<SupportTree>>,
+    /// The corners from which a climb starts, for polytopes of many corners.
+    start_corners: Option<Box<DirectionTable>>,
 }
 
 /// A corner of the polytope.
@@ -165,19 +166,6 @@ impl Polytope {
         faces.dedup();
         faces.retain(|&f| f != NO_FACE);
         faces
-    }
-
-    /// Returns a corner that is farthest along a direction, up to rounding.
-    pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
-        if let Some(tree) = &self.support {
-            return tree.extremal(direction);
-        }
-        let points = self.vertices.iter().map(|v| v.point);
-        let heights = points.map(|p| p.dot(direction)).zip(0..);
-        let none = (f64::NEG_INFINITY, 0);
-        heights
-            .fold(none, |best, here| if here.0 > best.0 { here } else { best })
-            .1
     }
 
     /// Returns whether the polytope has a feature with this number.

@@ -53,6 +53,13 @@ pub(crate) const CONVEXITY_TOLERANCE: f64 = 64.0 * UNIT_ROUNDOFF;
 /// at most once, and one per feature in practice; Lloyd's port of V-Clip stops at two.
 pub(crate) const MAX_STEPS_PER_FEATURE: usize = 4;
 
+/// The largest number of pairs of a cycle that are examined for the nearest one. Cycles are two to six pairs long.
+pub(crate) const MAX_CYCLE_PAIRS: usize = 64;
+
+/// The largest number of moves to nearer features around a tie before the march resumes. Each move gets nearer by more
+/// than rounding; one or two were enough in a million pairs. It also limits the marches of one call.
+pub(crate) const MAX_TIE_MOVES: usize = 8;
+
 /// The largest number of restarts of a march after a cycle or a similar end, before the oracle gives up. A restart
 /// begins at the corners that are extremal along the best axis.
 pub(crate) const MAX_RESTARTS: u32 = 2;
@@ -65,5 +72,9 @@ pub(crate) const MAX_AXIS_EDGES: usize = 12;
 /// few milliseconds' work.
 pub(crate) const MAX_TESTED_PAIRS: usize = 1 << 17;
 
-/// The number of corners above which a polytope has a [search tree](ccd_core::SupportTree); fewer are scanned.
-pub(crate) const MAX_SCANNED_CORNERS: usize = ccd_core::tuning::MAX_SCANNED_POINTS;
+/// The largest number of pairs of edges that are compared around a tie: those around a corner of 30 edges.
+pub(crate) const MAX_TIE_EDGE_PAIRS: usize = 1 << 13;
+
+/// The number of corners above which a polytope has a table of directions; fewer are scanned. Scanning takes one or two
+/// nanoseconds per vertex, a climb from the table about thirty.
+pub(crate) const MAX_SCANNED_CORNERS: usize = 32;

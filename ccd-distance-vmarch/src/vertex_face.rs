@@ -1,8 +1,7 @@
 //! The transition of the march from a corner against a face `[VCLIP98 §3.2]`.
 
-use crate::escape::escape_local_minimum;
 use crate::feature::Certainty::{Sure, Tied};
-use crate::feature::{Feature, MarchStep};
+use crate::feature::{Feature, LocalMinimum, MarchStep, WhichPolytope};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::PRODUCT_ERROR;
 use crate::vertex_vertex::steepest_edge;
@@ -30,7 +29,14 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
     }
     let rounding = scale.rounding();
     if height < -rounding {
-        return escape_local_minimum(x, Feature::Vertex(v), corner, y, f, scale);
+        return MarchStep::LocalMinimum(
+            WhichPolytope::X,
+            LocalMinimum {
+                feature: Feature::Vertex(v),
+                point: corner,
+                face: f,
+            },
+        );
     }
     if height <= rounding {
         return MarchStep::Stop(Tied);

@@ -20,7 +20,7 @@ fn next_for_needle(half: DVec3, at: DVec3) -> MarchStep {
     let swapped = next(&back.a, 0, &back.b, edge, back.scale).swapped();
     match (there, swapped) {
         // The same point in two frames.
-        (MarchStep::CommonPoint(one, _), MarchStep::CommonPoint(other, _)) => {
+        (MarchStep::LocalMinimum(one, _), MarchStep::LocalMinimum(other, _)) => {
             assert_eq!(one, other);
         }
         _ => assert_eq!(there, swapped),
@@ -84,11 +84,15 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 
 #[test]
 fn finds_edges_below_both_faces() {
-    let found = next_for_needle(CROSSING_NEEDLE, DVec3::new(0.0, 0.9, 0.9));
-    assert!(
-        matches!(found, MarchStep::CommonPoint(WhichPolytope::Y, _)),
-        "{found:?}"
+    let at = DVec3::new(0.0, 0.9, 0.9);
+    let MarchStep::LocalMinimum(which, minimum) = next_for_needle(CROSSING_NEEDLE, at) else {
+        panic!("it is within the cube");
+    };
+    assert_eq!(
+        (which, minimum.feature),
+        (WhichPolytope::Y, Feature::Edge(0))
     );
+    assert!(minimum.point.distance(at) < 1e-15);
 }
 
 /// Tests that no other points of two segments are nearer by more than rounding, for angles from crossing to parallel up

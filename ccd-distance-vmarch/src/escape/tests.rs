@@ -1,38 +1,36 @@
 //! Tests corners and needles behind a face of a cube.
 
-use super::{escape_local_minimum, farthest};
-use crate::feature::{Feature, MarchStep, WhichPolytope};
+use super::{Escape, escape_local_minimum, farthest};
+use crate::feature::{Feature, LocalMinimum};
 use crate::placed::Placed;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use ccd_core::glam::DVec3;
 
-fn of_point(at: DVec3) -> MarchStep {
+fn of_point(at: DVec3) -> Escape {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);
-    let (corner, top) = (Feature::Vertex(0), face(&cube, DVec3::Z));
-    escape_local_minimum(&placed.b, corner, at, &placed.a, top, placed.scale)
+    let minimum = LocalMinimum {
+        feature: Feature::Vertex(0),
+        point: at,
+        face: face(&cube, DVec3::Z),
+    };
+    escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale)
 }
 
 #[test]
 fn leads_to_the_face_it_is_highest_above() {
     let below = face(&cube(), -DVec3::Z);
-    assert_eq!(
-        of_point(-3.0 * DVec3::Z),
-        MarchStep::Continue(Feature::Vertex(0), Feature::Face(below))
-    );
+    assert_eq!(of_point(-3.0 * DVec3::Z), Escape::Face(below));
     let beside = face(&cube(), DVec3::X);
     let at = DVec3::new(5.0, 2.0, 0.0);
-    assert_eq!(
-        of_point(at),
-        MarchStep::Continue(Feature::Vertex(0), Feature::Face(beside))
-    );
+    assert_eq!(of_point(at), Escape::Face(beside));
 }
 
 #[test]
 fn proves_features_inside() {
     assert!(matches!(
         of_point(DVec3::new(0.2, 0.3, 0.4)),
-        MarchStep::CommonPoint(WhichPolytope::X, _)
+        Escape::CommonPoint(_)
     ));
 }
 
@@ -40,7 +38,7 @@ fn proves_features_inside() {
 fn is_unclear_without_proof_by_exact_signs() {
     // Beyond a face by less than rounding.
     let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
-    assert_eq!(of_point(at), MarchStep::Unclear);
+    assert_eq!(of_point(at), Escape::Unclear);
 }
 
 #[test]
@@ -48,10 +46,13 @@ fn edges_go_through_or_are_inside() {
     let (cube, short, long) = (cube(), needle(0.5 * DVec3::X), needle(3.0 * DVec3::X));
     for needle in [&short, &long] {
         let placed = moved(&cube, needle, DVec3::ZERO);
-        let (edge, top) = (Feature::Edge(0), face(&cube, DVec3::Z));
-        let at = DVec3::ZERO;
-        let found = escape_local_minimum(&placed.b, edge, at, &placed.a, top, placed.scale);
-        let MarchStep::CommonPoint(WhichPolytope::X, crossing) = found else {
+        let minimum = LocalMinimum {
+            feature: Feature::Edge(0),
+            point: DVec3::ZERO,
+            face: face(&cube, DVec3::Z),
+        };
+        let found = escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale);
+        let Escape::CommonPoint(crossing) = found else {
             panic!("{found:?}");
         };
         let corners = crossing

@@ -1,11 +1,12 @@
 //! Prepares pieces for marching.
 
 use super::facets::{Facets, distance_from_line};
+use super::support::DirectionTable;
 use super::{Polytope, assemble, convex, merge};
 use crate::tolerance::{COPLANARITY_TOLERANCE, MAX_SCANNED_CORNERS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{GiveUpReason, Piece, SupportTree};
+use ccd_core::{GiveUpReason, Piece};
 
 impl Polytope {
     /// Prepares a piece for marching.
@@ -48,8 +49,7 @@ impl Polytope {
     fn from_outlines(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble_polytope(points, ends, loops);
         if polytope.vertices.len() > MAX_SCANNED_CORNERS {
-            let corners: Vec<DVec3> = polytope.vertices.iter().map(|v| v.point).collect();
-            polytope.support = Some(Box::new(SupportTree::new(&corners)));
+            polytope.start_corners = Some(Box::new(DirectionTable::new(&polytope)));
         }
         polytope
     }

@@ -4,7 +4,6 @@ use super::{NO_FACE, Polytope};
 use crate::tests::setting::prepared_polytope;
 use crate::tests::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::order::greater;
 use ccd_core::{GiveUpReason, Piece};
 use rstest::rstest;
 
@@ -15,27 +14,6 @@ fn counts(polytope: &Polytope) -> [usize; 3] {
         polytope.edges.len(),
         polytope.faces.len(),
     ]
-}
-
-#[test]
-fn extremal_corners_are_highest() {
-    let mut rng = Pcg64::seed_from_u64(2);
-    for shape in [
-        shape::uv_sphere(9, 16),
-        shape::prism(40),
-        shape::random_hull(&mut rng, 40),
-        shape::cuboid(DVec3::ONE),
-    ] {
-        let polytope = prepared_polytope(&shape);
-        assert_eq!(polytope.support.is_some(), polytope.vertices.len() > 32);
-        for _ in 0..2_000 {
-            let look = direction(&mut rng);
-            let heights = polytope.vertices.iter().map(|v| look.dot(v.point));
-            let highest = heights.fold(f64::MIN, greater);
-            let found = polytope.vertex(polytope.extremal(look));
-            assert!(look.dot(found.point) >= highest - 1e-15);
-        }
-    }
 }
 
 /// Checks the properties that every polytope has.

@@ -16,7 +16,7 @@ fn of_point(at: DVec3) -> MarchStep {
     let back = moved(&point, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
-        (MarchStep::CommonPoint(..), MarchStep::CommonPoint(..)) => {}
+        (MarchStep::LocalMinimum(..), MarchStep::LocalMinimum(..)) => {}
         _ => assert_eq!(there, again),
     }
     there
@@ -49,16 +49,18 @@ fn points_continue_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle:
     );
 }
 
-#[test]
-fn goes_on_from_behind_unless_inside() {
-    let inside = of_point(DVec3::new(0.0, 0.0, 0.9));
-    assert!(
-        matches!(inside, MarchStep::CommonPoint(WhichPolytope::X, _)),
-        "{inside:?}"
+#[rstest]
+#[case(DVec3::new(0.0, 0.0, 0.9))]
+#[case(DVec3::new(0.0, 0.0, -7.0))]
+fn finds_features_behind(#[case] at: DVec3) {
+    let MarchStep::LocalMinimum(which, minimum) = of_point(at) else {
+        panic!("it is below the top");
+    };
+    let top = face(&cube(), DVec3::Z);
+    assert_eq!(
+        (which, minimum.feature, minimum.face),
+        (WhichPolytope::X, Feature::Vertex(0), top)
     );
-    let bottom = Feature::Face(face(&cube(), -DVec3::Z));
-    let beyond = of_point(DVec3::new(0.0, 0.0, -7.0));
-    assert_eq!(beyond, MarchStep::Continue(Feature::Vertex(0), bottom));
 }
 
 /// Tests corners above the face: a corner is nearest unless one of its edges falls by more than rounding.
