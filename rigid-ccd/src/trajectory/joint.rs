@@ -25,6 +25,16 @@ pub struct Joint {
     origin: Pose,
     kind: Kind,
     limits: RangeInclusive<f64>,
+    direction: Direction,
+}
+
+/// The direction in which a chain passes a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    /// From the link before the joint to the link after it.
+    Forward,
+    /// From the link after the joint to the link before it.
+    Backward,
 }
 
 /// The degree of freedom of a joint, whose axis has unit length.
@@ -46,6 +56,7 @@ impl Joint {
             origin,
             kind: Kind::Fixed,
             limits: f64::NEG_INFINITY..=f64::INFINITY,
+            direction: Direction::Forward,
         }
     }
 
@@ -78,6 +89,31 @@ impl Joint {
         Joint { limits, ..self }
     }
 
+    /// Returns the joint as it is passed the other way: from the link after it to the link before it. Positions keep their
+    /// meaning and their limits.
+    ///
+    /// A link on one branch of a tree, as a link on another one sees it, moves by a chain that passes the joints to their
+    /// common ancestor backward.
+    ///
+    /// ```
+    /// use rigid_ccd::trajectory::{Chain, Joint};
+    /// use rigid_ccd::Pose;
+    /// let shoulder = |y| Joint::revolute(Pose::at([0.0, y, 0.0])?, [0.0, 0.0, 1.0]);
+    /// let (left, right) = (shoulder(1.0)?, shoulder(-1.0)?);
+    /// let chain = Chain::new(Pose::IDENTITY, vec![left.reversed(), right]);
+    /// // As the left hand sees it, the right shoulder is 2 behind.
+    /// assert_eq!(chain.pose(2, &[0.0, 0.0])?.translation().y, -2.0);
+    /// # Ok::<(), rigid_ccd::InputError>(())
+    /// ```
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        let direction = match self.direction {
+            Direction::Forward => Direction::Backward,
+            Direction::Backward => Direction::Forward,
+        };
+        Joint { direction, ..self }
+    }
+
     /// Returns the least and the greatest allowed position.
     pub fn limits(&self) -> &RangeInclusive<f64> {
         &self.limits
@@ -88,7 +124,8 @@ impl Joint {
         self.kind == Kind::Fixed
     }
 
-    /// Returns the pose of the link after the joint, in the frame of the link before it.
+    /// Returns the pose of the link after the joint, in the frame of the link before it; of a [reversed](Joint::reversed)
+    /// joint that of the link before it in the frame of the link after it.
     ///
     /// # Errors
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::NotFinite`].
@@ -104,11 +141,15 @@ impl Joint {
             Kind::Revolute(axis) => Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?,
             Kind::Prismatic(axis) => Pose::at(axis * position)?,
         };
-        Ok(self.origin.compose(&moved))
+        let pose = self.origin.compose(&moved);
+        Ok(match self.direction {
+            Direction::Forward => pose,
+            Direction::Backward => pose.inverse(),
+        })
     }
 
-    /// Returns the motion of the link after the joint, in the frame of the link before it, from one position to another
-    /// in `duration` at a constant rate.
+    /// Returns the motion of which [`Joint::pose`] is the start, from one position to another in `duration` at a constant
+    /// rate.
     ///
     /// # Errors
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
@@ -130,10 +171,15 @@ impl Joint {
         } else {
             (to - from) / duration
         };
-        let along = |axis: DVec3| self.origin.rotation() * axis * rate;
+        // The axis in the frame in which the link is seen, and the point on it that keeps its place on the link.
+        let (frame, rate, centre) = match self.direction {
+            Direction::Forward => (self.origin.rotation(), rate, DVec3::ZERO),
+            Direction::Backward => (DQuat::IDENTITY, -rate, self.origin.translation()),
+        };
+        let along = |axis: DVec3| frame * axis * rate;
         match self.kind {
             Kind::Fixed => Ok(Motion::still(start)),
-            Kind::Revolute(axis) => Motion::new(start, DVec3::ZERO, along(axis)),
+            Kind::Revolute(axis) => Motion::about(start, DVec3::ZERO, along(axis), centre),
             Kind::Prismatic(axis) => Motion::new(start, along(axis), DVec3::ZERO),
         }
     }
@@ -160,6 +206,10 @@ impl Joint {
 
     pub(super) fn kind(&self) -> Kind {
         self.kind
+    }
+
+    pub(super) fn direction(&self) -> Direction {
+        self.direction
     }
 
     pub(super) fn origin(&self) -> &Pose {

@@ -1,11 +1,14 @@
 //! The motion of a link of a serial chain whose joints move between two positions.
 
+mod bounds;
+
 use super::U;
 use super::chain::Chain;
 use super::checks::check_duration;
-use super::joint::{Joint, Kind};
+use super::joint::{Direction, Joint, Kind};
+use bounds::{LinkBounds, PositionBounds};
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::greater;
 use ccd_core::vector::length;
 use ccd_core::{
     Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
@@ -234,125 +237,45 @@ impl State {
 
     /// Replaces the state of the link before a joint by that of the link after it.
     fn pass_joint(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
-        let before = self.pose.translation();
-        let held = self.pose.compose(joint.origin());
-        self.pose = self.pose.compose(&joint.pose_up_to_rounding(position)?);
-        let arm = self.pose.translation() - before;
-        let turning = self.spin.cross(arm);
-        self.velocity += turning;
-        self.acceleration += self.angular.cross(arm) + self.spin.cross(turning);
-        match joint.kind() {
-            Kind::Fixed => {}
-            Kind::Revolute(axis) => {
-                let turn = held.rotation() * axis * rate;
-                self.angular += self.spin.cross(turn);
-                self.spin += turn;
+        let before = self.pose;
+        self.pose = before.compose(&joint.pose_up_to_rounding(position)?);
+        let arm = self.pose.translation() - before.translation();
+        // The arm moves with the link before its freedom, or with the link after it.
+        match joint.direction() {
+            Direction::Forward => {
+                self.add_arm(arm);
+                let held = before.compose(joint.origin());
+                self.add_freedom(joint.kind(), held.rotation(), rate);
             }
-            Kind::Prismatic(axis) => {
-                let slide = held.rotation() * axis * rate;
-                self.acceleration += 2.0 * self.spin.cross(slide);
-                self.velocity += slide;
+            Direction::Backward => {
+                self.add_freedom(joint.kind(), before.rotation(), -rate);
+                self.add_arm(arm);
             }
         }
         Ok(())
     }
-}
 
-/// Bounds on the derivatives of a link's pose, accumulated joint by joint.
-#[derive(Clone, Copy, Debug, Default)]
-struct LinkBounds {
-    speeds: SpeedBounds,
-    accelerations: AccelerationBounds,
-    /// The bounds on the derivatives of the accelerations.
-    jerks: AccelerationBounds,
-    /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
-    axis: Option<DVec3>,
-    /// The number of joints so far, the sum of the arms' lengths, and the sum of the angles in radians.
-    joints: f64,
-    arms: f64,
-    angles: f64,
-}
+    /// Adds the motion of a point at the end of an arm that rotates with the link.
+    fn add_arm(&mut self, arm: DVec3) {
+        let turning = self.spin.cross(arm);
+        self.velocity += turning;
+        self.acceleration += self.angular.cross(arm) + self.spin.cross(turning);
+    }
 
-/// Bounds on the speeds of a link, per unit of time.
-#[derive(Clone, Copy, Debug, Default)]
-struct SpeedBounds {
-    linear: f64,
-    angular: f64,
-}
-
-/// Bounds on the position of a joint in an interval of time, in radians or as a length.
-struct PositionBounds {
-    /// The largest absolute value of the position in the interval.
-    largest: f64,
-    /// The largest absolute value of the position in the interval and at time 0, from which all positions are computed.
-    largest_with_start: f64,
-    first: f64,
-    /// The absolute value of the joint's rate.
-    rate: f64,
-}
-
-impl LinkBounds {
-    /// Replaces the bounds for the link before a joint by those for the link after it.
-    fn pass_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
-        self.joints += 1.0;
-        let length = length(joint.origin().translation());
-        self.arms += length;
-        self.add_arm(length);
-        // Rotate into the joint's frame.
-        let into = joint.origin().rotation().conjugate();
-        self.axis = self.axis.map(|axis| into * axis);
-        let PositionBounds { rate, .. } = *positions;
-        match joint.kind() {
+    /// Adds the motion of a joint about or along its axis, which is given in the frame `held`.
+    fn add_freedom(&mut self, kind: Kind, held: DQuat, rate: f64) {
+        match kind {
             Kind::Fixed => {}
-            Kind::Prismatic(_) => {
-                self.arms += positions.largest_with_start;
-                self.add_arm(positions.largest);
-                let (turn, turning) = (self.speeds.angular, self.accelerations.angular);
-                self.jerks.linear += 3.0 * rate * (turning + turn * turn);
-                self.accelerations.linear += 2.0 * turn * rate;
-                self.speeds.linear += rate;
-            }
             Kind::Revolute(axis) => {
-                self.angles += positions.largest_with_start;
-                if rate > 0.0 {
-                    self.add_rotation(axis, rate);
-                } else {
-                    let held = DQuat::from_axis_angle(axis, -positions.first);
-                    self.axis = self.axis.map(|before| held * before);
-                }
+                let turn = held * axis * rate;
+                self.angular += self.spin.cross(turn);
+                self.spin += turn;
+            }
+            Kind::Prismatic(axis) => {
+                let slide = held * axis * rate;
+                self.acceleration += 2.0 * self.spin.cross(slide);
+                self.velocity += slide;
             }
         }
     }
-
-    /// Adds the motion of a point at distance `length` that rotates with the link.
-    fn add_arm(&mut self, length: f64) {
-        let SpeedBounds { angular, .. } = self.speeds;
-        let turning = self.accelerations.angular;
-        self.jerks.linear +=
-            (self.jerks.angular + (3.0 * turning + angular * angular) * angular) * length;
-        self.accelerations.linear += (turning + angular * angular) * length;
-        self.speeds.linear += angular * length;
-    }
-
-    /// Adds a rotation at a nonzero rate about an axis in the joint's frame.
-    fn add_rotation(&mut self, axis: DVec3, rate: f64) {
-        let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
-            (false, _) => (0.0, Some(axis)),
-            (true, Some(common)) => {
-                let across = length(common.cross(axis));
-                // Axes that count as parallel may differ by as much each.
-                let most = across + PARALLEL_SINE * self.joints;
-                (most, (across < PARALLEL_SINE).then_some(common))
-            }
-            (true, None) => (1.0, None),
-        };
-        let swept = self.speeds.angular * lesser(across, 1.0);
-        self.jerks.angular += rate * (self.accelerations.angular + self.speeds.angular * swept);
-        self.accelerations.angular += rate * swept;
-        self.speeds.angular += rate;
-        self.axis = common;
-    }
 }
-
-/// The sine of the largest angle between axes that count as parallel, far above rounding.
-const PARALLEL_SINE: f64 = 1e-12;

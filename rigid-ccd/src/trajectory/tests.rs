@@ -101,11 +101,13 @@ fn arm(rng: &mut Rng, count: usize, axes: AxisChoice) -> Chain {
                 Pose::at(vector(rng, 1.0)).unwrap()
             }
         };
-        match k % 4 {
+        let joint = match k % 4 {
             3 => Joint::prismatic(origin, vector(rng, 1.0)),
             2 if axes == AxisChoice::Any => Ok(Joint::fixed(origin)),
             _ => Joint::revolute(origin, axis),
-        }
+        }?;
+        let is_reversed = rng.random_bool(0.5);
+        Ok(if is_reversed { joint.reversed() } else { joint })
     };
     let joints: Result<_, InputError> = (0..count).map(joint).collect();
     Chain::new(Pose::IDENTITY, joints.unwrap())
@@ -261,6 +263,50 @@ fn links_behind_joints_that_are_held() {
             seen_from: None,
         })
     });
+}
+
+/// Tests that a chain that goes out and back again ends where it began, and stays there.
+#[test]
+fn reversed_joints_undo_joints() {
+    let mut rng = Rng::seed_from_u64(8);
+    for _ in 0..200 {
+        let out = arm(&mut rng, 4, AxisChoice::Any).joints().to_vec();
+        let back = out.iter().rev().cloned().map(Joint::reversed);
+        let there_and_back = Chain::new(Pose::IDENTITY, out.iter().cloned().chain(back).collect());
+        let [first, last] = [(); 2].map(|()| -> Vec<f64> {
+            let out: Vec<f64> = (0..4).map(|_| rng.random_range(-2.0..2.0)).collect();
+            out.iter().chain(out.iter().rev()).copied().collect()
+        });
+        let link = there_and_back.link(8, &first, &last, 2.0).unwrap();
+        let Stretch {
+            motion, deviation, ..
+        } = link.stretch(0.7, 0.7).unwrap();
+        let start = motion.start();
+        assert!(start.translation().length() <= deviation.shift);
+        assert!(2.0 * start.rotation().xyz().length() <= deviation.turn);
+        assert!(motion.velocity().length() < 1e-12 && motion.spin().length() < 1e-12);
+    }
+}
+
+/// Tests the motion of one joint in either direction against its poses.
+#[test]
+fn a_joint_moves_through_its_poses() {
+    let mut rng = Rng::seed_from_u64(9);
+    for k in 0..400 {
+        let joint = arm(&mut rng, 4, AxisChoice::Any).joints()[k % 4].clone();
+        let [first, last] = [(); 2].map(|()| rng.random_range(-2.0..2.0));
+        let motion = joint.motion(first, last, 2.0).unwrap();
+        let share = rng.random_range(0.0..1.0);
+        let (moved, there) = (
+            motion.pose(2.0 * share),
+            joint.pose(first + share * (last - first)).unwrap(),
+        );
+        let point = vector(&mut rng, 1.0);
+        let apart = moved
+            .transform_point(point)
+            .distance(there.transform_point(point));
+        assert!(apart < 1e-14, "{joint:?}: {apart:e}");
+    }
 }
 
 /// A link that owns its chain, for tests of trajectories without lifetimes.

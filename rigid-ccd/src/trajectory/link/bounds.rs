@@ -1,0 +1,136 @@
+//! Bounds on the velocities and accelerations of a link, accumulated joint by joint.
+
+use crate::trajectory::joint::{Direction, Joint, Kind};
+use ccd_core::AccelerationBounds;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::lesser;
+use ccd_core::vector::length;
+
+/// Bounds on the derivatives of a link's pose, accumulated joint by joint.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LinkBounds {
+    speeds: SpeedBounds,
+    pub(super) accelerations: AccelerationBounds,
+    /// The bounds on the derivatives of the accelerations.
+    pub(super) jerks: AccelerationBounds,
+    /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
+    axis: Option<DVec3>,
+    /// The number of joints so far, the sum of the arms' lengths, and the sum of the angles in radians.
+    pub(super) joints: f64,
+    pub(super) arms: f64,
+    pub(super) angles: f64,
+}
+
+/// Bounds on the speeds of a link, per unit of time.
+#[derive(Clone, Copy, Debug, Default)]
+struct SpeedBounds {
+    linear: f64,
+    angular: f64,
+}
+
+/// Bounds on the position of a joint in an interval of time, in radians or as a length.
+pub(super) struct PositionBounds {
+    /// The largest absolute value of the position in the interval.
+    pub(super) largest: f64,
+    /// The largest absolute value of the position in the interval and at time 0, from which all positions are computed.
+    pub(super) largest_with_start: f64,
+    pub(super) first: f64,
+    /// The absolute value of the joint's rate.
+    pub(super) rate: f64,
+}
+
+impl PositionBounds {
+    /// Returns the largest length by which a joint slides; 0 for one that turns.
+    fn slide(&self, joint: &Joint) -> f64 {
+        match joint.kind() {
+            Kind::Prismatic(_) => self.largest_with_start,
+            Kind::Fixed | Kind::Revolute(_) => 0.0,
+        }
+    }
+}
+
+impl LinkBounds {
+    /// Replaces the bounds for the link before a joint by those for the link after it.
+    pub(super) fn pass_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
+        let arm = length(joint.origin().translation());
+        // The frame of the joint's axis as seen from the link before the joint.
+        let frame = joint.origin().rotation();
+        match joint.direction() {
+            Direction::Forward => {
+                self.joints += 1.0;
+                self.arms += arm + positions.slide(joint);
+                self.add_arm(arm);
+                self.axis = self.axis.map(|axis| frame.conjugate() * axis);
+                self.add_freedom(joint, positions);
+            }
+            Direction::Backward => {
+                // The inverse of a pose is rounded once more, at most as the product with another one.
+                self.joints += 2.0;
+                self.arms += 2.0 * (arm + positions.slide(joint));
+                self.add_freedom(joint, positions);
+                self.add_arm(arm);
+                self.axis = self.axis.map(|axis| frame * axis);
+            }
+        }
+    }
+
+    /// Adds the motion of a joint about or along its axis. The common axis is in the frame of the joint's axis.
+    fn add_freedom(&mut self, joint: &Joint, positions: &PositionBounds) {
+        let PositionBounds { rate, .. } = *positions;
+        match joint.kind() {
+            Kind::Fixed => {}
+            Kind::Prismatic(_) => {
+                self.add_arm(positions.largest);
+                let (turn, turning) = (self.speeds.angular, self.accelerations.angular);
+                self.jerks.linear += 3.0 * rate * (turning + turn * turn);
+                self.accelerations.linear += 2.0 * turn * rate;
+                self.speeds.linear += rate;
+            }
+            Kind::Revolute(axis) => {
+                self.angles += positions.largest_with_start;
+                if rate > 0.0 {
+                    self.add_rotation(axis, rate);
+                } else {
+                    let position = match joint.direction() {
+                        Direction::Forward => positions.first,
+                        Direction::Backward => -positions.first,
+                    };
+                    let held = DQuat::from_axis_angle(axis, -position);
+                    self.axis = self.axis.map(|before| held * before);
+                }
+            }
+        }
+    }
+
+    /// Adds the motion of a point at distance `length` that rotates with the link.
+    fn add_arm(&mut self, length: f64) {
+        let SpeedBounds { angular, .. } = self.speeds;
+        let turning = self.accelerations.angular;
+        self.jerks.linear +=
+            (self.jerks.angular + (3.0 * turning + angular * angular) * angular) * length;
+        self.accelerations.linear += (turning + angular * angular) * length;
+        self.speeds.linear += angular * length;
+    }
+
+    /// Adds a rotation at a nonzero rate about an axis in the joint's frame.
+    fn add_rotation(&mut self, axis: DVec3, rate: f64) {
+        let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
+            (false, _) => (0.0, Some(axis)),
+            (true, Some(common)) => {
+                let across = length(common.cross(axis));
+                // Axes that count as parallel may differ by as much each.
+                let most = across + PARALLEL_SINE * self.joints;
+                (most, (across < PARALLEL_SINE).then_some(common))
+            }
+            (true, None) => (1.0, None),
+        };
+        let swept = self.speeds.angular * lesser(across, 1.0);
+        self.jerks.angular += rate * (self.accelerations.angular + self.speeds.angular * swept);
+        self.accelerations.angular += rate * swept;
+        self.speeds.angular += rate;
+        self.axis = common;
+    }
+}
+
+/// The sine of the largest angle between axes that count as parallel, far above rounding.
+const PARALLEL_SINE: f64 = 1e-12;
