@@ -13,7 +13,7 @@ type Module = Vec<String>;
 /// The set of modules that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 12] = [
     "ccd-core",
     "ccd-distance-gjk",
     "ccd-distance-vmarch",
@@ -24,6 +24,7 @@ const CRATES: [&str; 11] = [
     "ccd-bench",
     "rigid-ccd",
     "rigid-ccd-parry",
+    "rigid-ccd-robot",
     "python",
 ];
 

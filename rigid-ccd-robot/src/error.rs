@@ -1,0 +1,81 @@
+//! Errors of robots: a tree that is none, and positions that do not fit.
+
+use rigid_ccd::InputError;
+
+/// The reason why links and joints are no robot, or why a configuration does not fit it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RobotError {
+    /// A robot has no links.
+    #[error("the robot has no links")]
+    NoLinks,
+    /// Two links have the same name.
+    #[error("two links are named `{link}`")]
+    LinkNameTaken {
+        /// The name of both links.
+        link: String,
+    },
+    /// Two joints have the same name.
+    #[error("two joints are named `{joint}`")]
+    JointNameTaken {
+        /// The name of both joints.
+        joint: String,
+    },
+    /// There is no link of a name.
+    #[error("there is no link `{link}`")]
+    NoSuchLink {
+        /// The name that no link has.
+        link: String,
+    },
+    /// A link is the child of two joints.
+    #[error("link `{link}` is the child of joint `{joint}` and of another one")]
+    TwoParents {
+        /// The name of the link.
+        link: String,
+        /// The name of the second joint.
+        joint: String,
+    },
+    /// Several links are the child of no joint, so that the tree has several parts.
+    #[error("links `{first}` and `{second}` both hang on no joint; a robot has one base")]
+    TwoBases {
+        /// The name of the first base.
+        first: String,
+        /// The name of the second base.
+        second: String,
+    },
+    /// Joints form a loop.
+    #[error("link `{link}` is in a loop of joints; loops are no tree")]
+    Loop {
+        /// The name of a link in the loop.
+        link: String,
+    },
+    /// A joint follows a joint that does not exist, has no position, or follows it in turn.
+    #[error("joint `{joint}` follows `{followed}`, which has no position of its own")]
+    FollowsNothing {
+        /// The name of the joint.
+        joint: String,
+        /// The name of the joint that it was to follow.
+        followed: String,
+    },
+    /// The number of positions is not that of the joints that have one.
+    #[error("{given} positions for {expected} joints: {names}")]
+    PositionCount {
+        /// The number of positions.
+        given: usize,
+        /// The number of joints with a position of their own.
+        expected: usize,
+        /// The names of these joints.
+        names: String,
+    },
+    /// A position is outside of its joint's limits, or not finite.
+    #[error("joint `{joint}`: {error}")]
+    Position {
+        /// The name of the joint.
+        joint: String,
+        /// The reason.
+        error: InputError,
+    },
+    /// A pose or a motion is not valid.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}

@@ -1,0 +1,44 @@
+//! Robots and mechanisms as trees of links and joints, from URDF and SRDF or from code, for certified collision checks.
+//!
+//! ```
+//! use rigid_ccd_robot::{Joint, Link, Position, Robot};
+//! use rigid_ccd::{Body, Pose, trajectory};
+//!
+//! let rod = || Body::capsule(0.1, 0.4);
+//! let links = vec![Link::named("base"), Link::named("arm").with_body(rod()?, Pose::IDENTITY)];
+//! let hinge = trajectory::Joint::revolute(Pose::at([0.0, 0.0, 1.0])?, [0.0, 1.0, 0.0])?;
+//! let joints = vec![Joint {
+//!     name: "hinge".into(),
+//!     parent: "base".into(),
+//!     child: "arm".into(),
+//!     joint: hinge,
+//!     position: Position::Free,
+//! }];
+//! let robot = Robot::new(links, joints)?;
+//! assert_eq!(robot.joint_names().collect::<Vec<_>>(), ["hinge"]);
+//! assert_eq!(robot.pose("arm", &[0.5])?.translation().z, 1.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | file | what |
+//! |---|---|
+//! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
+//! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
+//! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
+//! | `srdf` | pairs that are not checked, from an SRDF file |
+
+mod error;
+mod pairs;
+mod robot;
+mod srdf;
+mod urdf;
+
+pub use error::RobotError;
+pub use pairs::{LinkPairs, SkipReason};
+pub use robot::{ChainBetween, Joint, Link, LinkBody, Position, Robot};
+pub use urdf::{Geometry, MeshModel, Urdf, UrdfError};
+
+/// The example in the README, run as a doctest.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

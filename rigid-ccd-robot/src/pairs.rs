@@ -1,0 +1,89 @@
+//! The pairs of links that are checked for collision, and why others are not.
+
+use crate::robot::Robot;
+use std::collections::BTreeMap;
+
+/// The pairs of a robot's links with the reason for each that is not checked. Links go by their numbers.
+///
+/// At first all pairs of links with bodies are checked, except for neighbours and for links that no joint moves against
+/// each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkPairs {
+    skipped: BTreeMap<[usize; 2], SkipReason>,
+    /// The links that have bodies.
+    links: Vec<usize>,
+}
+
+/// The reason why a pair of links is not checked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SkipReason {
+    /// One link holds the other by a joint.
+    Adjacent,
+    /// No joint with a position moves one link against the other.
+    NoMotion,
+    /// The caller or a file says so, such as an SRDF, with its reason.
+    Disabled(String),
+}
+
+impl LinkPairs {
+    /// Creates the pairs of a robot without those of neighbours and of links that never move against each other.
+    pub fn of_robot(robot: &Robot) -> Self {
+        let has_bodies = |&link: &usize| !robot.links()[link].bodies.is_empty();
+        let links: Vec<usize> = (0..robot.links().len()).filter(has_bodies).collect();
+        let mut pairs = LinkPairs {
+            skipped: BTreeMap::new(),
+            links,
+        };
+        for [one, other] in pairs.all().collect::<Vec<_>>() {
+            let is_parent = |link, other| robot.parent_link(link) == Some(other);
+            let reason = if is_parent(one, other) || is_parent(other, one) {
+                Some(SkipReason::Adjacent)
+            } else {
+                let is_rigid = robot.is_rigid_between(one, other);
+                is_rigid.then_some(SkipReason::NoMotion)
+            };
+            pairs
+                .skipped
+                .extend(reason.map(|reason| ([one, other], reason)));
+        }
+        pairs
+    }
+
+    /// Leaves out a pair for a reason. A pair that is left out already keeps its reason.
+    pub fn skip(&mut self, one: usize, other: usize, reason: SkipReason) {
+        self.skipped.entry(ordered(one, other)).or_insert(reason);
+    }
+
+    /// Checks a pair again that was left out.
+    pub fn check(&mut self, one: usize, other: usize) {
+        self.skipped.remove(&ordered(one, other));
+    }
+
+    /// Iterates over the pairs that are checked, the lower number first.
+    pub fn checked(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.all().filter(|pair| !self.skipped.contains_key(pair))
+    }
+
+    /// Returns the reason why a pair is not checked; `None` if it is checked.
+    pub fn skip_reason(&self, one: usize, other: usize) -> Option<&SkipReason> {
+        self.skipped.get(&ordered(one, other))
+    }
+
+    /// Iterates over all pairs of links with bodies.
+    fn all(&self) -> impl Iterator<Item = [usize; 2]> {
+        let links = self.links.iter().enumerate();
+        links.flat_map(|(k, &one)| self.links[k + 1..].iter().map(move |&other| [one, other]))
+    }
+}
+
+fn ordered(one: usize, other: usize) -> [usize; 2] {
+    if one <= other {
+        [one, other]
+    } else {
+        [other, one]
+    }
+}
+
+#[cfg(test)]
+mod tests;

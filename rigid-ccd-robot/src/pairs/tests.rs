@@ -1,0 +1,51 @@
+use super::*;
+use crate::robot::{Joint, Link, Position};
+use rigid_ccd::{Body, Pose, trajectory};
+
+/// A base that holds an arm of two links by hinges, with a camera fixed on the base and one on the second link.
+fn robot() -> Robot {
+    let body = || Body::sphere(0.1).unwrap();
+    let link = |name| Link::named(name).with_body(body(), Pose::IDENTITY);
+    let names = ["base", "upper", "lower", "camera", "wrist camera"];
+    let hinge = || trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();
+    let fixed = || trajectory::Joint::fixed(Pose::IDENTITY);
+    let joint = |parent: &str, child: &str, joint| Joint {
+        name: child.into(),
+        parent: parent.into(),
+        child: child.into(),
+        joint,
+        position: Position::Free,
+    };
+    let joints = vec![
+        joint("base", "upper", hinge()),
+        joint("upper", "lower", hinge()),
+        joint("base", "camera", fixed()),
+        joint("lower", "flange", fixed()),
+        joint("flange", "wrist camera", fixed()),
+    ];
+    let links = names.map(link).into_iter().chain([Link::named("flange")]);
+    Robot::new(links.collect(), joints).unwrap()
+}
+
+#[test]
+fn neighbours_and_rigid_pairs_are_left_out() {
+    let pairs = LinkPairs::of_robot(&robot());
+    assert_eq!(pairs.skip_reason(1, 0), Some(&SkipReason::Adjacent));
+    assert_eq!(pairs.skip_reason(3, 0), Some(&SkipReason::Adjacent));
+    assert_eq!(pairs.skip_reason(2, 4), Some(&SkipReason::NoMotion));
+    // The flange has no body.
+    let checked: Vec<[usize; 2]> = pairs.checked().collect();
+    assert_eq!(checked, [[0, 2], [0, 4], [1, 3], [1, 4], [2, 3], [3, 4]]);
+}
+
+#[test]
+fn pairs_can_be_left_out_and_checked_again() {
+    let mut pairs = LinkPairs::of_robot(&robot());
+    pairs.skip(4, 0, SkipReason::Disabled("Never".into()));
+    pairs.skip(1, 0, SkipReason::Disabled("User".into()));
+    assert_eq!(pairs.skip_reason(0, 1), Some(&SkipReason::Adjacent));
+    assert!(!pairs.checked().any(|pair| pair == [0, 4]));
+    pairs.check(0, 4);
+    assert_eq!(pairs.skip_reason(4, 0), None);
+    assert!(pairs.checked().any(|pair| pair == [0, 4]));
+}

@@ -1,0 +1,282 @@
+//! A robot: a tree of links, connected by joints.
+
+mod chain_between;
+mod tree;
+
+pub use chain_between::ChainBetween;
+
+use crate::error::RobotError;
+use rigid_ccd::trajectory::{self, Chain};
+use rigid_ccd::{Body, Pose};
+use std::sync::Arc;
+use tree::Tree;
+
+/// A tree of links and joints. Each joint holds one link on another.
+///
+/// A *configuration* has one position for each joint that has a position of its own: in radians for joints that turn, a
+/// length for those that slide. Fixed joints have none, and joints that follow another one neither. Positions are in the
+/// order of [`Robot::joint_names`], which is that in which joints were given.
+#[derive(Clone, Debug)]
+pub struct Robot {
+    links: Vec<Link>,
+    joints: Vec<Joint>,
+    tree: Tree,
+    /// For each joint, how its position comes from the configuration; `None` for a fixed one.
+    sources: Vec<Option<Source>>,
+    /// The joints with a position of their own, in order.
+    free_joints: Vec<usize>,
+}
+
+/// A link of a robot: a frame, with the bodies that are fixed in it.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// The name of the link, which no other link of the robot has.
+    pub name: String,
+    /// The bodies of the link.
+    pub bodies: Vec<LinkBody>,
+}
+
+/// A body that is fixed in the frame of a link.
+#[derive(Clone, Debug)]
+pub struct LinkBody {
+    /// The body.
+    pub body: Arc<Body>,
+    /// The pose of the body in the link's frame.
+    pub pose: Pose,
+}
+
+/// A joint of a robot, which holds a link on another one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The name of the joint, which no other joint of the robot has.
+    pub name: String,
+    /// The name of the link that holds the joint.
+    pub parent: String,
+    /// The name of the link that the joint moves.
+    pub child: String,
+    /// The axis and the limits of the joint, in the frame of the parent.
+    pub joint: trajectory::Joint,
+    /// Where the joint's position comes from.
+    pub position: Position,
+}
+
+/// Where the position of a joint comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Position {
+    /// The configuration has a position for the joint, unless it is fixed.
+    Free,
+    /// The joint follows another one, as `mimic` of URDF. Its position is `multiplier · position + offset`; limits of its
+    /// own do not count.
+    Follows {
+        /// The name of the joint that it follows.
+        joint: String,
+        /// The factor of the other joint's position.
+        multiplier: f64,
+        /// The position where the other joint's is 0.
+        offset: f64,
+    },
+}
+
+/// How the position of a joint comes from a configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Source {
+    /// The number of the position in the configuration.
+    number: usize,
+    multiplier: f64,
+    offset: f64,
+}
+
+impl Link {
+    /// Creates a link without bodies.
+    pub fn named(name: impl Into<String>) -> Self {
+        Link {
+            name: name.into(),
+            bodies: Vec::new(),
+        }
+    }
+
+    /// Adds a body at a pose in the link's frame.
+    #[must_use]
+    pub fn with_body(mut self, body: Body, pose: Pose) -> Self {
+        let body = Arc::new(body);
+        self.bodies.push(LinkBody { body, pose });
+        self
+    }
+}
+
+impl Robot {
+    /// Creates a robot from its links and joints, in any order.
+    ///
+    /// # Errors
+    /// [`RobotError`] with the link or the joint, if names are not unique or unknown, or the joints form no tree.
+    pub fn new(links: Vec<Link>, mut joints: Vec<Joint>) -> Result<Self, RobotError> {
+        for joint in &mut joints {
+            if joint.position != Position::Free {
+                joint.joint = joint
+                    .joint
+                    .clone()
+                    .within(f64::NEG_INFINITY..=f64::INFINITY);
+            }
+        }
+        let tree = Tree::new(&links, &joints)?;
+        let (sources, free_joints) = sources(&joints)?;
+        Ok(Robot {
+            links,
+            joints,
+            tree,
+            sources,
+            free_joints,
+        })
+    }
+
+    /// Returns the links, in the order in which they were given.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// Returns the joints, in the order in which they were given.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Returns the names of the joints that have a position, in the order of a configuration.
+    pub fn joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
+        let free = self.free_joints.iter();
+        free.map(|&joint| self.joints[joint].name.as_str())
+    }
+
+    /// Returns the limits of the positions, in the order of a configuration.
+    pub fn limits(&self) -> impl ExactSizeIterator<Item = [f64; 2]> {
+        self.free_joints.iter().map(|&joint| {
+            let limits = self.joints[joint].joint.limits();
+            [*limits.start(), *limits.end()]
+        })
+    }
+
+    /// Returns the number of the base, the link that no joint moves.
+    pub fn base(&self) -> usize {
+        self.tree.base()
+    }
+
+    /// Returns the number of the link with a name.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchLink`].
+    pub fn link_number(&self, name: &str) -> Result<usize, RobotError> {
+        let number = self.links.iter().position(|link| link.name == name);
+        number.ok_or_else(|| RobotError::NoSuchLink { link: name.into() })
+    }
+
+    /// Returns the pose of a link in the frame of the base.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchLink`], [`RobotError::PositionCount`], [`RobotError::Position`].
+    pub fn pose(&self, link: &str, configuration: &[f64]) -> Result<Pose, RobotError> {
+        let chain = self.chain_between(self.base(), self.link_number(link)?);
+        let positions = chain.positions(self, configuration)?;
+        Ok(chain
+            .chain()
+            .pose(chain.chain().joints().len(), &positions)?)
+    }
+
+    /// Returns the chain of joints by which a link moves in the frame of another one, both by their numbers. It leads up to
+    /// their common ancestor, through reversed joints, and down again.
+    pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
+        let steps = self.tree.steps_between(from, to);
+        let joints = steps.iter().map(|step| {
+            let joint = self.joints[step.joint].joint.clone();
+            if step.is_up { joint.reversed() } else { joint }
+        });
+        let chain = Chain::new(Pose::IDENTITY, joints.collect());
+        ChainBetween::new(chain, steps.iter().map(|step| step.joint).collect())
+    }
+
+    /// Returns whether no joint with a position moves one link in the frame of another one.
+    pub(crate) fn is_rigid_between(&self, one: usize, other: usize) -> bool {
+        let steps = self.tree.steps_between(one, other);
+        steps.iter().all(|step| self.sources[step.joint].is_none())
+    }
+
+    /// Returns the joint that moves a link, by its number; `None` for the base.
+    pub(crate) fn parent_link(&self, link: usize) -> Option<usize> {
+        self.tree.parent(link)
+    }
+
+    /// Refuses a configuration with a wrong number of positions, or with one outside of its joint's limits.
+    fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+        let expected = self.free_joints.len();
+        if configuration.len() != expected {
+            return Err(RobotError::PositionCount {
+                given: configuration.len(),
+                expected,
+                names: self.joint_names().collect::<Vec<_>>().join(", "),
+            });
+        }
+        for (&joint, &position) in self.free_joints.iter().zip(configuration) {
+            let Joint { name, joint, .. } = &self.joints[joint];
+            joint.pose(position).map_err(|error| RobotError::Position {
+                joint: name.clone(),
+                error,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Returns the position of a joint in a configuration; 0 for a fixed one.
+    fn position(&self, joint: usize, configuration: &[f64]) -> f64 {
+        self.sources[joint].map_or(0.0, |source| {
+            source.multiplier * configuration[source.number] + source.offset
+        })
+    }
+}
+
+/// Finds how the position of each joint comes from a configuration, and which joints have a position of their own.
+fn sources(joints: &[Joint]) -> Result<(Vec<Option<Source>>, Vec<usize>), RobotError> {
+    let is_free = |joint: &Joint| joint.position == Position::Free && !joint.joint.is_fixed();
+    let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
+    let sources = joints.iter().map(|joint| {
+        if joint.joint.is_fixed() {
+            return Ok(None);
+        }
+        let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
+        // A joint that follows another one more often than there are joints follows itself.
+        for _ in 0..=joints.len() {
+            match &at.position {
+                Position::Free => {
+                    let number = free_joints.iter().position(|&k| joints[k].name == at.name);
+                    return number
+                        .map(|number| {
+                            Some(Source {
+                                number,
+                                multiplier,
+                                offset,
+                            })
+                        })
+                        .ok_or_else(|| follows_nothing(joint, &at.name));
+                }
+                Position::Follows {
+                    joint: followed,
+                    multiplier: factor,
+                    offset: shift,
+                } => {
+                    offset += multiplier * shift;
+                    multiplier *= factor;
+                    let found = joints.iter().find(|other| other.name == *followed);
+                    at = found.ok_or_else(|| follows_nothing(joint, followed))?;
+                }
+            }
+        }
+        Err(follows_nothing(joint, &at.name))
+    });
+    Ok((sources.collect::<Result<_, _>>()?, free_joints))
+}
+
+fn follows_nothing(joint: &Joint, followed: &str) -> RobotError {
+    RobotError::FollowsNothing {
+        joint: joint.name.clone(),
+        followed: followed.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,58 @@
+//! The motion of one link in the frame of another.
+
+use super::Robot;
+use crate::error::RobotError;
+use rigid_ccd::trajectory::Chain;
+
+/// The chain of joints by which one link of a robot moves in the frame of another one.
+///
+/// ```
+/// # use rigid_ccd_robot::{Joint, Link, Position, Robot};
+/// # use rigid_ccd::{Pose, trajectory};
+/// # let finger = |name: &str, y: f64, position| -> Result<Joint, rigid_ccd::InputError> { Ok(Joint {
+/// #     name: name.into(), parent: "hand".into(), child: format!("{name} finger"),
+/// #     joint: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position }) };
+/// # let follows = Position::Follows { joint: "left".into(), multiplier: 1.0, offset: 0.0 };
+/// # let joints = vec![finger("left", 0.1, Position::Free)?, finger("right", -0.1, follows)?];
+/// # let links = ["hand", "left finger", "right finger"].map(Link::named).to_vec();
+/// let gripper = Robot::new(links, joints)?;
+/// let [left, right] = [gripper.link_number("left finger")?, gripper.link_number("right finger")?];
+/// let between = gripper.chain_between(left, right);
+/// // The right finger follows the left one: both close, as the left one sees it by twice as much.
+/// let [open, closed] = [between.positions(&gripper, &[0.04])?, between.positions(&gripper, &[0.0])?];
+/// let closes = between.chain().link(2, &open, &closed, 1.0)?;
+/// # use rigid_ccd::trajectory::Trajectory;
+/// let moved = closes.pose(1.0)?.translation().y - closes.pose(0.0)?.translation().y;
+/// assert!((moved - 0.08).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ChainBetween {
+    chain: Chain,
+    /// For each joint of the chain, its number in the robot.
+    joints: Vec<usize>,
+}
+
+impl ChainBetween {
+    pub(super) fn new(chain: Chain, joints: Vec<usize>) -> Self {
+        ChainBetween { chain, joints }
+    }
+
+    /// Returns the chain. Its last link is the link that moves.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// Returns the positions of the chain's joints in a configuration of the robot. That of a joint that follows another
+    /// one is rounded twice.
+    ///
+    /// # Errors
+    /// [`RobotError::PositionCount`], [`RobotError::Position`].
+    pub fn positions(&self, robot: &Robot, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+        robot.check(configuration)?;
+        let joints = self.joints.iter();
+        Ok(joints
+            .map(|&joint| robot.position(joint, configuration))
+            .collect())
+    }
+}

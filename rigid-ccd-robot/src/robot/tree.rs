@@ -1,0 +1,109 @@
+//! The tree of links: which joint moves which link, and the way from one link to another.
+
+use super::{Joint, Link};
+use crate::error::RobotError;
+use std::collections::HashMap;
+
+/// The joint above each link, with the link that holds it.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    /// For each link, the number of the joint that moves it and of the link that holds the joint; `None` for the base.
+    above: Vec<Option<Above>>,
+    base: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Above {
+    joint: usize,
+    parent: usize,
+}
+
+/// A joint on the way from one link to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Step {
+    pub(super) joint: usize,
+    /// Whether the way leads from the link that the joint moves to the link that holds it.
+    pub(super) is_up: bool,
+}
+
+impl Tree {
+    pub(super) fn new(links: &[Link], joints: &[Joint]) -> Result<Self, RobotError> {
+        let mut numbers = HashMap::new();
+        for (number, Link { name, .. }) in links.iter().enumerate() {
+            if numbers.insert(name.as_str(), number).is_some() {
+                return Err(RobotError::LinkNameTaken { link: name.clone() });
+            }
+        }
+        let number = |name: &String| {
+            let number = numbers.get(name.as_str()).copied();
+            number.ok_or_else(|| RobotError::NoSuchLink { link: name.clone() })
+        };
+        let mut above = vec![None; links.len()];
+        let mut joint_names = HashMap::new();
+        for (k, joint) in joints.iter().enumerate() {
+            let name = joint.name.clone();
+            if joint_names.insert(name.clone(), k).is_some() {
+                return Err(RobotError::JointNameTaken { joint: name });
+            }
+            let (child, parent) = (number(&joint.child)?, number(&joint.parent)?);
+            let link = || joint.child.clone();
+            if above[child].replace(Above { joint: k, parent }).is_some() {
+                return Err(RobotError::TwoParents {
+                    link: link(),
+                    joint: name,
+                });
+            }
+        }
+        let mut bases = (0..links.len()).filter(|&link| above[link].is_none());
+        let name = |link: usize| links[link].name.clone();
+        let base = match (bases.next(), bases.next()) {
+            (Some(base), None) => base,
+            (Some(first), Some(second)) => {
+                let (first, second) = (name(first), name(second));
+                return Err(RobotError::TwoBases { first, second });
+            }
+            (None, _) if links.is_empty() => return Err(RobotError::NoLinks),
+            (None, _) => return Err(RobotError::Loop { link: name(0) }),
+        };
+        let tree = Tree { above, base };
+        let is_lost = |&link: &usize| tree.ancestors(link).count() > links.len();
+        match (0..links.len()).find(is_lost) {
+            Some(link) => Err(RobotError::Loop { link: name(link) }),
+            None => Ok(tree),
+        }
+    }
+
+    pub(super) fn base(&self) -> usize {
+        self.base
+    }
+
+    pub(super) fn parent(&self, link: usize) -> Option<usize> {
+        self.above[link].map(|above| above.parent)
+    }
+
+    /// Iterates over a link and the links above it, up to the base. A loop ends after more links than there are.
+    fn ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
+        let up = |&link: &usize| self.parent(link);
+        std::iter::successors(Some(link), up).take(self.above.len() + 1)
+    }
+
+    /// Returns the joints on the way from one link to another, through their common ancestor.
+    pub(super) fn steps_between(&self, from: usize, to: usize) -> Vec<Step> {
+        let targets: Vec<usize> = self.ancestors(to).collect();
+        let is_common = |link: &usize| targets.contains(link);
+        // The base is above both.
+        let common = self.ancestors(from).find(is_common).unwrap_or(self.base);
+        let steps_to_common = |link: usize, is_up: bool| {
+            self.ancestors(link)
+                .take_while(move |&link| link != common)
+                .filter_map(move |link| self.above[link])
+                .map(move |above| Step {
+                    joint: above.joint,
+                    is_up,
+                })
+        };
+        let mut steps: Vec<Step> = steps_to_common(to, false).collect();
+        steps.reverse();
+        steps_to_common(from, true).chain(steps).collect()
+    }
+}

@@ -1,0 +1,207 @@
+//! Reads a robot from a URDF file, with the meshes that it names.
+
+mod bodies;
+mod error;
+mod packages;
+
+pub use bodies::MeshModel;
+pub use error::UrdfError;
+
+use crate::pairs::{LinkPairs, SkipReason};
+use crate::robot::{Joint, Link, LinkBody, Position, Robot};
+use crate::srdf::disabled_pairs;
+use bodies::BodyReader;
+use packages::Packages;
+use rigid_ccd::glam::{DQuat, EulerRot};
+use rigid_ccd::{InputError, Pose, trajectory};
+use std::fs;
+use std::path::{Path, PathBuf};
+use urdf_rs::JointType;
+
+/// A URDF file, and how its links become bodies.
+///
+/// ```
+/// use rigid_ccd_robot::{MeshModel, Urdf};
+/// # let text = "<robot name='door'><link name='frame'/><link name='leaf'><collision>
+/// #     <geometry><box size='0.8 0.04 2'/></geometry></collision></link>
+/// #     <joint name='hinge' type='revolute'><parent link='frame'/><child link='leaf'/>
+/// #     <axis xyz='0 0 1'/><limit lower='0' upper='1.5' effort='1' velocity='1'/></joint></robot>";
+/// # let folder = tempfile::tempdir()?;
+/// # std::fs::write(folder.path().join("door.urdf"), text)?;
+/// # std::env::set_current_dir(&folder)?;
+/// let urdf = Urdf::at("door.urdf").with_meshes(MeshModel::OuterHull);
+/// let robot = urdf.read()?;
+/// let pairs = urdf.link_pairs(&robot, None)?;
+/// assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.5]]);
+/// assert_eq!(pairs.checked().count(), 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Urdf {
+    path: PathBuf,
+    packages: Packages,
+    geometry: Geometry,
+    meshes: MeshModel,
+}
+
+/// The elements of a URDF's links that become bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Geometry {
+    /// The elements `collision`.
+    #[default]
+    Collision,
+    /// The elements `visual`.
+    Visual,
+}
+
+impl Urdf {
+    /// Names a URDF file. Its links become exact bodies of the elements `collision`. Packages are looked for in the folders
+    /// of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, and around the file.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        let path = path.into();
+        Urdf {
+            packages: Packages::around(&path),
+            path,
+            geometry: Geometry::default(),
+            meshes: MeshModel::default(),
+        }
+    }
+
+    /// Looks for the packages of `package://` in a folder before all others. It is a package, or holds packages.
+    #[must_use]
+    pub fn with_packages(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.packages.look_first_in(folder.into());
+        self
+    }
+
+    /// Sets which elements of links become bodies.
+    #[must_use]
+    pub fn with_geometry(self, geometry: Geometry) -> Self {
+        Urdf { geometry, ..self }
+    }
+
+    /// Sets what meshes become.
+    #[must_use]
+    pub fn with_meshes(self, meshes: MeshModel) -> Self {
+        Urdf { meshes, ..self }
+    }
+
+    /// Reads the robot.
+    ///
+    /// A cylinder becomes a polytope that encloses it; see [`Body::excess`](rigid_ccd::Body::excess). A floating, planar or
+    /// spherical joint is refused.
+    ///
+    /// # Errors
+    /// [`UrdfError`] with the link or the joint, and with the file of a mesh.
+    pub fn read(&self) -> Result<Robot, UrdfError> {
+        let text = read(&self.path)?;
+        let urdf = urdf_rs::read_from_string(&text).map_err(|error| UrdfError::Syntax {
+            file: self.path.clone(),
+            error: error.to_string(),
+        })?;
+        let reader = BodyReader::new(&self.packages, self.meshes);
+        let links = urdf.links.iter().map(|link| self.link(&reader, link));
+        let joints = urdf
+            .joints
+            .iter()
+            .map(|joint| joint_of(joint).map_err(|error| error.of_joint(&joint.name)));
+        let (links, joints) = (
+            links.collect::<Result<_, _>>()?,
+            joints.collect::<Result<_, _>>()?,
+        );
+        Ok(Robot::new(links, joints)?)
+    }
+
+    /// Returns the pairs of links that are checked: all but neighbours, links that never move against each other, and those
+    /// that the SRDF file disables.
+    ///
+    /// # Errors
+    /// [`UrdfError`] if the file cannot be read, or names a link that the robot does not have.
+    pub fn link_pairs(&self, robot: &Robot, srdf: Option<&Path>) -> Result<LinkPairs, UrdfError> {
+        let mut pairs = LinkPairs::of_robot(robot);
+        if let Some(file) = srdf {
+            let disabled = disabled_pairs(&read(file)?).map_err(|error| UrdfError::Syntax {
+                file: file.to_owned(),
+                error: error.to_string(),
+            })?;
+            for pair in disabled {
+                let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
+                pairs.skip(one?, other?, SkipReason::Disabled(pair.reason));
+            }
+        }
+        Ok(pairs)
+    }
+
+    fn link(&self, reader: &BodyReader<'_>, link: &urdf_rs::Link) -> Result<Link, UrdfError> {
+        let elements: Vec<(&urdf_rs::Pose, &urdf_rs::Geometry)> = match self.geometry {
+            Geometry::Collision => link
+                .collision
+                .iter()
+                .map(|c| (&c.origin, &c.geometry))
+                .collect(),
+            Geometry::Visual => link
+                .visual
+                .iter()
+                .map(|v| (&v.origin, &v.geometry))
+                .collect(),
+        };
+        let body = |(origin, geometry)| {
+            let (body, pose) = (reader.body(geometry)?, pose_of(origin)?);
+            Ok(LinkBody { body, pose })
+        };
+        let bodies: Result<_, UrdfError> = elements.into_iter().map(body).collect();
+        Ok(Link {
+            name: link.name.clone(),
+            bodies: bodies.map_err(|error| error.of_link(&link.name))?,
+        })
+    }
+}
+
+fn read(file: &Path) -> Result<String, UrdfError> {
+    fs::read_to_string(file).map_err(|error| UrdfError::Unreadable {
+        file: file.to_owned(),
+        error: error.to_string(),
+    })
+}
+
+fn joint_of(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
+    let origin = pose_of(&joint.origin)?;
+    let axis = joint.axis.xyz.0;
+    let limits = joint.limit.lower..=joint.limit.upper;
+    let moved = match joint.joint_type {
+        JointType::Fixed => trajectory::Joint::fixed(origin),
+        JointType::Continuous => trajectory::Joint::revolute(origin, axis)?,
+        JointType::Revolute => trajectory::Joint::revolute(origin, axis)?.within(limits),
+        JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.within(limits),
+        JointType::Floating | JointType::Planar | JointType::Spherical => {
+            return Err(UrdfError::JointType {
+                kind: format!("{:?}", joint.joint_type).to_lowercase(),
+            });
+        }
+    };
+    let position = match &joint.mimic {
+        None => Position::Free,
+        Some(mimic) => Position::Follows {
+            joint: mimic.joint.clone(),
+            multiplier: mimic.multiplier.unwrap_or(1.0),
+            offset: mimic.offset.unwrap_or(0.0),
+        },
+    };
+    Ok(Joint {
+        name: joint.name.clone(),
+        parent: joint.parent.link.clone(),
+        child: joint.child.link.clone(),
+        joint: moved,
+        position,
+    })
+}
+
+/// Converts a pose of a URDF, which turns about fixed axes: first x, then y, then z.
+fn pose_of(origin: &urdf_rs::Pose) -> Result<Pose, InputError> {
+    let [roll, pitch, yaw] = origin.rpy.0;
+    let turned = DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll);
+    Pose::new(origin.xyz.0, turned)
+}
+
+#[cfg(test)]
+mod tests;

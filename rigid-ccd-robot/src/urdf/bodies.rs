@@ -1,0 +1,78 @@
+//! Makes bodies of the shapes and meshes of a URDF.
+
+use super::error::UrdfError;
+use super::packages::Packages;
+use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::Body;
+use rigid_ccd::glam::{DAffine3, DVec3};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What the meshes of a robot become.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MeshModel {
+    /// The fewest exact pieces: [`Detail::Auto`].
+    #[default]
+    Exact,
+    /// The convex hull, which encloses the mesh and exceeds it by a certified bound: [`Detail::OuterHull`]. It serves links
+    /// that are convex but for the rounding of their file.
+    OuterHull,
+}
+
+/// Makes bodies, each mesh once.
+pub(super) struct BodyReader<'p> {
+    packages: &'p Packages,
+    model: MeshModel,
+    known: RefCell<HashMap<MeshKey, Arc<Body>>>,
+}
+
+/// The file of a mesh, and the bits of its scale.
+type MeshKey = (PathBuf, [u64; 3]);
+
+impl<'p> BodyReader<'p> {
+    pub(super) fn new(packages: &'p Packages, model: MeshModel) -> Self {
+        BodyReader {
+            packages,
+            model,
+            known: RefCell::default(),
+        }
+    }
+
+    /// Makes the body of a shape. Sizes of URDF are whole: those of a box are not halved, lengths of cylinders neither.
+    pub(super) fn body(&self, geometry: &urdf_rs::Geometry) -> Result<Arc<Body>, UrdfError> {
+        let body = match geometry {
+            urdf_rs::Geometry::Box { size } => Body::cuboid(DVec3::from_array(size.0) / 2.0)?,
+            urdf_rs::Geometry::Sphere { radius } => Body::sphere(*radius)?,
+            urdf_rs::Geometry::Capsule { radius, length } => Body::capsule(*radius, length / 2.0)?,
+            urdf_rs::Geometry::Cylinder { radius, length } => {
+                Body::cylinder(*radius, length / 2.0)?
+            }
+            urdf_rs::Geometry::Mesh { filename, scale } => {
+                let scale = scale.map_or(DVec3::ONE, |scale| DVec3::from_array(scale.0));
+                return self.mesh(filename, scale);
+            }
+        };
+        Ok(Arc::new(body))
+    }
+
+    /// Makes the body of a mesh that is scaled along its axes. Negative factors mirror it.
+    fn mesh(&self, uri: &str, scale: DVec3) -> Result<Arc<Body>, UrdfError> {
+        let file = self.packages.find(uri)?;
+        let key = (file.clone(), scale.to_array().map(f64::to_bits));
+        if let Some(body) = self.known.borrow().get(&key) {
+            return Ok(Arc::clone(body));
+        }
+        let mesh = TriangleMesh::read(&file)?.transformed(DAffine3::from_scale(scale))?;
+        let detail = match self.model {
+            MeshModel::Exact => Detail::Auto,
+            MeshModel::OuterHull => Detail::OuterHull,
+        };
+        let prepared =
+            body_from_mesh(&mesh, detail).map_err(|error| UrdfError::Prepare { file, error })?;
+        let body = Arc::new(prepared.body);
+        self.known.borrow_mut().insert(key, Arc::clone(&body));
+        Ok(body)
+    }
+}

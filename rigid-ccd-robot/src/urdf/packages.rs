@@ -1,0 +1,69 @@
+//! Finds the files that a URDF names: `package://NAME/…`, `file://…`, or a path.
+
+use super::error::UrdfError;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// The folders in which packages and files are looked for.
+#[derive(Clone, Debug)]
+pub(super) struct Packages {
+    /// The folder of the URDF, for paths that are not absolute.
+    beside: PathBuf,
+    /// Folders that are packages, or hold packages, in the order in which they are searched.
+    folders: Vec<PathBuf>,
+}
+
+impl Packages {
+    /// Searches the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then those above a URDF file.
+    pub(super) fn around(urdf: &Path) -> Self {
+        let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
+        let listed = |variable| env::var_os(variable).unwrap_or_default();
+        let ros = listed("ROS_PACKAGE_PATH");
+        let ament = listed("AMENT_PREFIX_PATH");
+        let mut folders: Vec<PathBuf> = env::split_paths(&ros).collect();
+        folders.extend(env::split_paths(&ament).map(|prefix| prefix.join("share")));
+        // A URDF is usually a few folders below its package.
+        let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
+        folders.extend(whole.ancestors().map(Path::to_owned));
+        Packages { beside, folders }
+    }
+
+    pub(super) fn look_first_in(&mut self, folder: PathBuf) {
+        self.folders.insert(0, folder);
+    }
+
+    /// Returns the path of a file by its name in the URDF.
+    pub(super) fn find(&self, uri: &str) -> Result<PathBuf, UrdfError> {
+        let tried = self.candidates(uri);
+        match tried.iter().find(|path| path.is_file()) {
+            Some(path) => Ok(path.clone()),
+            None => Err(UrdfError::MeshNotFound {
+                uri: uri.to_owned(),
+                tried,
+            }),
+        }
+    }
+
+    /// Returns the paths at which a file may be.
+    fn candidates(&self, uri: &str) -> Vec<PathBuf> {
+        let in_package = uri
+            .strip_prefix("package://")
+            .or_else(|| uri.strip_prefix("model://"));
+        let Some(path) = in_package else {
+            let path = uri.strip_prefix("file://").unwrap_or(uri);
+            return vec![self.beside.join(path)];
+        };
+        let (package, rest) = path.split_once('/').unwrap_or((path, ""));
+        let in_folder = |folder: &PathBuf| {
+            let is_package = folder.file_name().is_some_and(|name| name == package);
+            let itself = is_package.then(|| folder.join(rest));
+            [Some(folder.join(package).join(rest)), itself]
+                .into_iter()
+                .flatten()
+        };
+        self.folders.iter().flat_map(in_folder).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

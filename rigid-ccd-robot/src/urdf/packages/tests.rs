@@ -1,0 +1,52 @@
+use super::*;
+use std::fs;
+use tempfile::TempDir;
+
+/// A folder with a package `arm_description`, whose URDF is two folders below.
+fn package() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for file in [
+        "arm_description/urdf/arm.urdf",
+        "arm_description/meshes/link.stl",
+        "other/arm_description/meshes/tip.stl",
+    ] {
+        let file = folder.path().join(file);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, "").unwrap();
+    }
+    folder
+}
+
+#[test]
+fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
+    let folder = package();
+    let mut packages = Packages::around(&folder.path().join("arm_description/urdf/arm.urdf"));
+    let found = packages
+        .find("package://arm_description/meshes/link.stl")
+        .unwrap();
+    assert!(found.is_file());
+    let beside = packages.find("../meshes/link.stl").unwrap();
+    assert_eq!(
+        fs::canonicalize(beside).unwrap(),
+        fs::canonicalize(&found).unwrap()
+    );
+    let whole = format!("file://{}", found.display());
+    assert_eq!(packages.find(&whole).unwrap(), found);
+
+    let tip = "package://arm_description/meshes/tip.stl";
+    let Err(UrdfError::MeshNotFound { uri, tried }) = packages.find(tip) else {
+        panic!("found");
+    };
+    assert_eq!(uri, tip);
+    assert!(
+        tried.contains(
+            &fs::canonicalize(folder.path())
+                .unwrap()
+                .join("arm_description/meshes/tip.stl")
+        )
+    );
+    for given in ["other", "other/arm_description"] {
+        packages.look_first_in(folder.path().join(given));
+        assert!(packages.find(tip).is_ok(), "{given}");
+    }
+}

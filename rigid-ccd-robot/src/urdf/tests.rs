@@ -1,0 +1,175 @@
+use super::*;
+use crate::error::RobotError;
+use std::fs;
+use std::sync::Arc;
+use tempfile::TempDir;
+
+const TETRAHEDRON_OBJ: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+/// Writes a URDF of three links beside a mesh: shapes and a mesh that is mirrored, and visuals of another size.
+fn folder(joints: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("part.obj"), TETRAHEDRON_OBJ).unwrap();
+    let text = format!(
+        r#"<robot name="arm">
+        <link name="base">
+            <visual><geometry><sphere radius="3"/></geometry></visual>
+            <collision><geometry><box size="2 4 6"/></geometry></collision>
+            <collision><origin xyz="0 0 9"/><geometry><sphere radius="0.5"/></geometry></collision>
+        </link>
+        <link name="upper">
+            <collision><geometry><cylinder radius="1" length="2"/></geometry></collision>
+            <collision><geometry><capsule radius="1" length="2"/></geometry></collision>
+        </link>
+        <link name="lower">
+            <collision><geometry><mesh filename="part.obj" scale="-2 1 0.5"/></geometry></collision>
+            <collision><geometry><mesh filename="part.obj" scale="-2 1 0.5"/></geometry></collision>
+        </link>
+        {joints}
+        </robot>"#
+    );
+    fs::write(folder.path().join("arm.urdf"), text).unwrap();
+    folder
+}
+
+const JOINTS: &str = r#"
+    <joint name="turns" type="revolute"><parent link="base"/><child link="upper"/>
+        <origin xyz="0 0 1" rpy="0.1 0.2 0.3"/><axis xyz="0 0 2"/>
+        <limit lower="-1" upper="2" effort="1" velocity="1"/></joint>
+    <joint name="slides" type="prismatic"><parent link="upper"/><child link="lower"/>
+        <axis xyz="1 0 0"/><limit lower="0" upper="0.01" effort="1" velocity="1"/>
+        <mimic joint="turns" multiplier="2"/></joint>"#;
+
+fn urdf(folder: &TempDir) -> Urdf {
+    Urdf::at(folder.path().join("arm.urdf"))
+}
+
+#[test]
+fn shapes_have_their_whole_sizes() {
+    let robot = urdf(&folder(JOINTS)).read().unwrap();
+    let spans: Vec<Vec<f64>> = robot
+        .links()
+        .iter()
+        .map(|link| link.bodies.iter().map(|body| body.body.span()).collect())
+        .collect();
+    let mesh = 2.0;
+    let expected = [[f64::sqrt(14.0), 0.5], [f64::sqrt(2.0), 2.0], [mesh, mesh]];
+    for (found, expected) in spans.iter().flatten().zip(expected.iter().flatten()) {
+        assert!(
+            (1.0..1.3).contains(&(found / expected)),
+            "{found} for {expected}"
+        );
+    }
+    assert_eq!(robot.links()[0].bodies[1].pose.translation().z, 9.0);
+    let excess = |link: usize, body: usize| robot.links()[link].bodies[body].body.excess();
+    assert!(excess(1, 0) > 0.0 && excess(1, 1) == 0.0);
+}
+
+#[test]
+fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
+    let robot = urdf(&folder(JOINTS)).read().unwrap();
+    let bodies = &robot.links()[2].bodies;
+    assert!(Arc::ptr_eq(&bodies[0].body, &bodies[1].body));
+    assert_eq!(bodies[0].body.volume(), rigid_ccd::body::Volume::Solid);
+    let hull = urdf(&folder(JOINTS))
+        .with_meshes(MeshModel::OuterHull)
+        .read()
+        .unwrap();
+    assert_eq!(hull.links()[2].bodies[0].body.pieces().len(), 1);
+}
+
+#[test]
+fn visuals_are_a_choice() {
+    let robot = urdf(&folder(JOINTS))
+        .with_geometry(Geometry::Visual)
+        .read()
+        .unwrap();
+    let counts: Vec<usize> = robot.links().iter().map(|link| link.bodies.len()).collect();
+    assert_eq!(counts, [1, 0, 0]);
+}
+
+/// Tests the order of the three angles, and a joint that follows another one beyond its own limits.
+#[test]
+fn joints_are_those_of_the_file() {
+    let robot = urdf(&folder(JOINTS)).read().unwrap();
+    assert_eq!(robot.joint_names().collect::<Vec<_>>(), ["turns"]);
+    assert_eq!(robot.limits().collect::<Vec<_>>(), [[-1.0, 2.0]]);
+    let origin = robot.pose("upper", &[0.0]).unwrap();
+    let by_axes =
+        DQuat::from_rotation_z(0.3) * DQuat::from_rotation_y(0.2) * DQuat::from_rotation_x(0.1);
+    assert!(origin.rotation().angle_between(by_axes) < 1e-7);
+    let lower = robot.pose("lower", &[0.5]).unwrap();
+    assert!((lower.translation().distance(origin.translation()) - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn pairs_come_from_the_srdf() {
+    let folder = folder(JOINTS);
+    let srdf = folder.path().join("arm.srdf");
+    fs::write(&srdf, r#"<robot name="arm"><disable_collisions link1="lower" link2="base" reason="Never"/></robot>"#).unwrap();
+    let (urdf, robot) = (urdf(&folder), urdf(&folder).read().unwrap());
+    assert_eq!(
+        urdf.link_pairs(&robot, None)
+            .unwrap()
+            .checked()
+            .collect::<Vec<_>>(),
+        [[0, 2]]
+    );
+    let pairs = urdf.link_pairs(&robot, Some(&srdf)).unwrap();
+    assert_eq!(pairs.checked().count(), 0);
+    assert_eq!(
+        pairs.skip_reason(0, 2),
+        Some(&SkipReason::Disabled("Never".into()))
+    );
+    fs::write(
+        &srdf,
+        r#"<robot><disable_collisions link1="lower" link2="tail"/></robot>"#,
+    )
+    .unwrap();
+    let error = urdf.link_pairs(&robot, Some(&srdf)).unwrap_err();
+    assert!(
+        matches!(error, UrdfError::Robot(RobotError::NoSuchLink { .. })),
+        "{error}"
+    );
+}
+
+#[test]
+fn errors_name_file_link_and_joint() {
+    let message = |joints: &str| urdf(&folder(joints)).read().unwrap_err().to_string();
+    let planar =
+        r#"<joint name="drives" type="planar"><parent link="base"/><child link="upper"/></joint>"#;
+    assert_eq!(
+        message(planar),
+        "joint `drives`: a planar joint is not supported; use revolute, continuous, prismatic or fixed joints"
+    );
+    assert_eq!(
+        message(""),
+        "links `base` and `upper` both hang on no joint; a robot has one base"
+    );
+    let axis = JOINTS.replace("0 0 2", "0 0 0");
+    assert!(
+        message(&axis).starts_with("joint `turns`: "),
+        "{}",
+        message(&axis)
+    );
+
+    let folder = folder(JOINTS);
+    fs::remove_file(folder.path().join("part.obj")).unwrap();
+    let error = urdf(&folder).read().unwrap_err().to_string();
+    assert!(
+        error.starts_with("link `lower`: `part.obj` is not found; looked for "),
+        "{error}"
+    );
+    fs::write(folder.path().join("part.obj"), "v 0 0\n").unwrap();
+    let error = urdf(&folder).read().unwrap_err().to_string();
+    assert!(
+        error.starts_with("link `lower`: ") && error.contains("part.obj"),
+        "{error}"
+    );
+    let error = Urdf::at("none.urdf").read().unwrap_err().to_string();
+    assert!(error.starts_with("none.urdf: "), "{error}");
+    fs::write(folder.path().join("arm.urdf"), "<robot").unwrap();
+    let error = urdf(&folder).read().unwrap_err().to_string();
+    assert!(error.contains("arm.urdf: "), "{error}");
+}
