@@ -197,7 +197,7 @@ impl Robot {
         steps.iter().all(|step| self.sources[step.joint].is_none())
     }
 
-    /// Returns the joint that moves a link, by its number; `None` for the base.
+    /// Returns the number of the link that holds the joint of a link; `None` for the base.
     pub(crate) fn parent_link(&self, link: usize) -> Option<usize> {
         self.tree.parent(link)
     }

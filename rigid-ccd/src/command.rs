@@ -2,7 +2,6 @@
 //!
 //! Public only because the command of `ccd-bench` shares it; no stable interface.
 
-mod answering;
 mod bad_rows;
 mod causes;
 mod completions;

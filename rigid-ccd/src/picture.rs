@@ -1,6 +1,6 @@
 //! Draws answers as views of a page; see `ccd-view`.
 //!
-//! Public only because the pages of `ccd-bench` and the Python package share it; no stable interface.
+//! Public only because the pages of `ccd-bench` share it; no stable interface.
 
 mod course;
 mod drawn;

@@ -1,5 +1,6 @@
 //! `ccd query`: reads two bodies and a table of motions, and writes a table of results.
 
+mod answering;
 mod args;
 mod help;
 mod journal;
@@ -11,7 +12,6 @@ mod summary;
 
 pub(super) use args::QueryArgs;
 
-use super::answering::BatchRun;
 use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, RowsPage, title, write_rows};
@@ -20,6 +20,7 @@ use crate::batch::{BoundKind, Question, ScheduleKind, SolverKind, TimedQuestion}
 use crate::command::pair::Pair;
 use crate::command::progress::Progress;
 use crate::picture::{Asked, Claim};
+use answering::BatchRun;
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};

@@ -22,6 +22,8 @@ pub(super) struct Target<'a> {
     closed: bool,
     inside_out: bool,
     bounds: [DVec3; 2],
+    /// A bound on the rounding error of distances to the mesh.
+    slack: f64,
 }
 
 /// The location of a point relative to the solid or surface.
@@ -35,12 +37,16 @@ pub(super) enum Location {
 
 impl<'a> Target<'a> {
     pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
+        let bounds = mesh.bounding_box();
+        let [lo, hi] = bounds;
+        let farthest = lo.abs().max(hi.abs()).max_element();
         Target {
             mesh,
             search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
             closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
-            bounds: mesh.bounding_box(),
+            bounds,
+            slack: excess_rounding(half_diagonal(bounds), farthest),
         }
     }
 
@@ -77,14 +83,12 @@ impl<'a> Target<'a> {
 
     /// Returns half the diagonal of the mesh's bounding box.
     pub(super) fn half_diagonal(&self) -> f64 {
-        (self.bounds[1] - self.bounds[0]).length() / 2.0
+        half_diagonal(self.bounds)
     }
 
     /// Returns a bound on the rounding error of distances to the mesh.
     pub(super) fn slack(&self) -> f64 {
-        let [lo, hi] = self.bounds;
-        let farthest = lo.abs().max(hi.abs()).max_element();
-        excess_rounding(self.half_diagonal(), farthest)
+        self.slack
     }
 
     /// Computes the location of a point relative to the target.
@@ -147,6 +151,10 @@ impl<'a> Target<'a> {
         });
         winding != 0
     }
+}
+
+fn half_diagonal([lo, hi]: [DVec3; 2]) -> f64 {
+    (hi - lo).length() / 2.0
 }
 
 /// Returns a lower bound of the distance from a point to a needle: the distance to its longest side, less its height.

@@ -1,11 +1,11 @@
 //! Answers the selected rows of a query, and writes them in order.
 
+use super::answering::{AnsweredRow, Batch, BatchRun};
 use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
 use crate::batch::{TimedAnswer, TimedQuestion};
-use crate::command::answering::{AnsweredRow, Batch, BatchRun};
 use crate::command::files::{Rows, input_name};
 use crate::command::output::CannotWrite;
 use crate::command::view::ChosenRows;

@@ -1,10 +1,10 @@
 //! Answers the rows of a table batch by batch, on all cores.
 
-use super::bad_rows::BadRows;
-use super::files::{Rows, input_name};
-use super::progress::Progress;
 use crate::ParallelSolver;
 use crate::batch::{BatchSize, Bodies, Solve, TimedAnswer, TimedQuestion, parallel_solver, time};
+use crate::command::bad_rows::BadRows;
+use crate::command::files::{Rows, input_name};
+use crate::command::progress::Progress;
 use crate::table::courses::{CourseRow, Movements};
 use crate::table::motions::{RowPosition, RowProblem, TableError};
 use crate::table::results::ResultRow;
