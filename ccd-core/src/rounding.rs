@@ -202,8 +202,8 @@ pub fn turning_axis_rounding(turns: f64) -> f64 {
 /// the rounding that a rate of zero accumulates over the whole duration.
 pub const RESTING_DECREASE: f64 = 4.0;
 
-/// The height up to which the surface around a point counts as level, in units of the distance's rounding: one for the
-/// point, and one for the corners around it.
+/// The height up to which the corners around a point count as level with the point, in units of the distance's rounding
+/// error. One unit is for the point, and one for the corners.
 pub const LEVEL_HEIGHT: f64 = 2.0;
 
 /// The distance from a point up to which faces count as adjacent to it, in units of the distance's rounding. They are

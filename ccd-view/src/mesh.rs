@@ -25,7 +25,7 @@ struct Stored {
     middle: [f64; 3],
     /// Three `f32` coordinates per vertex, relative to `middle`.
     vertices: String,
-    /// Three `u32` vertex numbers per face.
+    /// Three vertex numbers for each face, as little-endian `u32` in base64.
     faces: String,
 }
 

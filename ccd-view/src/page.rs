@@ -33,7 +33,7 @@ pub enum PageError {
     /// The file of the page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// The path of the file.
+        /// The file that the page was to be written to.
         path: PathBuf,
         /// The error of the operating system.
         source: io::Error,

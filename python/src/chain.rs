@@ -271,7 +271,7 @@ pub(crate) struct PyLink {
     moves: Moves,
 }
 
-/// Which link of a chain it is, and how the joints move.
+/// The number of a link in its chain, and the motion of the chain's joints.
 #[derive(Clone, FromPyObject, IntoPyObject)]
 #[pyo3(from_item_all)]
 struct Moves {

@@ -166,8 +166,8 @@ impl Search<'_> {
         }
     }
 
-    /// Tests a touching piece: its corners, which it shares with pieces that do not touch, and a point of the solid
-    /// below or in it.
+    /// Tests whether a piece that touches the other body has a point inside it. The tested points are the piece's corners,
+    /// which pieces that do not touch share, and a point of the solid behind or in the piece.
     fn test_piece(&self, piece: u32) -> ContainmentResult {
         let body = self.inner_body.body;
         let corners = match body.pieces().get(piece as usize) {

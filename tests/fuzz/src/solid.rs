@@ -50,7 +50,8 @@ impl Solid {
         firsts.map(|(k, _)| self.triangles[k][0])
     }
 
-    /// Locates a point that is on no triangle. Nested parts are solid and cavity in turn.
+    /// Returns the location of a point relative to the solid. The point is on no triangle. Nested parts are solid and
+    /// cavity in turn.
     pub fn locate(&self, p: Vector<Double>) -> PointLocation {
         let seen = DIRECTIONS
             .iter()

@@ -126,7 +126,7 @@ impl Solver for Contact {
     }
 }
 
-/// The search for the answer to one query.
+/// A depth-first search of both trees and of the halves of time, for one query.
 struct Search<'a> {
     trees: [&'a ObbTree; 2],
     motion_encloser: MotionEncloser,

@@ -147,7 +147,7 @@ impl FreeTimes {
         FreeTimes::single_in_lane(0)
     }
 
-    /// Packs the times of the lanes in `used`; the others count as finished.
+    /// Creates the times of up to eight pairs, one for each lane. Lanes that are not in `used` count as finished.
     #[inline(always)]
     pub(crate) fn pack<L: Simd>(free: f32x8<L>, used: u8) -> Self {
         let level = free.token();

@@ -373,8 +373,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns whether the pieces pass each other: the points' descent by rotation up to the end certainly leaves some
-    /// slack. Without this test, the steps towards the time of closest approach become ever shorter.
+    /// Returns whether the pieces certainly stay apart up to the end, because rotation lowers their points by less than
+    /// the slack that the straight motion leaves. Without this test, the steps towards the time of closest approach become ever shorter.
     fn rotation_keeps_slack(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.time_left();
         let displacement = least_linear_displacement(

@@ -179,7 +179,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
         (motions.stray > CUT_DEVIATION_RATIO * stray).then_some(time)
     }
 
-    /// Makes the budget of the part that contains a stretch pay for the work that follows.
+    /// Counts the work that follows towards the budget of the part that contains a stretch.
     pub(super) fn charge_to(&mut self, span: Span) {
         self.budgets.charge_to(span.part_index, self.stats.work());
     }
@@ -343,7 +343,7 @@ impl Budgets {
         self.work_by_part[self.part] + (work - self.work_at_part_start)
     }
 
-    /// Makes another part pay for the work that follows.
+    /// Counts the work that follows towards the budget of another part of the duration.
     fn charge_to(&mut self, part: usize, work: u64) {
         self.work_by_part[self.part] = self.spent_on_part(work);
         (self.part, self.work_at_part_start) = (part, work);

@@ -60,7 +60,7 @@ struct BoundedBox {
     planes: Vec<u32>,
 }
 
-/// The result of the examination of a box.
+/// What is known of a box after its examination: whether it may be dropped, and otherwise its bound.
 #[derive(Default)]
 struct BoxExamination {
     /// The distance from the solid to the box's centre, if the centre is in the hull.
